@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Bad input, reported whole: every problem of a file at once, each with file, place, value found and what was expected.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace chaintrue::grid::files {
+
+struct InputProblem {
+  std::string file;
+  /// JSON pointer ("/points/3/x_mm"), or "line 4, column 12", or empty for the file as a whole.
+  std::string place;
+  /// As found, shortened to 60 characters; empty where something is missing.
+  std::string value;
+  /// A sentence: what was expected, and the likely slip where one is recognised.
+  std::string expected;
+  /// `grid.json: /points/3/x_mm: found "abc", expected a number in mm`
+  [[nodiscard]] std::string message() const;
+};
+
+/// Thrown once, with all problems; the command turns it into exit code 3.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<InputProblem> problems);
+  [[nodiscard]] const std::vector<InputProblem>& problems() const { return problems_; }
+
+ private:
+  std::vector<InputProblem> problems_;
+};
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The two spaces that must never be mixed up: points on the bed and pairs of chain lengths.
+///
+/// Frame: origin at the bed's centre, x to the right, y up the sheet, mm. A chain length counts unstretched chain from
+/// the pin at 12 o'clock to the chain's end at the ring (the ring's radius is not part of it), plus the machine's
+/// chain_zero.
+#pragma once
+
+namespace chaintrue::model {
+
+/// A point on the bed.
+struct BedPoint {
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+};
+
+/// What the two motors have paid out.
+struct ChainLengths {
+  double left_mm = 0.0;
+  double right_mm = 0.0;
+};
+
+enum class Side { left, right };
+
+/// One value for each chain, addressed by side: `state[Side::left]`.
+template <class T>
+struct PerSide {
+  T left{};
+  T right{};
+  constexpr T& operator[](Side side) { return side == Side::left ? left : right; }
+  constexpr const T& operator[](Side side) const { return side == Side::left ? left : right; }
+};
+
+inline constexpr Side kSides[] = {Side::left, Side::right};
+
+}  // namespace chaintrue::model
