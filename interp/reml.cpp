@@ -61,11 +61,79 @@ tl::unexpected<FitRefusal> rank_deficient() {
       "the points do not determine the fit: some combination of its unknowns is left free"});
 }
 
-// What not knowing theta adds to the covariance of b, to first and second order (Wood, Pya and
-// Saefken 2016, section 4): J V_theta J' and the spread of the factor R with R R' = A^-1.
-Eigen::MatrixXd smoothing_covariance(const reml::State& state, const Eigen::MatrixXd& sigma) {
-  const Eigen::MatrixXd& j = state.coefficient_slopes;
-  return j * sigma * j.transpose();
+// The posterior of one component of theta, others at their optimum, on a grid: weights and offsets.
+struct ThetaGrid {
+  std::vector<double> offset;
+  std::vector<double> weight;
+};
+
+// For a smoothing parameter the prior is flat in lambda^(-1/2), the standard deviation of the field
+// (A. Gelman, Bayesian Analysis 1 (2006) 515-534): proper where V runs out flat towards lambda ->
+// infinity, and there the field stays as uncertain as the data leave it. For log sigma2 it is flat.
+ThetaGrid posterior_grid(const reml::Marginal& marginal,
+                         const reml::SearchResult& found,
+                         Eigen::Index i,
+                         double sigma) {
+  constexpr double kNegligible = 5.0;  // e^-5 of the peak
+  constexpr int kLongest = 60;
+  const double step = std::clamp(sigma / 1.5, 0.2, 1.0);
+  const double slope = i < marginal.penalties() ? -0.5 : 0.0;
+  std::vector<double> log_weight;
+  ThetaGrid grid;
+  double peak = -std::numeric_limits<double>::infinity();
+  for (const double direction : {-1.0, 1.0}) {
+    for (int j = direction < 0.0 ? 0 : 1; j < kLongest; ++j) {
+      const double offset = direction * step * j;
+      Eigen::VectorXd theta = found.theta;
+      theta(i) += offset;
+      const auto state = marginal.evaluate(theta, reml::Order::kValue);
+      if (!state) {
+        break;
+      }
+      const double w = -0.5 * state->value + slope * offset;
+      peak = std::max(peak, w);
+      if (w < peak - kNegligible) {
+        break;
+      }
+      grid.offset.push_back(offset);
+      log_weight.push_back(w);
+    }
+  }
+  double sum = 0.0;
+  for (const double w : log_weight) {
+    grid.weight.push_back(w > peak - kNegligible ? std::exp(w - peak) : 0.0);
+    sum += grid.weight.back();
+  }
+  for (double& w : grid.weight) {
+    w /= sum;
+  }
+  return grid;
+}
+
+// The posterior covariance of b about the fit with theta averaged over rather than fixed, one
+// component of theta at a time, in working coordinates: E[A^-1] + E[(b - fit)(b - fit)'].
+Eigen::MatrixXd averaged_covariance(const reml::Marginal& marginal,
+                                    const reml::SearchResult& found,
+                                    const Eigen::VectorXd& sigma,
+                                    const Eigen::MatrixXd& plain) {
+  const Eigen::VectorXd fit =
+      marginal.evaluate(found.theta, reml::Order::kValue).value().coefficients;
+  Eigen::MatrixXd total = plain;
+  for (Eigen::Index i = 0; i < marginal.unknowns(); ++i) {
+    const ThetaGrid grid = posterior_grid(marginal, found, i, sigma(i));
+    for (std::size_t j = 0; j < grid.offset.size(); ++j) {
+      if (!(grid.weight[j] > 0.0)) {
+        continue;
+      }
+      Eigen::VectorXd theta = found.theta;
+      theta(i) += grid.offset[j];
+      const Eigen::VectorXd shift =
+          marginal.evaluate(theta, reml::Order::kValue).value().coefficients - fit;
+      total += grid.weight[j] * (marginal.inverse(theta) - plain);
+      total.noalias() += grid.weight[j] * shift * shift.transpose();
+    }
+  }
+  return total;
 }
 
 PenalisedFit assemble(const PenalisedProblem& problem,
@@ -73,30 +141,34 @@ PenalisedFit assemble(const PenalisedProblem& problem,
                       const reml::SearchResult& found,
                       const FitOptions& options) {
   const reml::State state = marginal.evaluate(found.theta, reml::Order::kHessian).value();
+  const reml::Structure& structure = marginal.structure();
   const Eigen::Index k = marginal.penalties();
   PenalisedFit fit;
-  fit.coefficients = state.coefficients;
-  fit.covariance = state.covariance;
+  fit.coefficients = structure.to_columns(state.coefficients);
+  const Eigen::MatrixXd inverse = marginal.inverse(found.theta);
+  fit.covariance = structure.covariance_to_columns(inverse);
   fit.lambda = found.theta.head(k).array().exp();
   fit.sigma2 = marginal.sigma2(found.theta);
-  fit.residual_square = state.residual_square;
-  fit.column_edf = (state.covariance.cwiseProduct(problem.gram)).rowwise().sum() / fit.sigma2;
+  const Eigen::VectorXd& b = fit.coefficients;
+  fit.residual_square = std::max(
+      0.0, problem.response_square - 2.0 * b.dot(problem.moment) + b.dot(problem.gram * b));
+  fit.column_edf = fit.covariance.cwiseProduct(problem.gram).rowwise().sum() / fit.sigma2;
   fit.edf = fit.column_edf.sum();
   fit.minus_two_log_reml = state.value;
   fit.iterations = found.iterations;
   fit.ends = found.ends;
-  // V is twice a negative log likelihood: its Hessian is twice the information.
-  const Eigen::MatrixXd theta_covariance = reml::covariance_from_hessian(state.hessian, found.ends);
-  fit.log_lambda_sigma.resize(k);
+  const Eigen::MatrixXd spread = reml::covariance_from_hessian(state.hessian, found.ends);
+  Eigen::VectorXd sigma = spread.diagonal().cwiseSqrt();
   for (Eigen::Index i = 0; i < k; ++i) {
-    fit.log_lambda_sigma(i) = found.ends[static_cast<std::size_t>(i)] == SmoothingEnd::kInside
-                                  ? std::sqrt(theta_covariance(i, i))
-                                  : std::numeric_limits<double>::infinity();
+    if (found.ends[static_cast<std::size_t>(i)] != SmoothingEnd::kInside) {
+      sigma(i) = std::numeric_limits<double>::infinity();
+    }
   }
-  fit.corrected_covariance = fit.covariance;
-  if (options.correct_covariance && theta_covariance.size() > 0) {
-    fit.corrected_covariance += smoothing_covariance(state, theta_covariance);
-  }
+  fit.log_lambda_sigma = sigma.head(k);
+  fit.corrected_covariance =
+      options.correct_covariance
+          ? structure.covariance_to_columns(averaged_covariance(marginal, found, sigma, inverse))
+          : fit.covariance;
   return fit;
 }
 
@@ -146,6 +218,9 @@ tl::expected<PenalisedFit, FitRefusal> fit_penalised(const PenalisedProblem& pro
                                                      const FitOptions& options) {
   check(problem);
   const reml::Marginal marginal(problem, std::nullopt);
+  if (!marginal.positive()) {
+    return rank_deficient();
+  }
   const auto found = reml::search(marginal, options.maximum_iterations);
   if (!found) {
     return found.error() == FitFailure::kRankDeficient
@@ -173,7 +248,7 @@ tl::expected<PenalisedFit, FitRefusal> fit_with_smoothing(
   reml::SearchResult fixed;
   fixed.theta = lambda.array().log();
   fixed.ends.assign(problem.penalties.size(), SmoothingEnd::kInside);
-  if (!marginal.evaluate(fixed.theta, reml::Order::kValue)) {
+  if (!marginal.positive() || !marginal.evaluate(fixed.theta, reml::Order::kValue)) {
     return rank_deficient();
   }
   FitOptions plain = options;
@@ -186,11 +261,12 @@ tl::expected<double, FitRefusal> minus_two_log_reml(const PenalisedProblem& prob
                                                     double sigma2) {
   check(problem);
   const reml::Marginal marginal(problem, sigma2);
-  const auto state = marginal.evaluate(lambda.array().log(), reml::Order::kValue);
-  if (!state) {
-    return rank_deficient();
+  if (marginal.positive()) {
+    if (const auto state = marginal.evaluate(lambda.array().log(), reml::Order::kValue)) {
+      return state->value;
+    }
   }
-  return state->value;
+  return rank_deficient();
 }
 
 tl::expected<HeldOut, FitRefusal> PenalisedFit::held_out(

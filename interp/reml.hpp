@@ -21,9 +21,9 @@
 /// with b = A^-1 (X'y / sigma2 + S0 b0) and |S|_+ the product of the non-zero eigenvalues. A noise
 /// scale known from d degrees of freedom adds d log sigma2 + d / sigma2. Sources: S. Wood, Fast
 /// stable restricted maximum likelihood ..., J. R. Statist. Soc. B 73 (2011) 3-36, equations (4)
-/// and (5); S. Wood, N. Pya, B. Saefken, Smoothing parameter and model selection ..., J. Amer.
-/// Statist. Assoc. 111 (2016) 1548-1563, section 4, for the covariance that knows the smoothing is
-/// estimated.
+/// and (5); A. Gelman, Prior distributions for variance parameters ..., Bayesian
+/// Analysis 1 (2006) 515-534, for the covariance that knows the smoothing is estimated: b is
+/// averaged over lambda with a prior flat in lambda^(-1/2), the field's own standard deviation.
 ///
 /// lambda multiplies an absolute precision, so that priors in S0 keep their stated sigmas whatever
 /// sigma2 turns out to be. The usual smoothing parameter relative to the noise is sigma2 * lambda.
@@ -111,7 +111,7 @@ struct HeldOut {
 struct PenalisedFit {
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;            ///< A^-1, smoothing and sigma2 taken as known
-  Eigen::MatrixXd corrected_covariance;  ///< plus what the estimated smoothing adds; see FitOptions
+  Eigen::MatrixXd corrected_covariance;  ///< smoothing and sigma2 averaged over
   Eigen::VectorXd lambda;
   Eigen::VectorXd log_lambda_sigma;  ///< standard error of log lambda; infinite at a limit
   std::vector<SmoothingEnd> ends;
@@ -136,8 +136,9 @@ struct FitOptions {
 
 /// Chooses lambda and sigma2 and fits. Deterministic: same input, same bytes. Throws
 /// std::invalid_argument when shapes do not fit or a number is not finite.
-/// Cost: O(q^3) once and, while the penalties act on blocks of columns that the data couple only
-/// through `arrow` columns, O(q p^2) for each of the 10 to 30 evaluations of V.
+/// Cost: O(q^3) once, and O(q p^2) for each of some 60 evaluations of V while each penalty has
+/// columns of its own that the data couple to the others only through p unpenalised columns; O(q^3)
+/// for each evaluation otherwise.
 [[nodiscard]] tl::expected<PenalisedFit, FitRefusal> fit_penalised(const PenalisedProblem& problem,
                                                                    const FitOptions& options = {});
 

@@ -14,9 +14,6 @@ namespace {
 // about 1e-16 of its largest, its smallest true eigenvalue above 1e-9 for the bases in use.
 constexpr double kZeroEigenvalue = 1e-12;
 
-// A pivot of the unit-diagonal A below this means that a combination of columns is free.
-constexpr double kZeroPivot = 1e-13;
-
 Eigen::Index rank_of(const Eigen::MatrixXd& matrix) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
   const Eigen::VectorXd& values = solver.eigenvalues();
@@ -24,22 +21,13 @@ Eigen::Index rank_of(const Eigen::MatrixXd& matrix) {
   return (values.array() > kZeroEigenvalue * largest).count();
 }
 
-// sum_ij a_ij b_ij of two symmetric matrices: the trace of their product.
-double trace_of_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return a.cwiseProduct(b).sum();
-}
-
 }  // namespace
 
 Marginal::Marginal(const PenalisedProblem& problem, std::optional<double> fixed_sigma2)
     : problem_(problem) {
-  const Eigen::Index q = problem.columns();
-  prior_ =
-      problem.prior_precision.size() > 0 ? problem.prior_precision : Eigen::MatrixXd::Zero(q, q);
-  prior_moment_ = Eigen::VectorXd::Zero(q);
-  if (problem.prior_mean.size() > 0) {
-    prior_moment_ = prior_ * problem.prior_mean;
-    prior_square_ = problem.prior_mean.dot(prior_moment_);
+  structure_ = is_arrow(problem) ? make_arrow(problem) : make_dense(problem);
+  if (problem.prior_mean.size() > 0 && problem.prior_precision.size() > 0) {
+    prior_square_ = problem.prior_mean.dot(problem.prior_precision * problem.prior_mean);
   }
   sigma2_fixed_ = fixed_sigma2.value_or(1.0);
   sigma2_free_ = !fixed_sigma2 && problem.noise.knowledge != NoiseKnowledge::kExact;
@@ -52,8 +40,9 @@ Marginal::Marginal(const PenalisedProblem& problem, std::optional<double> fixed_
 void Marginal::find_ranks() {
   const Eigen::Index q = problem_.columns();
   std::vector<int> owners(static_cast<std::size_t>(q), 0);
-  for (Eigen::Index i = 0; i < q; ++i) {
-    owners[static_cast<std::size_t>(i)] += prior_.col(i).isZero(0.0) ? 0 : 1;
+  const bool prior = problem_.prior_precision.size() > 0;
+  for (Eigen::Index i = 0; prior && i < q; ++i) {
+    owners[static_cast<std::size_t>(i)] = problem_.prior_precision.col(i).isZero(0.0) ? 0 : 1;
   }
   Eigen::Index sum_of_ranks = 0;
   for (const Penalty& penalty : problem_.penalties) {
@@ -69,11 +58,11 @@ void Marginal::find_ranks() {
   if (std::all_of(owners.begin(), owners.end(), [](int n) { return n <= 1; })) {
     return;
   }
-  const double prior_scale = prior_.cwiseAbs().maxCoeff();
   Eigen::MatrixXd total = Eigen::MatrixXd::Zero(q, q);
-  if (prior_scale > 0.0) {
-    total += prior_ / prior_scale;
-    sum_of_ranks += rank_of(prior_);
+  if (prior) {
+    const double largest = problem_.prior_precision.cwiseAbs().maxCoeff();
+    total += problem_.prior_precision / std::max(largest, 1e-300);
+    sum_of_ranks += rank_of(problem_.prior_precision);
   }
   for (const Penalty& penalty : problem_.penalties) {
     const Eigen::Index m = penalty.matrix.rows();
@@ -88,7 +77,10 @@ void Marginal::find_ranks() {
     return;
   }
   const Eigen::MatrixXd basis = solver.eigenvectors().rightCols(rank);
-  range_prior_ = basis.transpose() * prior_ * basis;
+  range_prior_ = Eigen::MatrixXd::Zero(rank, rank);
+  if (prior) {
+    range_prior_ = basis.transpose() * problem_.prior_precision * basis;
+  }
   for (const Penalty& penalty : problem_.penalties) {
     const auto part = basis.middleRows(penalty.first_column, penalty.matrix.rows());
     range_penalty_.push_back(part.transpose() * penalty.matrix * part);
@@ -138,98 +130,80 @@ Marginal::LogDeterminant Marginal::log_determinant(const Eigen::VectorXd& theta,
   }
   for (Eigen::Index i = 0; i < k; ++i) {
     for (Eigen::Index j = 0; j < k; ++j) {
-      result.hessian(i, j) -= trace_of_product(solved[static_cast<std::size_t>(i)],
-                                               solved[static_cast<std::size_t>(j)].transpose());
+      result.hessian(i, j) -= solved[static_cast<std::size_t>(i)]
+                                  .cwiseProduct(solved[static_cast<std::size_t>(j)].transpose())
+                                  .sum();
     }
   }
   return result;
 }
 
 std::optional<State> Marginal::evaluate(const Eigen::VectorXd& theta, Order order) const {
-  const Eigen::Index q = problem_.columns();
   const double s2 = sigma2(theta);
-  Eigen::MatrixXd a = problem_.gram / s2 + prior_;
-  for (Eigen::Index k = 0; k < penalties(); ++k) {
-    const Penalty& penalty = problem_.penalties[static_cast<std::size_t>(k)];
-    const Eigen::Index m = penalty.matrix.rows();
-    a.block(penalty.first_column, penalty.first_column, m, m) +=
-        std::exp(theta(k)) * penalty.matrix;
-  }
-  // Unit diagonal first: what a column is measured in must not decide its rank.
-  if (!(a.diagonal().array() > 0.0).all()) {
-    return std::nullopt;
-  }
-  const Eigen::VectorXd scale = a.diagonal().array().rsqrt();
-  a = scale.asDiagonal() * a * scale.asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> factor(a);
-  if (factor.info() != Eigen::Success || factor.matrixLLT().diagonal().array().square().minCoeff() <
-                                             kZeroPivot * static_cast<double>(q)) {
+  const auto factor = structure_->factor(theta.head(penalties()).array().exp(), s2);
+  if (!factor) {
     return std::nullopt;
   }
   State state;
-  const Eigen::VectorXd moment = problem_.moment / s2 + prior_moment_;
-  state.coefficients = scale.cwiseProduct(factor.solve(scale.cwiseProduct(moment)));
-  const Eigen::VectorXd& b = state.coefficients;
-  state.residual_square = std::max(
-      0.0, problem_.response_square - 2.0 * b.dot(problem_.moment) + b.dot(problem_.gram * b));
-  // |y - X b|^2 / sigma2 + (b - b0)' S (b - b0) at the minimum over b.
-  const double deviance = problem_.response_square / s2 + prior_square_ - b.dot(moment);
-  const double log_a =
-      2.0 * (factor.matrixLLT().diagonal().array().log().sum() - scale.array().log().sum());
+  const Eigen::VectorXd moment = structure_->moment() / s2 + structure_->prior_moment();
+  state.coefficients = factor->solve(moment);
+  // |y - X b|^2 / sigma2 + (b - b0)' S (b - b0) at its minimum over b.
+  const double deviance =
+      problem_.response_square / s2 + prior_square_ - state.coefficients.dot(moment);
   const double log_s2 = std::log(s2);
-  state.value = static_cast<double>(problem_.rows) * log_s2 + deviance + log_a -
+  state.value = static_cast<double>(problem_.rows) * log_s2 + deviance + factor->log_determinant() -
                 log_determinant(theta, Order::kValue).value + extra_degrees_ * (log_s2 + 1.0 / s2);
   if (order == Order::kHessian) {
-    Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(q, q));
-    state.covariance = scale.asDiagonal() * inverse * scale.asDiagonal();
-    add_derivatives(state, theta);
+    add_derivatives(state, *factor, theta);
   }
   return state;
 }
 
-void Marginal::add_derivatives(State& state, const Eigen::VectorXd& theta) const {
+Eigen::MatrixXd Marginal::inverse(const Eigen::VectorXd& theta) const {
+  return structure_->factor(theta.head(penalties()).array().exp(), sigma2(theta))->inverse();
+}
+
+// With D_i = dA / dtheta_i and u_i = D_i b - d(A b) / dtheta_i, db / dtheta_i = -A^-1 u_i. For
+// sigma2 D = -(A - S), which spares X'X: A^-1 D = -(1 - sum A^-1 D_k - A^-1 S0).
+void Marginal::add_derivatives(State& state,
+                               const Factor& factor,
+                               const Eigen::VectorXd& theta) const {
   const Eigen::Index q = problem_.columns();
   const Eigen::Index k = penalties();
-  const Eigen::Index unknowns = this->unknowns();
-  const double s2 = sigma2(theta);
-  const Eigen::MatrixXd& c = state.covariance;
+  const Eigen::Index n = unknowns();
   const Eigen::VectorXd& b = state.coefficients;
-  // dA / dtheta_i = D_i, A^-1 D_i = product[i]; force.col(i) = D_i b - d(A b) / dtheta_i.
-  std::vector<Eigen::MatrixXd> product;
-  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(q, unknowns);
-  Eigen::VectorXd first(unknowns);
+  const double s2 = sigma2(theta);
+  const Traces traces = factor.traces();
+  Eigen::MatrixXd u(q, n);
+  Eigen::VectorXd trace(n);
+  Eigen::VectorXd first(n);
+  Eigen::MatrixXd second(n, n);
   for (Eigen::Index i = 0; i < k; ++i) {
-    const Penalty& penalty = problem_.penalties[static_cast<std::size_t>(i)];
-    const Eigen::Index m = penalty.matrix.rows();
-    const double lambda = std::exp(theta(i));
-    Eigen::MatrixXd p = Eigen::MatrixXd::Zero(q, q);
-    p.middleCols(penalty.first_column, m).noalias() =
-        lambda * (c.middleCols(penalty.first_column, m) * penalty.matrix);
-    product.push_back(std::move(p));
-    force.col(i).segment(penalty.first_column, m) =
-        lambda * (penalty.matrix * b.segment(penalty.first_column, m));
-    first(i) = b.dot(force.col(i));
+    u.col(i) = std::exp(theta(i)) * structure_->penalty_times(i, b);
+    first(i) = b.dot(u.col(i));
   }
+  trace.head(k) = traces.first.head(k);
+  second.topLeftCorner(k, k) = traces.second.topLeftCorner(k, k);
   if (sigma2_free_) {
-    product.push_back(c * problem_.gram / -s2);
-    force.col(k) = (problem_.moment - problem_.gram * b) / s2;
-    first(k) = -state.residual_square / s2;
+    const Eigen::VectorXd prior_force =
+        structure_->penalty_times(k, b) - structure_->prior_moment();
+    u.col(k) = u.leftCols(k).rowwise().sum() + prior_force;
+    const Eigen::VectorXd moment = structure_->moment() / s2 + structure_->prior_moment();
+    const double penalty_square = first.head(k).sum() + b.dot(prior_force) -
+                                  b.dot(structure_->prior_moment()) + prior_square_;
+    first(k) = -(problem_.response_square / s2 + prior_square_ - b.dot(moment) - penalty_square);
+    trace(k) = -(static_cast<double>(q) - traces.first.sum());
+    second(k, k) = static_cast<double>(q) - 2.0 * traces.first.sum() + traces.second.sum();
+    second.col(k).head(k) = -(traces.first.head(k) - traces.second.topRows(k).rowwise().sum());
+    second.row(k).head(k) = second.col(k).head(k).transpose();
   }
-  state.coefficient_slopes = -(c * force);
-  const LogDeterminant log_s = log_determinant(theta, Order::kHessian);
-  state.gradient = first;
-  state.hessian = 2.0 * force.transpose() * state.coefficient_slopes;
-  for (Eigen::Index i = 0; i < unknowns; ++i) {
-    const double trace = product[static_cast<std::size_t>(i)].trace();
-    state.gradient(i) += trace;
+  state.gradient = first + trace;
+  state.hessian = -2.0 * u.transpose() * factor.solve(u) - second;
+  for (Eigen::Index i = 0; i < n; ++i) {
     // The second derivative of exp(+-theta) adds the first derivative once more, with its sign.
-    state.hessian(i, i) += (i < k ? 1.0 : -1.0) * (first(i) + trace);
-    for (Eigen::Index j = 0; j < unknowns; ++j) {
-      state.hessian(i, j) -= product[static_cast<std::size_t>(i)]
-                                 .cwiseProduct(product[static_cast<std::size_t>(j)].transpose())
-                                 .sum();
-    }
+    state.hessian(i, i) += (i < k ? 1.0 : -1.0) * state.gradient(i);
   }
+  const LogDeterminant log_s = log_determinant(theta, Order::kHessian);
   state.gradient.head(k) -= log_s.gradient;
   state.hessian.topLeftCorner(k, k) -= log_s.hessian;
   if (sigma2_free_) {

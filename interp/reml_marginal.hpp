@@ -8,21 +8,19 @@
 #include <optional>
 
 #include "interp/reml.hpp"
+#include "interp/reml_structure.hpp"
 
 namespace chaintrue::interp::reml {
 
 enum class Order { kValue, kHessian };
 
-/// V and what belongs to it at one theta.
+/// V and what belongs to it at one theta. Coefficients are in working coordinates.
 struct State {
   double value = 0.0;  ///< V of (3)
-  double residual_square = 0.0;
   Eigen::VectorXd coefficients;
   // Filled for Order::kHessian only.
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
-  Eigen::MatrixXd covariance;          ///< A^-1
-  Eigen::MatrixXd coefficient_slopes;  ///< db / dtheta, q x theta
 };
 
 /// theta = (log lambda_1 .. log lambda_K, then log sigma2 unless it is fixed).
@@ -40,8 +38,14 @@ class Marginal {
   /// Where penalty k weighs as much as the data (traces equal); the search is centred there.
   [[nodiscard]] double balanced_log_lambda(Eigen::Index k) const;
 
+  /// False where some columns are free whatever lambda is.
+  [[nodiscard]] bool positive() const { return structure_ != nullptr; }
+  [[nodiscard]] const Structure& structure() const { return *structure_; }
+
   /// Empty where A is not positive definite.
   [[nodiscard]] std::optional<State> evaluate(const Eigen::VectorXd& theta, Order order) const;
+  /// A^-1 in working coordinates; A must be positive definite at theta.
+  [[nodiscard]] Eigen::MatrixXd inverse(const Eigen::VectorXd& theta) const;
 
  private:
   struct LogDeterminant {
@@ -50,13 +54,12 @@ class Marginal {
     Eigen::MatrixXd hessian;
   };
   [[nodiscard]] LogDeterminant log_determinant(const Eigen::VectorXd& theta, Order order) const;
-  void add_derivatives(State& state, const Eigen::VectorXd& theta) const;
+  void add_derivatives(State& state, const Factor& factor, const Eigen::VectorXd& theta) const;
   void find_ranks();
 
   const PenalisedProblem& problem_;
-  Eigen::MatrixXd prior_;         // S0, zero where none is given
-  Eigen::VectorXd prior_moment_;  // S0 b0
-  double prior_square_ = 0.0;     // b0' S0 b0
+  std::unique_ptr<Structure> structure_;
+  double prior_square_ = 0.0;  // b0' S0 b0
   bool sigma2_free_ = false;
   double sigma2_fixed_ = 1.0;
   double extra_degrees_ = 0.0;  // d
