@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From a machine with its effects to the lengths that a person would read off it: machine -> chain -> reading.
+/// From a machine with its effects to the lengths that a person would read off it: machine -> chain
+/// -> reading.
 ///
-///   reading = (L0 + chain effects) / (1 + e) + chain_zero                                         (1)
+///   reading = (L0 + chain effects) / (1 + e) + chain_zero (1)
 ///
-/// L0 from the equilibrium with every machine effect on; chain effects in the catalogue's order on that state; e the
-/// elongation of chain_pitch_error. This class answers the repeatable part of a reading: what it would be without
-/// drift, skips and hysteresis, which depend on the visit and not on the place.
+/// L0 from the equilibrium with every machine effect on; chain effects in the catalogue's order on
+/// that state; e the elongation of chain_pitch_error. This class answers the repeatable part of a
+/// reading: what it would be without drift, skips and hysteresis, which depend on the visit and not
+/// on the place.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,7 +42,8 @@ struct PointReading {
 
 class ReadingModel {
  public:
-  /// \throws std::invalid_argument for a machine with problems (problems_of) or an effect that is not catalogued.
+  /// \throws std::invalid_argument for a machine with problems (problems_of) or an effect that is
+  /// not catalogued.
   explicit ReadingModel(const Machine& machine, Model model = Model::elastic);
   [[nodiscard]] tl::expected<PointReading, PoseFailure> at(BedPoint point) const;
   /// d(left, right)/d(setting) for the motor positions and chain zeros.
