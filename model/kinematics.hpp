@@ -59,6 +59,7 @@ enum class PoseFailure {
   above_sprockets,    ///< at or above the line between the sprockets
   link_does_not_fit,  ///< the ring or bracket is longer than the way to the sprocket
   slack,              ///< a chain would have to push, or hangs slack
+  too_short,          ///< chains that cannot meet each other
   not_converged,      ///< the iteration did not settle
 };
 
