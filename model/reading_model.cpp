@@ -28,17 +28,6 @@ constexpr double kStep_mm = 4.0;
 constexpr std::array<double, 4> kStencil = {-2.0, -1.0, 1.0, 2.0};
 constexpr std::array<double, 4> kWeights = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
 
-// In the order of Setting.
-constexpr std::array<std::string_view, 9> kSettingNames = {"motor_left_x_mm",
-                                                           "motor_left_y_mm",
-                                                           "motor_right_x_mm",
-                                                           "motor_right_y_mm",
-                                                           "chain_zero_left_mm",
-                                                           "chain_zero_right_mm",
-                                                           "sheet_x_mm",
-                                                           "sheet_y_mm",
-                                                           "sheet_rotation_rad"};
-
 // The two numbers of a chain that effects look at beside its length.
 struct AngleAndFree {
   double angle_rad = 0.0;
@@ -138,16 +127,6 @@ tl::expected<PerSide<AngleAndFree>, PoseFailure> state_slope(const PoseAt& pose_
 }
 
 }  // namespace
-
-std::string_view name(Setting setting) {
-  return kSettingNames.at(static_cast<std::size_t>(setting));
-}
-
-std::optional<Setting> setting_named(std::string_view name) {
-  const auto found = std::find(kSettingNames.begin(), kSettingNames.end(), name);
-  if (found == kSettingNames.end()) return std::nullopt;
-  return static_cast<Setting>(found - kSettingNames.begin());
-}
 
 struct ReadingModel::State {
   Machine machine;

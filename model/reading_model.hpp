@@ -24,9 +24,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string_view>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -47,11 +45,6 @@ enum class Setting {
   sheet_y_mm,
   sheet_rotation_rad,
 };
-
-/// The word of files and of the command line.
-[[nodiscard]] std::string_view name(Setting setting);
-/// Empty where no setting bears the name.
-[[nodiscard]] std::optional<Setting> setting_named(std::string_view name);
 
 struct PointReading {
   Pose pose;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/effects/catalogue.hpp"
+#include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::synthetic {
 namespace {
@@ -73,26 +73,8 @@ std::vector<BedPoint> session_of(const std::vector<Mark>& marks, int repeats, Ra
   return session;
 }
 
-void offset_setting(Machine& machine, SheetPlacement& sheet, const SettingOffset& offset) {
+void offset_setting(Machine& machine, model::SheetPlacement& sheet, const SettingOffset& offset) {
   switch (offset.setting) {
-    case Setting::motor_left_x_mm:
-      machine.motors.left.x_mm += offset.offset;
-      break;
-    case Setting::motor_left_y_mm:
-      machine.motors.left.y_mm += offset.offset;
-      break;
-    case Setting::motor_right_x_mm:
-      machine.motors.right.x_mm += offset.offset;
-      break;
-    case Setting::motor_right_y_mm:
-      machine.motors.right.y_mm += offset.offset;
-      break;
-    case Setting::chain_zero_left_mm:
-      machine.chain_zero.left_mm += offset.offset;
-      break;
-    case Setting::chain_zero_right_mm:
-      machine.chain_zero.right_mm += offset.offset;
-      break;
     case Setting::sheet_x_mm:
       sheet.x_mm += offset.offset;
       break;
@@ -102,6 +84,9 @@ void offset_setting(Machine& machine, SheetPlacement& sheet, const SettingOffset
     case Setting::sheet_rotation_rad:
       sheet.rotation_rad += offset.offset;
       break;
+    default:
+      machine = model::with_setting(
+          machine, offset.setting, model::stated_value(machine, offset.setting) + offset.offset);
   }
 }
 
@@ -109,14 +94,8 @@ std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticS
   std::vector<SettingOffset> offsets = spec.offsets;
   if (spec.draw_settings) {
     Random random(spec.seed, kSettings);
-    for (const Setting setting : {Setting::motor_left_x_mm,
-                                  Setting::motor_left_y_mm,
-                                  Setting::motor_right_x_mm,
-                                  Setting::motor_right_y_mm}) {
-      offsets.push_back({setting, stated.uncertainty.motor_position_mm * random.normal()});
-    }
-    for (const Setting setting : {Setting::chain_zero_left_mm, Setting::chain_zero_right_mm}) {
-      offsets.push_back({setting, stated.uncertainty.chain_zero_mm * random.normal()});
+    for (const Setting setting : model::kMachineSettings) {
+      offsets.push_back({setting, model::stated_sigma(stated, setting) * random.normal()});
     }
   }
   if (spec.sheet) {
@@ -191,21 +170,6 @@ std::optional<StatedNoise> stated_noise(const SyntheticSpec& spec) {
 
 }  // namespace
 
-BedPoint SheetPlacement::on_bed(BedPoint on_sheet) const {
-  const double c = std::cos(rotation_rad);
-  const double s = std::sin(rotation_rad);
-  return {x_mm + c * on_sheet.x_mm - s * on_sheet.y_mm,
-          y_mm + s * on_sheet.x_mm + c * on_sheet.y_mm};
-}
-
-BedPoint SheetPlacement::on_sheet(BedPoint on_bed) const {
-  const double c = std::cos(rotation_rad);
-  const double s = std::sin(rotation_rad);
-  const double x = on_bed.x_mm - x_mm;
-  const double y = on_bed.y_mm - y_mm;
-  return {c * x + s * y, -s * x + c * y};
-}
-
 Machine with_effects(const Machine& stated, const std::vector<model::AppliedEffect>& hidden) {
   Machine machine = stated;
   machine.effects.insert(machine.effects.end(), hidden.begin(), hidden.end());
@@ -232,7 +196,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   std::vector<Visit> visits;
   for (const BedPoint& intended : session_of(pattern, spec.repeats, repeat_random)) {
     const BedPoint place = beside(intended, spec.jitter_mm, jitter_random);
-    visits.push_back({answer.sheet.on_bed(place), static_cast<int>(visits.size())});
+    visits.push_back({answer.sheet.to_bed(place), static_cast<int>(visits.size())});
     answer.places.push_back(visits.back().position);
   }
 
@@ -246,7 +210,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   const model::Paper paper(answer.machine);
   std::vector<BedPoint> written;
   for (const BedPoint& place : answer.places)
-    written.push_back(paper.written(answer.sheet.on_sheet(place)));
+    written.push_back(paper.written(answer.sheet.to_mark(place)));
 
   session.grid.machine = stated;
   session.grid.noise = stated_noise(spec);

@@ -27,6 +27,7 @@
 
 #include "grid/measured_grid.hpp"
 #include "grid/synthetic/design.hpp"
+#include "model/calibration/sheet_placement.hpp"
 #include "model/reading_model.hpp"
 
 namespace chaintrue::grid::synthetic {
@@ -75,22 +76,13 @@ struct SyntheticSpec {
   std::uint64_t seed = 1;
 };
 
-/// Where the sheet's origin and axes lie on the bed: bed = shift + R(rotation) sheet.
-struct SheetPlacement {
-  double x_mm = 0.0;
-  double y_mm = 0.0;
-  double rotation_rad = 0.0;
-  [[nodiscard]] model::BedPoint on_bed(model::BedPoint on_sheet) const;
-  [[nodiscard]] model::BedPoint on_sheet(model::BedPoint on_bed) const;
-};
-
 /// What was hidden.
 struct SyntheticAnswer {
   /// The machine as it truly is, every effect on.
   model::Machine machine;
   std::vector<model::AppliedEffect> hidden;
   std::vector<SettingOffset> offsets;
-  SheetPlacement sheet;
+  model::SheetPlacement sheet;
   /// Per point of the grid: where the tool truly was, in the bed's frame.
   std::vector<model::BedPoint> places;
   /// Per point: what would have been read without noise and slips.
