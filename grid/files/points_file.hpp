@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Bare points of the bed: a CSV whose header names x_mm and y_mm, and order where the visits are
-/// numbered.
+/// Points of the bed from a CSV with the columns x_mm and y_mm; what such a CSV may look like is
+/// said in grid_file.hpp.
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,15 +13,11 @@
 
 namespace chaintrue::grid::files {
 
-struct ListedPoint {
-  model::BedPoint place;
-  /// All points have it, distinct, or none.
-  std::optional<int> order;
-};
-
-/// "-" reads standard input. \throws InputError with every problem of the file.
-[[nodiscard]] std::vector<ListedPoint> read_points(const std::filesystem::path& path);
-[[nodiscard]] std::vector<ListedPoint> parse_points(const std::string& text,
-                                                    const std::string& file);
+/// In the file's order. "-" reads standard input. \throws InputError with every problem of the
+/// file.
+[[nodiscard]] std::vector<model::BedPoint> read_points(const std::filesystem::path& path);
+/// `file` is the name used in messages.
+[[nodiscard]] std::vector<model::BedPoint> parse_points(const std::string& text,
+                                                        const std::string& file);
 
 }  // namespace chaintrue::grid::files

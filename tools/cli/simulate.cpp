@@ -132,9 +132,7 @@ synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& p
                              problems);
   if (!options.marks.empty()) {
     design.kind = synthetic::DesignKind::given;
-    for (const files::ListedPoint& point : files::read_points(options.marks)) {
-      design.given.push_back(point.place);
-    }
+    design.given = files::read_points(options.marks);
   } else if (options.random_points != 0) {
     constexpr double kMostPoints = 1e6;
     problems.require("--random", options.random_points, 1.0, kMostPoints);
@@ -249,8 +247,8 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
   const model::Model model = parse_model(options.model, problems);
   problems.throw_if_any();
   std::vector<model::Visit> visits;
-  for (const files::ListedPoint& point : files::read_points(options.points)) {
-    visits.push_back({point.place, point.order.value_or(static_cast<int>(visits.size()))});
+  for (const model::BedPoint& place : files::read_points(options.points)) {
+    visits.push_back({place, static_cast<int>(visits.size())});
   }
   synthetic::PlacesRead read = synthetic::read_places(machine, hidden, visits, model);
   read.grid.name = options.name.empty() ? "readings at given places" : options.name;
