@@ -11,6 +11,7 @@
 #include "model/chain_formulas.hpp"
 #include "model/equilibrium_kinematics.hpp"
 #include "model/formula_kinematics.hpp"
+#include "model/spatial_kinematics.hpp"
 
 namespace chaintrue::model {
 namespace {
@@ -155,7 +156,8 @@ std::unique_ptr<const Kinematics> make_kinematics(const EquilibriumParameters& p
     case Model::elastic_3d:
       break;
   }
-  throw std::invalid_argument("the three-dimensional sag is not available");
+  if (ring) return std::make_unique<SpatialKinematics<false>>(parameters);
+  return std::make_unique<SpatialKinematics<true>>(parameters);
 }
 
 }  // namespace chaintrue::model
