@@ -50,10 +50,15 @@ Eigen::Matrix2d EquilibriumKinematics<kRotates>::jacobian(const Pose& pose) cons
 template <bool kRotates>
 Eigen::Vector2d EquilibriumKinematics<kRotates>::sensitivity(const Pose& pose,
                                                              Parameter parameter) const {
+  Eigen::Vector2d direct = Eigen::Vector2d::Zero();
+  if ((parameter == Parameter::sprocket_radius_mm && not_modelled_.sprocket) ||
+      (parameter == Parameter::chain_weight_n_per_mm && not_modelled_.chain_weight) ||
+      (parameter == Parameter::chain_compliance_per_n && not_modelled_.compliance)) {
+    return direct;
+  }
   const EquilibriumState q = state_of(pose);
   const PerSide<ChainTerms> t = terms_of(m_, q);
   EquilibriumLoad load;
-  Eigen::Vector2d direct = Eigen::Vector2d::Zero();
   const auto each = [&](auto&& put) {
     for (const Side side : kSides) put(side, t[side], side == Side::left ? q.s.left : q.s.right);
   };
