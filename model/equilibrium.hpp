@@ -59,8 +59,9 @@ struct ChainTerms {
   double h = 0.0, v = 0.0, vb = 0.0, ta = 0.0, tb = 0.0;
 };
 
+template <bool kSeriesOnly = false>
 inline ChainTerms chain_terms(const EquilibriumConstants& m, double h, double v, double s) {
-  const CatenaryExtent e = catenary_extent({h, v, s}, m.chain);
+  const CatenaryExtent e = catenary_extent<kSeriesOnly>({h, v, s}, m.chain);
   const double w = m.chain.weight_n_per_mm;
   const double per_a = 1.0 / e.ta_n, per_b = 1.0 / e.tb_n;
   const double cos_a = h * per_a, sin_a = v * per_a, cos_b = h * per_b, sin_b = e.vb_n * per_b;
