@@ -2,9 +2,9 @@
 /// \file
 /// The two spaces that must never be mixed up: points on the bed and pairs of chain lengths.
 ///
-/// Frame: origin at the bed's centre, x to the right, y up the sheet, mm. A chain length counts unstretched chain from
-/// the pin at 12 o'clock to the chain's end at the ring (the ring's radius is not part of it), plus the machine's
-/// chain_zero.
+/// Frame: origin at the bed's centre, x to the right, y up the sheet, mm. A chain length counts
+/// unstretched chain from the pin at 12 o'clock to the chain's end at the ring (the ring's radius
+/// is not part of it), plus the machine's chain_zero.
 #pragma once
 
 namespace chaintrue::model {

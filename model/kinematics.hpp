@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Chain lengths for a point and the point for chain lengths: the interface of every kinematics, and the pose that
-/// they answer with.
+/// Chain lengths for a point and the point for chain lengths: the interface of every kinematics,
+/// and the pose that they answer with.
 ///
-/// Lengths here are physical: unstretched chain past 12 o'clock, without the machine's chain_zero and without the
-/// effects that stand at the chain or at the reading (reading_model.hpp adds those).
+/// Lengths here are physical: unstretched chain past 12 o'clock, without the machine's chain_zero
+/// and without the effects that stand at the chain or at the reading (reading_model.hpp adds
+/// those).
 ///
 /// \code
 ///   const auto kinematics = make_kinematics(equilibrium_parameters(machine), Model::elastic);
@@ -30,17 +31,20 @@ struct EquilibriumParameters {
   double sprocket_radius_mm = 0.0;
   Feed feed = Feed::over_top;
   Attachment attachment = Ring{};
-  /// Weight of the sled and of a millimetre of chain, as the frame's tilt leaves them in the sheet's plane.
+  /// Weight of the sled and of a millimetre of chain, as the frame's tilt leaves them in the
+  /// sheet's plane.
   double sled_weight_n = 0.0;
   double chain_weight_n_per_mm = 0.0;
   double chain_compliance_per_n = 0.0;
   /// Angle of the frame from the vertical; only Model::elastic_3d looks at it.
   double tilt_rad = 0.0;
-  /// Each motor's axis moves along its chain's pull, towards the sled, by this times the tension there (beam_flex).
+  /// Each motor's axis moves along its chain's pull, towards the sled, by this times the tension
+  /// there (beam_flex).
   double beam_flexibility_mm_per_n = 0.0;
   /// H_left - H_right: a hose or cord that pulls the sled towards +x (side_pull).
   double side_force_n = 0.0;
-  /// Firmware's sag factor in 1e-12 / mm^2 (Model::firmware); 1e12 (lambda/m)^2/24 where the machine does not say.
+  /// Firmware's sag factor in 1e-12 / mm^2 (Model::firmware); 1e12 (lambda/m)^2/24 where the
+  /// machine does not say.
   double sag_correction = 0.0;
 };
 
@@ -55,6 +59,7 @@ enum class PoseFailure {
   above_sprockets,    ///< at or above the line between the sprockets
   link_does_not_fit,  ///< the ring or bracket is longer than the way to the sprocket
   slack,              ///< a chain would have to push, or hangs slack
+  too_short,          ///< chains that cannot meet each other
   not_converged,      ///< the iteration did not settle
 };
 
@@ -65,13 +70,15 @@ enum class PoseFailure {
 
 /// One chain in equilibrium. s = 0 is the sled's end.
 struct ChainState {
-  double horizontal_n = 0.0;           ///< H, the same all along
-  double vertical_at_sled_n = 0.0;     ///< V, upward pull on the sled; negative: the chain hangs below its end
-  double tension_at_sled_n = 0.0;      ///< T(0)
+  double horizontal_n = 0.0;  ///< H, the same all along
+  /// V, upward pull on the sled; negative: the chain hangs below its end.
+  double vertical_at_sled_n = 0.0;
+  double out_of_sheet_n = 0.0;     ///< N, pull off the sheet at the sled; Model::elastic_3d only
+  double tension_at_sled_n = 0.0;  ///< T(0)
   double tension_at_sprocket_n = 0.0;  ///< T(S)
-  double angle_rad = 0.0;              ///< phi, below the horizontal where the chain leaves the sprocket
-  double free_length_mm = 0.0;         ///< S, unstretched
-  double wrap_mm = 0.0;                ///< chain on the sprocket past 12 o'clock
+  double angle_rad = 0.0;       ///< phi, below the horizontal where the chain leaves the sprocket
+  double free_length_mm = 0.0;  ///< S, unstretched
+  double wrap_mm = 0.0;         ///< chain on the sprocket past 12 o'clock
 };
 
 struct Pose {
@@ -108,11 +115,13 @@ class Kinematics {
   /// d(left, right)/d(x, y) at a pose that this kinematics returned.
   [[nodiscard]] virtual Eigen::Matrix2d jacobian(const Pose& pose) const = 0;
   /// d(left, right)/d(parameter) at fixed (x, y).
-  [[nodiscard]] virtual Eigen::Vector2d sensitivity(const Pose& pose, Parameter parameter) const = 0;
+  [[nodiscard]] virtual Eigen::Vector2d sensitivity(const Pose& pose,
+                                                    Parameter parameter) const = 0;
 };
 
-/// \throws std::invalid_argument where a parameter is not finite or out of its range, with its name and value.
-[[nodiscard]] std::unique_ptr<const Kinematics> make_kinematics(const EquilibriumParameters& parameters,
-                                                                Model model = Model::elastic);
+/// \throws std::invalid_argument where a parameter is not finite or out of its range, with its name
+/// and value.
+[[nodiscard]] std::unique_ptr<const Kinematics> make_kinematics(
+    const EquilibriumParameters& parameters, Model model = Model::elastic);
 
 }  // namespace chaintrue::model

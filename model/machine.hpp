@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A hanging two-chain router as its owner describes it: one struct a part, the same words as in a chaintrue_machine
-/// file, and the stated uncertainties. Data only; the equilibrium is in pose.hpp.
+/// A hanging two-chain router as its owner describes it: one struct a part, the same words as in a
+/// chaintrue_machine file, and the stated uncertainties. Data only; the equilibrium is in pose.hpp.
 ///
 /// \code
 ///   Machine machine;                      // the classic Maslow on a ten-foot beam
 ///   machine.sled.mass_kg = 10.2;
-///   for (const MachineProblem& p : problems_of(machine)) fmt::print("{} = {}: expected {}\n", p.parameter, p.value, p.expected);
+///   for (const MachineProblem& p : problems_of(machine)) fmt::print("{} = {}: expected {}\n",
+///   p.parameter, p.value, p.expected);
 /// \endcode
 #pragma once
 
@@ -41,7 +42,8 @@ struct Sprocket {
   [[nodiscard]] double effective_radius_mm() const;
 };
 
-/// Which way the chain leaves the sprocket: over its top, the slack hanging down; or off its bottom.
+/// Which way the chain leaves the sprocket: over its top, the slack hanging down; or off its
+/// bottom.
 enum class Feed { over_top, off_bottom };
 
 /// Ring or linkage: both chains point at the bit; the chain ends at this distance from it.
@@ -113,8 +115,9 @@ struct MachineProblem {
   std::string expected;
 };
 
-/// All reasons at once; empty when the machine is sound. Ranges are wide (any real hanging router passes), so that a
-/// value outside is a slip of units or of the keyboard: inches for mm, grams for kg, motors below the bed.
+/// All reasons at once; empty when the machine is sound. Ranges are wide (any real hanging router
+/// passes), so that a value outside is a slip of units or of the keyboard: inches for mm, grams for
+/// kg, motors below the bed.
 [[nodiscard]] std::vector<MachineProblem> problems_of(const Machine& machine);
 
 }  // namespace chaintrue::model

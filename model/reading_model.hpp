@@ -1,17 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From a machine with its effects to the lengths that a person would read off it: machine -> chain -> reading.
+/// From a machine with its effects to the lengths that a person would read off it: machine -> chain
+/// -> reading, and the paper on which the marks are written.
 ///
-///   reading = (L0 + chain effects) / (1 + e) + chain_zero                                         (1)
+///   reading = (L0 + chain effects) / (1 + e) + chain_zero + reading effects (1)
 ///
-/// L0 from the equilibrium with every machine effect on; chain effects in the catalogue's order on that state; e the
-/// elongation of chain_pitch_error. This class answers the repeatable part of a reading: what it would be without
-/// drift, skips and hysteresis, which depend on the visit and not on the place.
+/// L0 from the equilibrium with every machine effect on; chain effects in the catalogue's order on
+/// that state; e the sum of the elongations of chain_pitch_error. ReadingModel answers the
+/// repeatable part of a reading: what it would be without drift, skips and hysteresis, which depend
+/// on the visit and not on the place. readings() answers whole sessions with all of it.
+///
+/// Points are true positions of the tool; Paper turns them into what is written beside the marks.
+///
+/// \code
+///   Machine machine;
+///   machine.effects = {{"chain_pitch_error", "left", {{"elongation", 0.0012}}}};
+///   const ReadingModel model(machine);
+///   if (const auto reading = model.at({100.0, -200.0})) fmt::print("{}\n",
+///   reading->lengths.left_mm);
+/// \endcode
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <tl/expected.hpp>
+#include <vector>
 
 #include "model/kinematics.hpp"
 #include "model/machine.hpp"
@@ -34,22 +49,68 @@ enum class Setting {
 struct PointReading {
   Pose pose;
   ChainLengths lengths;
-  /// d(left, right)/d(x, y)
+  /// d(left, right)/d(x, y). Exact for the equilibrium and for effects of the length; where an
+  /// effect looks at a chain's angle or free length, the derivative of those is a five-point
+  /// difference, good to 1e-9 of its size. At the knee of angular_kink it is the one-sided
+  /// derivative above the knee.
   Eigen::Matrix2d position_jacobian = Eigen::Matrix2d::Zero();
 };
 
+/// Const and thread safe.
 class ReadingModel {
  public:
-  /// \throws std::invalid_argument for a machine with problems (problems_of) or an effect that is not catalogued.
+  /// \throws std::invalid_argument for a machine with problems (problems_of) or with effects that
+  /// cannot act (effects::problems_of_effects).
   explicit ReadingModel(const Machine& machine, Model model = Model::elastic);
+
   [[nodiscard]] tl::expected<PointReading, PoseFailure> at(BedPoint point) const;
-  /// d(left, right)/d(setting) for the motor positions and chain zeros.
+  /// d(left, right)/d(setting) for the motor positions and chain zeros, as accurate as the
+  /// position_jacobian. \throws std::invalid_argument for the sheet's settings: they move the
+  /// point, not the machine.
   [[nodiscard]] Eigen::Vector2d sensitivity(const PointReading& reading, Setting setting) const;
-  [[nodiscard]] const Machine& machine() const { return machine_; }
+  /// Where the tool is when these lengths are read, searched from `start` (Newton on at(), 1e-9
+  /// mm).
+  [[nodiscard]] tl::expected<PointReading, PoseFailure> find(ChainLengths lengths,
+                                                             BedPoint start) const;
+  [[nodiscard]] const Machine& machine() const;
 
  private:
-  Machine machine_;
-  std::shared_ptr<const Kinematics> kinematics_;
+  friend class Session;
+  struct State;
+  std::shared_ptr<const State> state_;
+};
+
+/// A visit of the tool: where it truly is, and the visit's number.
+struct Visit {
+  BedPoint position;
+  int order = 0;
+};
+
+struct VisitFailure {
+  std::size_t index = 0;  ///< into the visits
+  PoseFailure reason = PoseFailure::not_converged;
+};
+
+/// What is read at each visit, in the order of `visits`; they are gone through by rising `order`.
+/// Hysteresis follows the sign of the change of a chain's length since the visit before, taken
+/// before hysteresis and pitch error; no change keeps the sign, the first visit counts as paid out
+/// (+1). \throws std::invalid_argument where two visits bear the same number.
+[[nodiscard]] tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
+    const ReadingModel& model, std::span<const Visit> visits);
+
+/// The marks as they are written: the paper effects of a machine, in the catalogue's order. They
+/// are affine.
+class Paper {
+ public:
+  /// \throws std::invalid_argument as ReadingModel.
+  explicit Paper(const Machine& machine);
+  /// What is written beside a mark that truly is at `place`.
+  [[nodiscard]] BedPoint written(BedPoint place) const;
+  /// Where the mark truly is that bears these numbers.
+  [[nodiscard]] BedPoint place(BedPoint written) const;
+
+ private:
+  Eigen::Matrix2d written_per_place_;
 };
 
 }  // namespace chaintrue::model

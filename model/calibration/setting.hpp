@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The settings as unknowns: their names, what a machine states for each, how well, and a machine that has them changed.
+///
+/// \code
+///   for (Setting setting : kMachineSettings)
+///     fmt::print("{} = {} +- {}\n", name(setting), stated_value(machine, setting), stated_sigma(machine, setting));
+/// \endcode
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "model/reading_model.hpp"
+
+namespace chaintrue::model {
+
+/// Settings of the machine itself, in the order in which they stand in results.
+inline constexpr std::array kMachineSettings = {
+    Setting::motor_left_x_mm,    Setting::motor_left_y_mm,     Setting::motor_right_x_mm,
+    Setting::motor_right_y_mm,   Setting::chain_zero_left_mm,  Setting::chain_zero_right_mm,
+};
+
+/// Settings of a sheet that was placed by hand.
+inline constexpr std::array kSheetSettings = {Setting::sheet_x_mm, Setting::sheet_y_mm,
+                                              Setting::sheet_rotation_rad};
+
+/// The word for a setting in files and messages (`motor_left_x_mm`, ...).
+[[nodiscard]] std::string_view name(Setting setting);
+[[nodiscard]] std::optional<Setting> setting_from_name(std::string_view word);
+
+/// What the machine says. \throws std::invalid_argument for a setting of the sheet: a machine has none.
+[[nodiscard]] double stated_value(const Machine& machine, Setting setting);
+/// One sigma of it, from the machine's stated uncertainty. \throws as stated_value.
+[[nodiscard]] double stated_sigma(const Machine& machine, Setting setting);
+/// The machine with that setting put to `value` (in the setting's unit). \throws as stated_value.
+[[nodiscard]] Machine with_setting(Machine machine, Setting setting, double value);
+
+}  // namespace chaintrue::model

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Where a sheet of marks lies on the bed: bed = R(rotation) mark + shift.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "model/coordinates.hpp"
+
+namespace chaintrue::model {
+
+struct SheetPlacement {
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+  /// Counter-clockwise, about the marks' origin.
+  double rotation_rad = 0.0;
+
+  [[nodiscard]] BedPoint to_bed(BedPoint mark) const;
+  [[nodiscard]] BedPoint to_mark(BedPoint bed) const;
+  /// d(bed)/d(mark): the rotation.
+  [[nodiscard]] Eigen::Matrix2d rotation() const;
+  /// d(bed)/d(x_mm, y_mm, rotation_rad)
+  [[nodiscard]] Eigen::Matrix<double, 2, 3> sensitivity(BedPoint mark) const;
+};
+
+}  // namespace chaintrue::model

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/equilibrium_kinematics.hpp"
+
+#include "model/equilibrium_newton.hpp"
+#include "model/forward_fallback.hpp"
+
+namespace chaintrue::model {
+namespace {
+
+ChainState chain_state(const EquilibriumConstants& m, double h, double v, double s) {
+  const double vb = v + m.chain.weight_n_per_mm * s;
+  ChainState state;
+  state.horizontal_n = h;
+  state.vertical_at_sled_n = v;
+  state.tension_at_sled_n = std::sqrt(h * h + v * v);
+  state.tension_at_sprocket_n = std::sqrt(h * h + vb * vb);
+  state.angle_rad = std::atan2(vb, h);
+  state.free_length_mm = s;
+  state.wrap_mm = m.wrap(state.angle_rad);
+  return state;
+}
+
+Pose pose_of(const EquilibriumConstants& m, const EquilibriumState& q, BedPoint p, int iterations) {
+  Pose pose;
+  pose.position = p;
+  pose.sled_rotation_rad = q.psi;
+  pose.chains.left = chain_state(m, q.h_left, q.v_left, q.s.left);
+  pose.chains.right = chain_state(m, q.h_left - m.f, m.W - q.v_left, q.s.right);
+  pose.lengths = {pose.chains.left.wrap_mm + q.s.left, pose.chains.right.wrap_mm + q.s.right};
+  pose.iterations = iterations;
+  return pose;
+}
+
+/// Newton on (1) and (2) from `q`. \returns iterations, or 0 where it did not settle.
+template <bool kRotates>
+int settle_inverse(const EquilibriumConstants& m, BedPoint p, EquilibriumState& q) {
+  for (int n = 1; n <= kMaxIterations; ++n) {
+    const PerSide<ChainTerms> t = terms_of(m, q);
+    Attachments a;
+    if constexpr (kRotates) a = attachments(m, q.psi);
+    EquilibriumLoad residual;
+    residual.u = {t.left.tip_u - (p.x_mm + a.left_x - m.motors.left.x_mm),
+                  t.right.tip_u - (m.motors.right.x_mm - p.x_mm - a.right_x)};
+    residual.y = {t.left.tip_y - (m.motors.left.y_mm - p.y_mm - a.left_y),
+                  t.right.tip_y - (m.motors.right.y_mm - p.y_mm - a.right_y)};
+    if constexpr (kRotates) residual.moment = moment_about_bit(m, a, t, q.psi);
+    const EquilibriumStep step = solve_linearised<kRotates>(m, t, residual, q.psi);
+    if (!std::isfinite(step.h_left + step.v_left + step.s.left + step.s.right + step.psi)) return 0;
+    if (advance<kRotates>(m, step, q)) return n;
+  }
+  return 0;
+}
+
+}  // namespace
+
+EquilibriumConstants equilibrium_constants(const EquilibriumParameters& parameters) {
+  EquilibriumConstants m;
+  m.motors = parameters.motors;
+  m.r = parameters.sprocket_radius_mm;
+  m.sg = parameters.feed == Feed::over_top ? 1.0 : -1.0;
+  if (const auto* ring = std::get_if<Ring>(&parameters.attachment)) m.rho = ring->radius_mm;
+  if (const auto* brackets = std::get_if<Brackets>(&parameters.attachment)) {
+    m.half_spacing = 0.5 * brackets->spacing_mm;
+    m.bracket_height = brackets->height_mm;
+    m.cg = brackets->cg_below_bit_mm;
+  }
+  m.W = parameters.sled_weight_n;
+  m.k = parameters.beam_flexibility_mm_per_n;
+  m.f = parameters.side_force_n;
+  m.chain = {parameters.chain_weight_n_per_mm, parameters.chain_compliance_per_n};
+  return m;
+}
+
+template <bool kRotates>
+PoseResult EquilibriumKinematics<kRotates>::inverse(BedPoint point) const {
+  if (const auto failure = domain_failure(limits_of(m_), point)) return tl::unexpected(*failure);
+  EquilibriumState q = straight_start(m_, point);
+  int iterations = settle_inverse<kRotates>(m_, point, q);
+  if (iterations == 0) {
+    iterations = settle_by_walking(
+        m_,
+        point,
+        q,
+        [this](BedPoint p) { return straight_start(m_, p); },
+        [this](BedPoint p, EquilibriumState& state) {
+          return settle_inverse<kRotates>(m_, p, state);
+        });
+  }
+  if (iterations == 0) return tl::unexpected(why_unsettled(m_, point));
+  return pose_of(m_, q, point, iterations);
+}
+
+template <bool kRotates>
+PoseResult EquilibriumKinematics<kRotates>::forward(ChainLengths lengths) const {
+  const DomainLimits limits = limits_of(m_);
+  if (!(lengths.left_mm > 0.0 && lengths.right_mm > 0.0 && std::isfinite(lengths.left_mm) &&
+        std::isfinite(lengths.right_mm))) {
+    return tl::unexpected(PoseFailure::too_short);
+  }
+  const CircleGuess guess = circle_guess(limits, lengths);
+  if (!guess.circles_meet) return forward_by_inverse(*this, limits, lengths);
+  EquilibriumState q = straight_start(m_, guess.point);
+  const double span = m_.motors.right.x_mm - m_.motors.left.x_mm;
+  const double rise = m_.motors.left.y_mm - m_.motors.right.y_mm;
+  for (int n = 1; n <= kMaxIterations; ++n) {
+    const PerSide<ChainTerms> t = terms_of(m_, q);
+    Attachments a;
+    if constexpr (kRotates) a = attachments(m_, q.psi);
+    // Each chain's S follows from its length: S + wrap(phi) = L, linearised.
+    struct Row {
+      double u_h, u_v, y_h, y_v, u, y, s_h, s_v, s;
+    };
+    const auto row = [this](const ChainTerms& c, double s, double length) {
+      const double per = 1.0 / (1.0 + m_.sg * m_.r * c.phi_s);
+      Row r{};
+      r.s = -(s + m_.wrap(std::atan2(c.vb, c.h)) - length) * per;
+      r.s_h = -m_.sg * m_.r * c.phi_h * per;
+      r.s_v = -m_.sg * m_.r * c.phi_v * per;
+      r.u_h = c.u_h + c.u_s * r.s_h;
+      r.u_v = c.u_v + c.u_s * r.s_v;
+      r.y_h = c.y_h + c.y_s * r.s_h;
+      r.y_v = c.y_v + c.y_s * r.s_v;
+      r.u = c.tip_u + c.u_s * r.s;
+      r.y = c.tip_y + c.y_s * r.s;
+      return r;
+    };
+    const Row l = row(t.left, q.s.left, lengths.left_mm);
+    const Row r = row(t.right, q.s.right, lengths.right_mm);
+    // Both chains end at one sled: across and in height.
+    const double cx = l.u + r.u - a.left_x + a.right_x - span;
+    const double cy = l.y - r.y + a.left_y - a.right_y - rise;
+    const double a00 = l.u_h + r.u_h, a01 = l.u_v - r.u_v, a10 = l.y_h - r.y_h, a11 = l.y_v + r.y_v;
+    EquilibriumStep step;
+    if constexpr (kRotates) {
+      const double p0 = a.left_y - a.right_y, p1 = a.left_x - a.right_x;
+      const double mh = a.left_y - a.right_y, mv = a.left_x - a.right_x;
+      const double mp = moment_by_psi(m_, a, t, q.psi), mm = moment_about_bit(m_, a, t, q.psi);
+      const double c0 = a11 * mp - p1 * mv, c1 = p1 * mh - a10 * mp, c2 = a10 * mv - a11 * mh;
+      const double per_det = 1.0 / (a00 * c0 + a01 * c1 + p0 * c2);
+      const double d0 = -cy * mp + p1 * mm, d1 = -cy * mv + a11 * mm, d2 = -a10 * mm + cy * mh;
+      step.h_left = per_det * (-cx * c0 - a01 * d0 + p0 * d1);
+      step.v_left = per_det * (a00 * d0 - cx * c1 + p0 * d2);
+      step.psi = per_det * (-cx * c2 - a01 * d2 - a00 * d1);
+    } else {
+      const double per_det = 1.0 / (a00 * a11 - a01 * a10);
+      step.h_left = per_det * (a01 * cy - a11 * cx);
+      step.v_left = per_det * (a10 * cx - a00 * cy);
+    }
+    step.h_right = step.h_left;
+    step.v_right = -step.v_left;
+    step.s.left = l.s + l.s_h * step.h_left + l.s_v * step.v_left;
+    step.s.right = r.s + r.s_h * step.h_right + r.s_v * step.v_right;
+    if (!std::isfinite(step.h_left + step.v_left + step.s.left + step.s.right + step.psi)) break;
+    if (!advance<kRotates>(m_, step, q)) continue;
+    const PerSide<ChainTerms> end = terms_of(m_, q);
+    if constexpr (kRotates) a = attachments(m_, q.psi);
+    // Left and right say the same to rounding; their mean keeps the mirror exact.
+    const BedPoint p{0.5 * (m_.motors.left.x_mm + end.left.tip_u - a.left_x +
+                            (m_.motors.right.x_mm - end.right.tip_u - a.right_x)),
+                     0.5 * (m_.motors.left.y_mm - end.left.tip_y - a.left_y +
+                            (m_.motors.right.y_mm - end.right.tip_y - a.right_y))};
+    if (domain_failure(limits, p)) break;
+    return pose_of(m_, q, p, n);
+  }
+  return forward_by_inverse(*this, limits, lengths);
+}
+
+template class EquilibriumKinematics<false>;
+template class EquilibriumKinematics<true>;
+
+}  // namespace chaintrue::model

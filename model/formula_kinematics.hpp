@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Kinematics from a closed formula for a ring sled: straight line, wrap, the firmware's chain of
+/// formulas, the one-shot catenary. Derivatives are exact (dual.hpp). Tensions in the pose are
+/// those of straight weightless chains along the formula's angles.
+#pragma once
+
+#include "model/chain_formulas.hpp"
+#include "model/inverse_domain.hpp"
+#include "model/kinematics.hpp"
+
+namespace chaintrue::model {
+
+enum class Formula { straight, wrap, firmware, one_shot };
+
+class FormulaKinematics final : public Kinematics {
+ public:
+  /// \throws std::invalid_argument for brackets: the closed formulas know no rotating sled.
+  FormulaKinematics(const EquilibriumParameters& parameters,
+                    Formula formula,
+                    const Tolerances& tolerance = {});
+  [[nodiscard]] PoseResult inverse(BedPoint point) const override;
+  [[nodiscard]] PoseResult forward(ChainLengths lengths) const override;
+  [[nodiscard]] Eigen::Matrix2d jacobian(const Pose& pose) const override;
+  /// Zero for what the formula does not know: the firmware's sag factor is a number of its own and
+  /// no weight.
+  [[nodiscard]] Eigen::Vector2d sensitivity(const Pose& pose, Parameter parameter) const override;
+
+ private:
+  template <class T>
+  [[nodiscard]] FormulaLengths<T> lengths(const FormulaInputs<T>& in) const;
+  template <class T>
+  [[nodiscard]] FormulaInputs<T> inputs(BedPoint point) const;
+
+  EquilibriumParameters parameters_;
+  Formula formula_;
+  Tolerances tolerance_;
+  DomainLimits limits_;
+};
+
+}  // namespace chaintrue::model

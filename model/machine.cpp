@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/machine.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+namespace chaintrue::model {
+namespace {
+
+/// Collects what is wrong. Ranges hold every real hanging router with room to spare, so that what
+/// is outside is a slip.
+class Checker {
+ public:
+  void range(std::string_view place,
+             double value,
+             double least,
+             double most,
+             std::string_view unit,
+             std::string_view slip = "") {
+    if (value >= least && value <= most) return;  // false for NaN
+    std::string expected = fmt::format("a number from {} to {} {}", least, most, unit);
+    while (!expected.empty() && expected.back() == ' ') expected.pop_back();
+    if (std::isfinite(value) && !slip.empty()) expected += fmt::format("; {}", slip);
+    add(place, fmt::format("{}", value), std::move(expected));
+  }
+  void add(std::string_view place, std::string value, std::string expected) {
+    problems_.push_back({std::string(place), std::move(value), std::move(expected)});
+  }
+  [[nodiscard]] std::vector<MachineProblem> take() { return std::move(problems_); }
+
+ private:
+  std::vector<MachineProblem> problems_;
+};
+
+constexpr std::string_view kInches = "was it given in inches?";
+
+void check_motors(const Machine& machine, Checker& check) {
+  const MotorPosition &l = machine.motors.left, &r = machine.motors.right;
+  check.range("/motors/left/x_mm", l.x_mm, -20000, 20000, "mm");
+  check.range("/motors/left/y_mm", l.y_mm, -20000, 20000, "mm");
+  check.range("/motors/right/x_mm", r.x_mm, -20000, 20000, "mm");
+  check.range("/motors/right/y_mm", r.y_mm, -20000, 20000, "mm");
+  if (!std::isfinite(l.x_mm + l.y_mm + r.x_mm + r.y_mm)) return;
+  const double spacing = r.x_mm - l.x_mm;
+  if (spacing <= 0.0) {
+    check.add(
+        "/motors/left/x_mm",
+        fmt::format("{}", l.x_mm),
+        fmt::format("the left motor left of the right one, whose x_mm is {}; were they swapped?",
+                    r.x_mm));
+  } else if (spacing < 300.0) {
+    check.add("/motors/right/x_mm",
+              fmt::format("{}", r.x_mm),
+              fmt::format("motors at least 300 mm apart, not {}; {}", spacing, kInches));
+  } else if (std::abs(l.y_mm - r.y_mm) > 0.2 * spacing) {
+    check.add(
+        "/motors/right/y_mm",
+        fmt::format("{}", r.y_mm),
+        fmt::format(
+            "a beam that rises less than a fifth of its length, but the left motor's y_mm is {}",
+            l.y_mm));
+  }
+  if (!std::isfinite(machine.bed.height_mm)) return;
+  const double top = 0.5 * machine.bed.height_mm;
+  for (const Side side : kSides) {
+    const double y = machine.motors[side].y_mm;
+    if (y > top) continue;
+    const char* place = side == Side::left ? "/motors/left/y_mm" : "/motors/right/y_mm";
+    check.add(place,
+              fmt::format("{}", y),
+              fmt::format("a motor above the bed's top edge at y_mm = {} (y points up, the origin "
+                          "is the bed's centre)",
+                          top));
+  }
+}
+
+void check_attachment(const Attachment& attachment, Checker& check) {
+  if (const auto* ring = std::get_if<Ring>(&attachment)) {
+    check.range("/attachment/radius_mm", ring->radius_mm, 0, 1000, "mm");
+    if (ring->radius_mm > 0 && ring->radius_mm < 20) {
+      check.add("/attachment/radius_mm",
+                fmt::format("{}", ring->radius_mm),
+                fmt::format("0 (chains to the bit) or at least 20 mm; {}", kInches));
+    }
+    return;
+  }
+  const auto& brackets = std::get<Brackets>(attachment);
+  check.range("/attachment/spacing_mm", brackets.spacing_mm, 20, 2000, "mm", kInches);
+  check.range("/attachment/height_mm", brackets.height_mm, 0, 2000, "mm");
+  check.range("/attachment/cg_below_bit_mm", brackets.cg_below_bit_mm, 0, 2000, "mm");
+}
+
+void check_controller(const ControllerSettings& s, Checker& check) {
+  const auto optional = [&check](std::string_view key,
+                                 const std::optional<double>& value,
+                                 double least,
+                                 double most,
+                                 std::string_view unit) {
+    if (value) check.range(fmt::format("/controller/settings/{}", key), *value, least, most, unit);
+  };
+  optional("bedwidth", s.bed_width_mm, 100, 20000, "mm");
+  optional("bedheight", s.bed_height_mm, 100, 20000, "mm");
+  optional("motorspacingx", s.motor_spacing_mm, 300, 40000, "mm");
+  optional("motoroffsety", s.motor_offset_y_mm, 0, 10000, "mm");
+  optional("rotationradius", s.rotation_radius_mm, 0, 1000, "mm");
+  optional("chainsagcorrection", s.chain_sag_correction, -1000, 1000, "(1e-12 / mm^2)");
+  optional("leftchaintolerance", s.left_chain_tolerance_percent, -10, 10, "percent");
+  optional("rightchaintolerance", s.right_chain_tolerance_percent, -10, 10, "percent");
+  optional("topbeamtilt", s.top_beam_tilt_deg, -20, 20, "degrees");
+  optional("chainpitch", s.chain_pitch_mm, 1, 50, "mm");
+  optional("gearteeth", s.gear_teeth, 3, 100, "teeth");
+  optional("sledweight", s.sled_weight_n, 1e-3, 10000, "N");
+  optional("chainelongationfactor", s.chain_elongation_per_n, 0, 1e-3, "1/N");
+}
+
+}  // namespace
+
+double Sprocket::effective_radius_mm() const {
+  return radius_mm.value_or(pitch_mm * teeth / (2.0 * std::numbers::pi));
+}
+
+std::vector<MachineProblem> problems_of(const Machine& machine) {
+  Checker check;
+  check.range("/bed/width_mm", machine.bed.width_mm, 200, 20000, "mm", kInches);
+  check.range("/bed/height_mm", machine.bed.height_mm, 200, 20000, "mm", kInches);
+  check_motors(machine, check);
+  check.range("/sprocket/teeth", machine.sprocket.teeth, 3, 100, "teeth");
+  check.range("/sprocket/pitch_mm", machine.sprocket.pitch_mm, 1, 50, "mm", kInches);
+  if (machine.sprocket.radius_mm) {
+    check.range("/sprocket/radius_mm", *machine.sprocket.radius_mm, 1, 200, "mm", kInches);
+  }
+  check_attachment(machine.attachment, check);
+  check.range("/chain/mass_kg_per_m",
+              machine.chain.mass_kg_per_m,
+              0,
+              5,
+              "kg/m",
+              "was it given in grams per metre?");
+  check.range("/chain/compliance_per_n",
+              machine.chain.compliance_per_n,
+              0,
+              1e-3,
+              "1/N",
+              "it is a strain per newton, about 5e-6 for a #25 chain");
+  check.range("/chain_zero/left_mm", machine.chain_zero.left_mm, -20000, 20000, "mm");
+  check.range("/chain_zero/right_mm", machine.chain_zero.right_mm, -20000, 20000, "mm");
+  check.range("/sled/mass_kg", machine.sled.mass_kg, 0.05, 200, "kg", "was it given in grams?");
+  check.range("/frame/tilt_from_vertical_deg",
+              machine.frame.tilt_from_vertical_deg,
+              0,
+              75,
+              "degrees",
+              "it counts from the vertical, not from the floor");
+  check.range(
+      "/uncertainty/motor_position_mm", machine.uncertainty.motor_position_mm, 0, 1000, "mm");
+  check.range("/uncertainty/chain_zero_mm", machine.uncertainty.chain_zero_mm, 0, 1000, "mm");
+  check.range("/uncertainty/ring_radius_mm", machine.uncertainty.ring_radius_mm, 0, 1000, "mm");
+  check_controller(machine.controller.settings, check);
+  for (std::size_t i = 0; i < machine.effects.size(); ++i) {
+    for (const auto& [key, value] : machine.effects[i].parameters) {
+      if (std::isfinite(value)) continue;
+      check.add(fmt::format("/effects/{}/parameters/{}", i, key),
+                fmt::format("{}", value),
+                "a finite number");
+    }
+  }
+  return check.take();
+}
+
+}  // namespace chaintrue::model
