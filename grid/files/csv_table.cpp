@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/csv_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 namespace chaintrue::grid::files {
 namespace {
@@ -72,11 +72,7 @@ CsvCell take_cell(std::string_view line,
   return cell;
 }
 
-bool is_number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && !text.empty();
-}
+bool is_number(std::string_view text) { return number_of(text).has_value(); }
 
 /// Most rows have more cells than the header, all of them numbers: `1200,5,300` is one number too
 /// many.
@@ -193,30 +189,6 @@ char separator_of(std::string_view text) {
   return best;
 }
 
-std::optional<double> csv_number(const CsvCell& cell,
-                                 std::string_view name,
-                                 const Range& range,
-                                 Problems& problems) {
-  std::string_view text = cell.text;
-  // from_chars takes no plus sign.
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = !text.empty() && end == text.data() + text.size();
-  // Below the smallest double is zero, to the accuracy of any tape.
-  const bool vanishing = whole && error == std::errc::result_out_of_range &&
-                         text.find_first_of("eE") != std::string_view::npos &&
-                         text[text.find_first_of("eE") + 1] == '-';
-  if (vanishing) value = 0.0;
-  if (whole && (error == std::errc{} || vanishing) && value >= range.least && value <= range.most) {
-    return value;
-  }
-  const std::string hint =
-      looks_like_decimal_comma(cell.text) ? ", with a decimal point, not a comma" : "";
-  problems.add(cell.place(), cell.text, fmt::format("{} ({}){}", range.expected(), name, hint));
-  return std::nullopt;
-}
-
 CsvTable read_csv(std::string_view text,
                   const std::vector<CsvColumn>& columns,
                   Problems& problems) {
@@ -259,7 +231,8 @@ CsvTable read_csv(std::string_view text,
         }
         continue;
       }
-      values[c] = csv_number(cells[c], columns[c].name, columns[c].range, problems);
+      values[c] = checked_number(
+          cells[c].text, cells[c].place(), columns[c].name, columns[c].range, problems);
     }
     table.clean.push_back(problems.list().size() == problems_before);
     table.rows.push_back(std::move(values));

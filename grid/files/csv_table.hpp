@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "grid/files/json_reader.hpp"
+#include "grid/files/number_text.hpp"
 #include "grid/files/problems.hpp"
 
 namespace chaintrue::grid::files {
@@ -32,12 +32,6 @@ using CsvRow = std::vector<CsvCell>;
 /// Of comma, semicolon and tab the one that the first line with cells has most of; a comma where
 /// there is none.
 [[nodiscard]] char separator_of(std::string_view text);
-/// A finite number in range; otherwise reports and gives nothing. `name` says whose value it is.
-[[nodiscard]] std::optional<double> csv_number(const CsvCell& cell,
-                                               std::string_view name,
-                                               const Range& range,
-                                               Problems& problems);
-
 struct CsvColumn {
   std::string name;
   Range range;

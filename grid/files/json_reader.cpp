@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/json_reader.hpp"
 
-#include <charconv>
 #include <cmath>
 
 namespace chaintrue::grid::files {
@@ -12,34 +11,20 @@ constexpr std::string_view kFormatVersion = "1.0";
 const Json kNull;
 
 /// What a text that stands in a number's place probably was meant to be.
-std::string hint_for_text(const std::string& text) {
+std::string_view hint_for_text(std::string_view text) {
   if (looks_like_decimal_comma(text)) return ", with a decimal point and without quotes";
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = !text.empty() && end == text.data() + text.size();
-  if (whole && error == std::errc{} && std::isfinite(value)) return ", without quotes";
-  return {};
+  return number_of(text) ? ", without quotes" : "";
 }
 
 /// NaN, Infinity and 1e999 reach the fields as texts (json_text.hpp); they are shown as they stand
 /// in the file.
 std::string shown(const Json& value) {
-  if (value.is_string()) {
-    const auto& text = value.get_ref<const std::string&>();
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool whole = !text.empty() && end == text.data() + text.size();
-    if (whole && (error == std::errc::result_out_of_range || !std::isfinite(number))) return text;
-  }
-  return compact_json(value);
+  const bool as_it_stands =
+      value.is_string() && is_beyond_double(value.get_ref<const std::string&>());
+  return as_it_stands ? value.get<std::string>() : compact_json(value);
 }
 
 }  // namespace
-
-std::string Range::expected() const {
-  const std::string in_unit = unit.empty() ? std::string() : fmt::format(" in {}", unit);
-  return fmt::format("a number{} from {} to {}", in_unit, least, most);
-}
 
 std::string Cursor::pointer() const {
   if (parent_ == nullptr) return {};
@@ -69,15 +54,10 @@ void Cursor::missing(std::string expected) const {
 }
 
 std::optional<double> Cursor::number(const Range& range) const {
-  if (json_->is_number()) {
-    const double value = json_->get<double>();
-    if (value >= range.least && value <= range.most) return value;
-    expect(range.expected());
-    return std::nullopt;
-  }
-  const std::string hint =
-      json_->is_string() ? hint_for_text(json_->get_ref<const std::string&>()) : std::string();
-  expect(range.expected() + hint);
+  if (json_->is_number() && range.holds(json_->get<double>())) return json_->get<double>();
+  std::string expected = range.expected();
+  if (json_->is_string()) expected += hint_for_text(json_->get_ref<const std::string&>());
+  expect(std::move(expected));
   return std::nullopt;
 }
 

@@ -57,16 +57,9 @@
 #include <vector>
 
 #include "grid/files/json_text.hpp"
+#include "grid/files/number_text.hpp"
 
 namespace chaintrue::grid::files {
-
-/// What a number may be; `unit` may be empty. Both ends are allowed.
-struct Range {
-  std::string_view unit;
-  double least = 0.0;
-  double most = 0.0;
-  [[nodiscard]] std::string expected() const;
-};
 
 /// A place in the document: the value, the way to it, and where to say what is wrong. Lives on the
 /// stack while its parents do.

@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <unordered_set>
 #include <vector>
+
+#include "grid/files/number_text.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -19,24 +20,6 @@ constexpr std::size_t kLineWidth = 100;
 bool is_word_character(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' ||
          c == '-' || c == '.';
-}
-
-bool is_word_for_no_number(std::string_view word) {
-  if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.remove_prefix(1);
-  std::string lower(word);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return lower == "nan" || lower == "inf" || lower == "infinity";
-}
-
-bool is_number_beyond_double(std::string_view word) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  // A number too small to tell from zero is out of range as well, but JSON readers take it for
-  // zero.
-  return error == std::errc::result_out_of_range && end == word.data() + word.size() &&
-         word.find("e-") == std::string_view::npos && word.find("E-") == std::string_view::npos;
 }
 
 /// The text with NaN, Infinity, 1e999 and their like between quotes, and where the quotes were put.
@@ -71,7 +54,7 @@ QuotedText quote_what_is_no_number(std::string_view source) {
     std::size_t end = i;
     while (end < source.size() && is_word_character(source[end])) ++end;
     const std::string_view word = source.substr(i, end - i);
-    const bool quotes_needed = is_word_for_no_number(word) || is_number_beyond_double(word);
+    const bool quotes_needed = is_beyond_double(word);
     if (quotes_needed) quote();
     quoted.text += word;
     if (quotes_needed) quote();
@@ -271,10 +254,21 @@ void append_wrapped_numbers(const Json& numbers, std::size_t indent, std::string
   out += "\n" + std::string(indent, ' ') + "]";
 }
 
-void append_pretty(const Json& value, std::size_t indent, std::size_t used, std::string& out) {
+bool holds_scalars_only(const Json& value) {
+  return std::none_of(value.begin(), value.end(), [](const Json& v) { return v.is_structured(); });
+}
+
+/// A record in a list stays on one line, however long: a point is a line.
+bool is_a_line(const Json& value, bool in_list, std::size_t used, std::size_t length) {
+  return !value.is_structured() || value.empty() || used + length <= kLineWidth ||
+         (in_list && value.is_object() && holds_scalars_only(value));
+}
+
+void append_pretty(
+    const Json& value, bool in_list, std::size_t indent, std::size_t used, std::string& out) {
   std::string compact;
   append_compact(value, compact);
-  if (!value.is_structured() || value.empty() || used + compact.size() <= kLineWidth) {
+  if (is_a_line(value, in_list, used, compact.size())) {
     out += compact;
     return;
   }
@@ -289,7 +283,7 @@ void append_pretty(const Json& value, std::size_t indent, std::size_t used, std:
   for (const auto& [key, element] : value.items()) {
     const std::string label = object ? quoted_text(key) + ": " : "";
     out += "\n" + std::string(indent + 2, ' ') + label;
-    append_pretty(element, indent + 2, indent + 3 + label.size(), out);
+    append_pretty(element, !object, indent + 2, indent + 3 + label.size(), out);
     if (--left > 0) out += ',';
   }
   out += "\n" + std::string(indent, ' ') + (object ? "}" : "]");
@@ -312,7 +306,7 @@ Json parse_json(const std::string& text, Problems& problems) {
 
 std::string print_json(const Json& value) {
   std::string out;
-  append_pretty(value, 0, 0, out);
+  append_pretty(value, false, 0, 0, out);
   out += '\n';
   return out;
 }

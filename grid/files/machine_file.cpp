@@ -323,8 +323,10 @@ Machine read_machine(const std::filesystem::path& path) {
   return read_machine_with_warnings(path).machine;
 }
 
-std::string write_machine(const Machine& machine) {
-  return write_document(machine_record(), machine);
+std::string write_machine(const Machine& machine, const std::vector<std::string>& comments) {
+  Json json = machine_record().write(machine);
+  if (!comments.empty()) json["comment"] = comments;
+  return print_json(json);
 }
 
 }  // namespace chaintrue::grid::files

@@ -30,7 +30,9 @@ struct ReadMachine {
 [[nodiscard]] model::Machine parse_machine(const std::string& text, const std::string& file);
 [[nodiscard]] ReadMachine parse_machine_with_warnings(const std::string& text,
                                                       const std::string& file);
+/// `comments` go under the key "comment", one line each; readers pass over them.
 /// \throws std::logic_error where a number of the machine is not finite.
-[[nodiscard]] std::string write_machine(const model::Machine& machine);
+[[nodiscard]] std::string write_machine(const model::Machine& machine,
+                                        const std::vector<std::string>& comments = {});
 
 }  // namespace chaintrue::grid::files

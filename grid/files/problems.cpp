@@ -29,8 +29,6 @@ std::size_t slips_between(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 }  // namespace
 
 void Problems::add(std::string place, std::string_view value, std::string expected) {
@@ -122,18 +120,6 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 
 std::string joined(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
-}
-
-bool looks_like_decimal_comma(std::string_view text) {
-  const std::size_t comma = text.find(',');
-  if (comma == std::string_view::npos || text.find(',', comma + 1) != std::string_view::npos) {
-    return false;
-  }
-  if (comma == 0 || comma + 1 == text.size()) return false;
-  if (!is_digit(text[comma - 1]) || !is_digit(text[comma + 1])) return false;
-  return std::all_of(text.begin(), text.end(), [](char c) {
-    return is_digit(c) || c == ',' || c == '.' || c == '-' || c == '+' || c == ' ';
-  });
 }
 
 }  // namespace chaintrue::grid::files

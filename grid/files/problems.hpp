@@ -57,7 +57,5 @@ class Problems {
                                   const std::vector<std::string>& candidates);
 /// `a, b, c`
 [[nodiscard]] std::string joined(const std::vector<std::string>& words);
-/// True for `12,5` and `-1.200,5`: a number written with a decimal comma.
-[[nodiscard]] bool looks_like_decimal_comma(std::string_view text);
 
 }  // namespace chaintrue::grid::files

@@ -122,7 +122,7 @@ struct DirectSurface {
 /// Everything that a map file holds.
 struct MapContents {
   std::string name;
-  std::variant<ModelSurface, DirectSurface> surface;
+  std::variant<DirectSurface, ModelSurface> surface;
   std::vector<model::BedPoint> hull;
   double edge_mm = 0.0;
   interp::Rectangle domain;

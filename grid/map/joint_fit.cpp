@@ -310,6 +310,7 @@ JointFit JointFitter::result() const {
     fit.surface.scale[side] = fit_.coefficients[columns_.scale(side)];
     fit.surface.coefficients[side] = fit_.coefficients.segment(columns_.spline(side), basis_.size());
   }
+  const model::ReadingModel model(fit.machine);
   for (std::size_t i = 0; i < white_.size(); ++i) {
     const WhitePoint& white = white_[i];
     const auto at = static_cast<Eigen::Index>(i);
@@ -320,6 +321,12 @@ JointFit JointFitter::result() const {
     point.distance = distances_[at];
     point.residual_mm = back * (white.response - white.design * fit_.coefficients);
     point.left_out_residual_mm = back * left_out({i}).front();
+    // linearise() reached every point at this very theta.
+    const model::PointReading reading = model.at(fit.sheet.to_bed(point.point.mark)).value();
+    point.mark_jacobian = fit.surface
+                              .apply(point.point.mark, reading.lengths,
+                                     reading.position_jacobian * fit.sheet.rotation())
+                              .mark_jacobian;
     fit.points.push_back(point);
   }
   fit.blocked_residual_mm.resize(white_.size());

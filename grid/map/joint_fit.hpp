@@ -52,12 +52,10 @@ struct FittedPoint {
   LengthPoint point;
   bool bad = false;
   double distance = 0.0;  ///< of the left-out residual, in sigmas
-  /// Measured minus predicted, in the chains and at the tool (how far the tool was beyond where the map thinks).
-  Eigen::Vector2d stated_residual_mm;     ///< of the machine as stated
-  Eigen::Vector2d placed_residual_mm;     ///< of the machine as stated, the sheet laid as well as it can be
-  Eigen::Vector2d residual_mm;            ///< of the finished map
-  Eigen::Vector2d left_out_residual_mm;   ///< of a map made without this point
-  Eigen::Matrix2d mark_jacobian;          ///< d(lengths)/d(mark)
+  /// Measured minus predicted, in the chains.
+  Eigen::Vector2d residual_mm;           ///< of the finished map
+  Eigen::Vector2d left_out_residual_mm;  ///< of a map made without this point
+  Eigen::Matrix2d mark_jacobian;         ///< d(lengths)/d(mark)
 };
 
 struct JointFit {
