@@ -8,7 +8,10 @@
 #include <benchmark/benchmark.h>
 #include <libalglib/interpolation.h>
 
+#include "interp/bspline_basis.hpp"
 #include "interp/compiled_pair.hpp"
+#include "interp/reml.hpp"
+#include "interp/scattered_fit.hpp"
 #include "interp/tensor_spline.hpp"
 
 namespace {
@@ -163,6 +166,95 @@ void inverse(benchmark::State& state) {
   per_point(state, targets.size());
 }
 
+double smooth(double x, double y) { return 0.8 * std::sin(x / 500 + 0.3) * std::cos(y / 400); }
+
+std::vector<ScatteredPoint> scattered_points(std::size_t count) {
+  std::mt19937_64 random(2);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  std::vector<ScatteredPoint> points;
+  for (const PlanePoint& p : random_points(count)) {
+    // A sum of twelve uniform numbers less six is nearly normal: noise of 0.3.
+    double noise = -6.0;
+    for (int k = 0; k < 12; ++k) noise += uniform();
+    points.push_back({p.x, p.y, smooth(p.x, p.y) + 0.3 * noise, 0.3});
+  }
+  return points;
+}
+
+// One surface, with the choice of smoothing, the covariance and the left-out error of every point.
+void scattered(benchmark::State& state, std::size_t count) {
+  const auto points = scattered_points(count);
+  ScatteredOptions options;
+  options.rectangle = kBed;
+  options.noise.knowledge = NoiseKnowledge::kExact;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(fit_scattered(points, options));
+  }
+  const auto surface = fit_scattered(points, options).value();
+  double square = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const double x = kBed.x_min + kBed.width() * (i % 20 + 0.5) / 20;
+    const double y = kBed.y_min + kBed.height() * (static_cast<double>(i / 20) + 0.5) / 20;
+    const double off = surface.at(x, y).value - smooth(x, y);
+    square += off * off / 400;
+  }
+  state.counters["rms_um"] = 1000 * std::sqrt(square);
+}
+
+void alglib_scattered(benchmark::State& state, std::size_t count) {
+  const auto points = scattered_points(count);
+  alglib::real_2d_array xyz;
+  xyz.setlength(static_cast<alglib::ae_int_t>(count), 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto row = static_cast<alglib::ae_int_t>(i);
+    xyz(row, 0) = points[i].x;
+    xyz(row, 1) = points[i].y;
+    xyz(row, 2) = points[i].z;
+  }
+  for (auto _ : state) {
+    alglib::spline2dbuilder builder;
+    alglib::spline2dinterpolant spline;
+    alglib::spline2dfitreport report;
+    alglib::spline2dbuildercreate(1, builder);
+    alglib::spline2dbuildersetpoints(builder, xyz, static_cast<alglib::ae_int_t>(count));
+    alglib::spline2dbuildersetgrid(builder, 12, 6);
+    // Its smoothing is the user's to choose; one try of one value.
+    alglib::spline2dbuildersetalgoblocklls(builder, 0.1);
+    alglib::spline2dfit(builder, spline, report);
+    benchmark::DoNotOptimize(report.rmserror);
+  }
+}
+
+// Two fields and eight shared settings, as a machine's two chains: what the joint fit asks of REML.
+void joint_reml(benchmark::State& state, std::size_t count, bool corrected) {
+  constexpr Eigen::Index kShared = 8;
+  const BsplineBasis basis(kBed, 8, 4);
+  const Eigen::Index m = basis.size();
+  const auto points = scattered_points(count);
+  PenalisedProblem problem(2 * m + kShared);
+  for (const ScatteredPoint& p : points) {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, 2 * m + kShared);
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      rows.row(k).segment(k * m, m) = basis.row(p.x, p.y).transpose() / p.sigma;
+      for (Eigen::Index j = 0; j < kShared; ++j) {
+        const auto wave = static_cast<double>(j + k);
+        rows(k, 2 * m + j) = std::sin(wave * p.x / 1500 + wave * wave * p.y / 900) / p.sigma;
+      }
+    }
+    problem.add_rows(rows, Eigen::VectorXd::Constant(2, p.z / p.sigma));
+  }
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    problem.penalties.push_back({k * m, basis.thin_plate_penalty(), basis.thin_plate_rank()});
+  }
+  problem.prior_precision = Eigen::MatrixXd::Zero(2 * m + kShared, 2 * m + kShared);
+  problem.prior_precision.bottomRightCorner(kShared, kShared).setIdentity();
+  FitOptions options;
+  options.correct_covariance = corrected;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(fit_penalised(problem, options));
+  }
+}
+
 const bool registered = [] {
   struct Size {
     const char* name;
@@ -185,7 +277,20 @@ const bool registered = [] {
     add("surface/build/" + name, [=](benchmark::State& s) { build(s, nx, ny); });
     add("surface/alglib/build/" + name, [=](benchmark::State& s) { alglib_build(s, nx, ny); });
   }
-  benchmark::RegisterBenchmark("surface/inverse/101x51", inverse);
+  benchmark::RegisterBenchmark("surface/inverse/100x50", inverse);
+  for (const std::size_t count : {200U, 2000U}) {
+    const std::string points = std::to_string(count) + "_points";
+    benchmark::RegisterBenchmark(("surface/scattered/" + points).c_str(),
+                                 [=](benchmark::State& s) { scattered(s, count); });
+    benchmark::RegisterBenchmark(("surface/alglib/scattered/" + points).c_str(),
+                                 [=](benchmark::State& s) { alglib_scattered(s, count); });
+  }
+  for (const bool corrected : {false, true}) {
+    const std::string name =
+        corrected ? "surface/joint_reml_averaged/28_points" : "surface/joint_reml/28_points";
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [=](benchmark::State& s) { joint_reml(s, 28, corrected); });
+  }
   return true;
 }();
 
