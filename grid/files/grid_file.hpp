@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue_grid files, JSON or CSV. Unknown keys are errors, except "comment". Same grid, same bytes.
+/// chaintrue_grid files, JSON or CSV. Unknown keys are errors, except "comment". Same grid, same
+/// bytes.
+///
+/// A CSV has a header line with the names of its columns in any order: x_mm, y_mm, left_mm,
+/// right_mm, and where wanted order, commanded_x_mm, commanded_y_mm. Cells are parted by commas,
+/// semicolons or tabs; numbers have a decimal point; lines that begin with # are comments; an empty
+/// cell is an absent value.
+///
+/// \code
+///   const ReadGrid read = read_grid("grid.csv", {.machine = read_machine("machine.json")});
+///   for (const Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+///   fit(read.grid);
+/// \endcode
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "grid/files/input_error.hpp"
 #include "grid/measured_grid.hpp"
 
 namespace chaintrue::grid::files {
@@ -15,13 +30,28 @@ namespace chaintrue::grid::files {
 struct GridOptions {
   std::optional<model::Machine> machine;  ///< --machine
   std::optional<StatedNoise> noise;       ///< --noise-length-mm, --noise-position-mm, --noise-dof
+  /// From this many on, the points must also span an area. A handful that only checks a map
+  /// passes 1.
+  std::size_t fewest_points = 8;
 };
 
-/// "-" reads standard input. A file that begins with "{" is JSON, anything else CSV with a header line. Slips that can
-/// be recognised (columns swapped left for right, inches for mm, decimal commas) are said in words.
-/// \throws InputError with every problem of the file.
-[[nodiscard]] MeasuredGrid read_grid(const std::filesystem::path& path, const GridOptions& options = {});
-[[nodiscard]] MeasuredGrid parse_grid(const std::string& text, const std::string& file, const GridOptions& options = {});
+struct ReadGrid {
+  MeasuredGrid grid;
+  /// What is odd but not fatal: points measured twice that disagree, values that were assumed.
+  std::vector<Warning> warnings;
+};
+
+/// "-" reads standard input. A file that begins with "{" is JSON, anything else CSV with a header
+/// line. Slips that can be recognised (columns swapped left for right, inches for mm, decimal
+/// commas) are said in words. A "machine_file" is looked for beside the grid's file. \throws
+/// InputError with every problem of the file.
+[[nodiscard]] ReadGrid read_grid(const std::filesystem::path& path,
+                                 const GridOptions& options = {});
+/// `file` is the name used in messages, and its folder is where a "machine_file" is looked for.
+[[nodiscard]] ReadGrid parse_grid(const std::string& text,
+                                  const std::string& file,
+                                  const GridOptions& options = {});
+/// JSON. \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_grid(const MeasuredGrid& grid);
 
 }  // namespace chaintrue::grid::files

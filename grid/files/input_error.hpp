@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Bad input, reported whole: every problem of a file at once, each with file, place, value found and what was expected.
+/// Bad input, reported whole: every problem of a file at once, each with file, place, value found
+/// and what was expected.
 #pragma once
 
 #include <stdexcept>
@@ -18,6 +19,17 @@ struct InputProblem {
   /// A sentence: what was expected, and the likely slip where one is recognised.
   std::string expected;
   /// `grid.json: /points/3/x_mm: found "abc", expected a number in mm`
+  [[nodiscard]] std::string message() const;
+};
+
+/// Something odd that does not stop the reading; the caller prints it.
+struct Warning {
+  std::string file;
+  /// As in InputProblem.
+  std::string place;
+  /// A whole sentence.
+  std::string sentence;
+  /// `grid.json: /points/3: ...`
   [[nodiscard]] std::string message() const;
 };
 

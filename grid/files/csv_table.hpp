@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A small CSV of numbers under a header line. Private to grid/files. Knows what spreadsheets make
+/// of such a file: a byte order mark, CRLF, semicolons or tabs, quoted cells, blank lines, trailing
+/// separators; lines that begin with # are comments. Numbers are read without the locale.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/files/number_text.hpp"
+#include "grid/files/problems.hpp"
+
+namespace chaintrue::grid::files {
+
+struct CsvCell {
+  std::string text;
+  std::size_t line = 0;
+  std::size_t column = 0;
+  [[nodiscard]] std::string place() const { return line_and_column(line, column); }
+};
+
+using CsvRow = std::vector<CsvCell>;
+
+/// The lines that are neither blank nor comments, cut at `separator`. Blanks around cells and
+/// quotes are taken off.
+[[nodiscard]] std::vector<CsvRow> split_csv(std::string_view text,
+                                            char separator,
+                                            Problems& problems);
+/// Of comma, semicolon and tab the one that the first line with cells has most of; a comma where
+/// there is none.
+[[nodiscard]] char separator_of(std::string_view text);
+struct CsvColumn {
+  std::string name;
+  Range range;
+  bool is_required = true;
+};
+
+/// Rows of numbers by column, in the order of `columns`; absent where a cell of an optional column
+/// is empty.
+struct CsvTable {
+  std::vector<std::vector<std::optional<double>>> rows;
+  /// The cell of each value, for messages; an empty place where there is none.
+  std::vector<CsvRow> cells;
+  /// False for a row with a problem of its own.
+  std::vector<bool> clean;
+};
+
+/// Reads text whose header names `columns`, in any order. Every problem is added; the rows that
+/// could be cut are given.
+[[nodiscard]] CsvTable read_csv(std::string_view text,
+                                const std::vector<CsvColumn>& columns,
+                                Problems& problems);
+
+}  // namespace chaintrue::grid::files

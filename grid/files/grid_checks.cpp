@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/grid_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace chaintrue::grid::files {
+namespace {
+
+using Getter = std::function<std::optional<double>(const MeasuredPoint&)>;
+
+/// Points this near count as repeats, so a set that is no wider than this has one row only.
+constexpr double kRepeatDistance_mm = 25.0;
+/// No hanging router has lengths or a bed below this in mm; in inches every one of them has.
+constexpr double kLongestInInches = 250.0;
+
+void check_parts(const StatedPoint& point, const std::string& place, Problems& problems) {
+  const bool any_length = point.left_mm || point.right_mm;
+  const bool any_command = point.commanded_x_mm || point.commanded_y_mm;
+  const bool lengths = point.left_mm && point.right_mm;
+  const bool command = point.commanded_x_mm && point.commanded_y_mm;
+  if (any_length && any_command) {
+    problems.add(place,
+                 "both lengths and a command",
+                 "either left_mm and right_mm, or commanded_x_mm and commanded_y_mm");
+  } else if (any_length && !lengths) {
+    problems.add(place,
+                 point.left_mm ? "left_mm without right_mm" : "right_mm without left_mm",
+                 "both lengths");
+  } else if (any_command && !command) {
+    problems.add(place,
+                 point.commanded_x_mm ? "commanded_x_mm without commanded_y_mm"
+                                      : "commanded_y_mm without commanded_x_mm",
+                 "both coordinates of the command");
+  } else if (!any_length && !any_command) {
+    problems.add(place,
+                 "neither lengths nor a command",
+                 "left_mm and right_mm, or commanded_x_mm and commanded_y_mm");
+  }
+}
+
+void check_orders(const std::vector<StatedPoint>& points,
+                  const PointPlaces& places,
+                  Problems& problems) {
+  const auto with_order = static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const StatedPoint& point) {
+        return point.order.has_value();
+      }));
+  if (with_order == 0) return;
+  std::map<int, std::size_t> first_with;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].is_spoilt) continue;
+    if (!points[i].order) {
+      problems.add(
+          places.of(i, "order"),
+          "",
+          fmt::format(
+              "the number of the visit, as {} other points have it; all points have it or none",
+              with_order));
+      continue;
+    }
+    const auto [other, is_new] = first_with.emplace(*points[i].order, i);
+    if (!is_new) {
+      problems.add(places.of(i, "order"),
+                   fmt::format("{}", *points[i].order),
+                   fmt::format("a number of its own for each visit; {} has the same",
+                               places.of(other->second, "")));
+    }
+  }
+}
+
+/// The slope of a plane through some value of the points, value per mm of x and of y.
+struct Slope {
+  double per_x = 0.0;
+  double per_y = 0.0;
+  [[nodiscard]] double steepness() const { return std::hypot(per_x, per_y); }
+};
+
+/// Nothing where fewer than three points have the value or they do not span an area.
+std::optional<Slope> slope_of(const std::vector<MeasuredPoint>& points, const Getter& value_of) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (const MeasuredPoint& point : points) {
+    if (const auto value = value_of(point)) {
+      sum += Eigen::Vector3d(point.mark.x_mm, point.mark.y_mm, *value);
+      count += 1.0;
+    }
+  }
+  if (count < 3.0) return std::nullopt;
+  const Eigen::Vector3d mean = sum / count;
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d together = Eigen::Vector2d::Zero();
+  for (const MeasuredPoint& point : points) {
+    if (const auto value = value_of(point)) {
+      const Eigen::Vector2d place(point.mark.x_mm - mean.x(), point.mark.y_mm - mean.y());
+      spread += place * place.transpose();
+      together += place * (*value - mean.z());
+    }
+  }
+  constexpr double kThinnest = 1e-4;  // width to length, squared: a plane on 1 : 100 is no plane
+  if (spread.determinant() <= kThinnest * spread.trace() * spread.trace()) return std::nullopt;
+  const Eigen::Vector2d slope = spread.ldlt().solve(together);
+  return Slope{slope.x(), slope.y()};
+}
+
+std::optional<double> left_of(const MeasuredPoint& point) {
+  return point.lengths ? std::optional(point.lengths->left_mm) : std::nullopt;
+}
+std::optional<double> right_of(const MeasuredPoint& point) {
+  return point.lengths ? std::optional(point.lengths->right_mm) : std::nullopt;
+}
+std::optional<double> commanded_x_of(const MeasuredPoint& point) {
+  return point.commanded ? std::optional(point.commanded->x_mm) : std::nullopt;
+}
+std::optional<double> commanded_y_of(const MeasuredPoint& point) {
+  return point.commanded ? std::optional(point.commanded->y_mm) : std::nullopt;
+}
+
+/// The largest |x|, |y| and length of all points.
+struct Extent {
+  double coordinate = 0.0;
+  double length = 0.0;
+};
+
+Extent extent_of(const MeasuredGrid& grid) {
+  Extent extent;
+  for (const MeasuredPoint& point : grid.points) {
+    extent.coordinate =
+        std::max({extent.coordinate, std::abs(point.mark.x_mm), std::abs(point.mark.y_mm)});
+    if (point.lengths) {
+      extent.length = std::max({extent.length, point.lengths->left_mm, point.lengths->right_mm});
+    }
+  }
+  return extent;
+}
+
+/// A chain grows by at most a millimetre for each that the tool moves, and over a bed by 0.7 mm or
+/// more; 25.4 times that or the 25.4th part of it is a change of unit. The limits stand half-way,
+/// in ratios.
+bool is_inches_under(double steepness) { return steepness > 5.0; }
+bool is_inches_over(double steepness) { return steepness < 0.2; }
+
+/// Says where inches stand for mm; true where they do.
+bool check_inches(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
+  const Extent extent = extent_of(grid);
+  if (extent.length > 0.0 && extent.length < kLongestInInches &&
+      extent.coordinate < kLongestInInches) {
+    problems.add(
+        places.all,
+        fmt::format(
+            "coordinates up to {:.6g} and lengths up to {:.6g}", extent.coordinate, extent.length),
+        "all of them in mm; these look like inches (multiply by 25.4)");
+    return true;
+  }
+  const auto first =
+      slope_of(grid.points, extent.length > 0.0 ? Getter(left_of) : Getter(commanded_x_of));
+  const auto second =
+      slope_of(grid.points, extent.length > 0.0 ? Getter(right_of) : Getter(commanded_y_of));
+  if (!first || !second) return false;
+  const std::string what = extent.length > 0.0 ? "lengths" : "commanded coordinates";
+  const std::string found =
+      fmt::format("{} that change by {:.3g} and {:.3g} for each 1 of x_mm, y_mm",
+                  what,
+                  first->steepness(),
+                  second->steepness());
+  if (is_inches_under(first->steepness()) && is_inches_under(second->steepness())) {
+    problems.add(
+        places.all,
+        found,
+        fmt::format("a change of about 1; x_mm and y_mm look like inches, the {} like mm", what));
+    return true;
+  }
+  if (is_inches_over(first->steepness()) && is_inches_over(second->steepness())) {
+    problems.add(
+        places.all,
+        found,
+        fmt::format("a change of about 1; the {} look like inches, x_mm and y_mm like mm", what));
+    return true;
+  }
+  return false;
+}
+
+/// How much L - R differs from what a machine of straight chains has; `sign` -1 swaps the columns.
+double mean_misfit(const MeasuredGrid& grid, double sign) {
+  double sum = 0.0;
+  double count = 0.0;
+  const auto& motors = grid.machine->motors;
+  for (const MeasuredPoint& point : grid.points) {
+    if (!point.lengths) continue;
+    const auto distance = [&point](const model::MotorPosition& motor) {
+      return std::hypot(point.mark.x_mm - motor.x_mm, point.mark.y_mm - motor.y_mm);
+    };
+    sum += std::abs(sign * (point.lengths->left_mm - point.lengths->right_mm) -
+                    (distance(motors.left) - distance(motors.right)));
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
+  const auto left = slope_of(grid.points, left_of);
+  const auto right = slope_of(grid.points, right_of);
+  const std::string swapped =
+      "left lengths that grow and right lengths that shrink towards +x; the columns left_mm and "
+      "right_mm look swapped";
+  if (left && right) {
+    if (left->per_x < 0.0 && right->per_x > 0.0) {
+      problems.add(
+          places.all, "left lengths that shrink and right lengths that grow towards +x", swapped);
+    }
+    constexpr double kClearly = 0.1;
+    if (left->per_y > kClearly && right->per_y > kClearly) {
+      problems.add(
+          places.all,
+          "lengths of both chains that grow towards +y",
+          "lengths that shrink towards +y, where the motors are; y_mm looks counted downwards");
+    }
+    return;
+  }
+  // A handful of points has no slope; a machine tells its sides apart all the same.
+  constexpr double kClearly_mm = 100.0;
+  if (grid.machine && mean_misfit(grid, 1.0) > mean_misfit(grid, -1.0) + kClearly_mm) {
+    problems.add(
+        places.all, "lengths that fit the machine only with left and right exchanged", swapped);
+  }
+}
+
+/// The largest distance of a mark from the line that fits all of them best.
+double width_across_best_line(const std::vector<MeasuredPoint>& points) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const MeasuredPoint& point : points)
+    mean += Eigen::Vector2d(point.mark.x_mm, point.mark.y_mm);
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const MeasuredPoint& point : points) {
+    const Eigen::Vector2d place = Eigen::Vector2d(point.mark.x_mm, point.mark.y_mm) - mean;
+    spread += place * place.transpose();
+  }
+  const double angle = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  const Eigen::Vector2d across(-std::sin(angle), std::cos(angle));
+  double widest = 0.0;
+  for (const MeasuredPoint& point : points) {
+    const Eigen::Vector2d place = Eigen::Vector2d(point.mark.x_mm, point.mark.y_mm) - mean;
+    widest = std::max(widest, std::abs(across.dot(place)));
+  }
+  return widest;
+}
+
+}  // namespace
+
+std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& stated,
+                                           const PointPlaces& places,
+                                           Problems& problems) {
+  std::vector<MeasuredPoint> points;
+  points.reserve(stated.size());
+  for (std::size_t i = 0; i < stated.size(); ++i) {
+    const StatedPoint& from = stated[i];
+    if (!from.is_spoilt) check_parts(from, places.of(i, ""), problems);
+    MeasuredPoint point;
+    point.mark = {from.x_mm, from.y_mm};
+    if (from.left_mm && from.right_mm) point.lengths = {*from.left_mm, *from.right_mm};
+    if (from.commanded_x_mm && from.commanded_y_mm) {
+      point.commanded = {*from.commanded_x_mm, *from.commanded_y_mm};
+    }
+    point.order = from.order;
+    points.push_back(point);
+  }
+  check_orders(stated, places, problems);
+  return points;
+}
+
+void check_points_together(const MeasuredGrid& grid,
+                           std::size_t fewest_points,
+                           const PointPlaces& places,
+                           Problems& problems) {
+  constexpr std::size_t kSpanFrom = 8;
+  const std::size_t count = grid.points.size();
+  if (count < fewest_points) {
+    problems.add(places.all,
+                 fmt::format("{} point{}", count, count == 1 ? "" : "s"),
+                 fmt::format("at least {} points", fewest_points));
+  }
+  const bool has_commands =
+      std::any_of(grid.points.begin(), grid.points.end(), [](const MeasuredPoint& point) {
+        return point.commanded.has_value();
+      });
+  if (has_commands && !grid.machine) {
+    problems.add(places.all,
+                 "commanded positions, but no machine",
+                 "a machine with the controller that was commanded (\"machine\", \"machine_file\" "
+                 "or --machine)");
+  }
+  if (count == 0 || check_inches(grid, places, problems)) return;
+  check_sides(grid, places, problems);
+  if (fewest_points < kSpanFrom || count < fewest_points) return;
+  if (const double width = width_across_best_line(grid.points); width < kRepeatDistance_mm) {
+    problems.add(places.all,
+                 fmt::format("points within {:.3g} mm of one line", width),
+                 "points that span an area, as a map of the bed needs");
+  }
+}
+
+}  // namespace chaintrue::grid::files

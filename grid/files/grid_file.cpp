@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/grid_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/files/csv_table.hpp"
+#include "grid/files/grid_checks.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/machine_record.hpp"
+#include "grid/files/whole_file.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+namespace fs = std::filesystem;
+using model::Machine;
+
+// Wide enough for any hanging router, narrow enough to catch a slipped decimal point or another
+// unit.
+constexpr Range kCoordinate{"mm", -20000.0, 20000.0};
+constexpr Range kLength{"mm", 1.0, 20000.0};
+constexpr int kLargestOrder = 1'000'000'000;
+
+/// A measurement that is not a point.
+struct ReadingKind {
+  const char* what;
+  Range value;
+  bool has_side;
+};
+
+constexpr ReadingKind kReadingKinds[] = {
+    {"motor_spacing_mm", {"mm", 500.0, 20000.0}, false},
+    {"beam_rise_mm", {"mm", -1000.0, 1000.0}, false},
+    {"ring_radius_mm", {"mm", 0.0, 1000.0}, false},
+    {"sled_mass_kg", {"kg", 0.1, 200.0}, false},
+    {"link_pitch_mm", {"mm", 1.0, 50.0}, true},
+    {"chain_mass_kg_per_m", {"kg/m", 0.001, 10.0}, false},
+};
+
+std::vector<std::string> reading_names() {
+  std::vector<std::string> names;
+  for (const ReadingKind& kind : kReadingKinds) names.emplace_back(kind.what);
+  return names;
+}
+
+/// The file as it stands, before the machine is fetched and the points are checked together.
+struct StatedGrid {
+  std::string name;
+  std::optional<Machine> machine;
+  std::string machine_file;
+  std::optional<StatedNoise> noise;
+  std::optional<SheetUncertainty> sheet;
+  std::vector<ExtraReading> readings;
+  std::vector<StatedPoint> points;
+};
+
+void check_reading(const Cursor& at, ExtraReading& reading) {
+  for (const ReadingKind& kind : kReadingKinds) {
+    if (reading.what != kind.what) continue;
+    if (at.child("value").clean()) (void)at.child("value").number(kind.value);
+    if (!kind.has_side && !reading.side.empty()) {
+      at.child("side").expect(fmt::format("no side, {} has none", kind.what));
+    }
+  }
+}
+
+const Record<ExtraReading>& reading_record() {
+  constexpr double kAny = 1e6;
+  constexpr double kSmallestSigma = 1e-9;
+  static const auto record =
+      Record<ExtraReading>("a reading")
+          .required("what", &ExtraReading::what, one_of(reading_names()))
+          .sparse("side", &ExtraReading::side, one_of({"left", "right", "both"}))
+          .required("value", &ExtraReading::value, number({"", -kAny, kAny}))
+          .required("sigma", &ExtraReading::sigma, number({"", kSmallestSigma, kAny}))
+          .check(check_reading);
+  return record;
+}
+
+const Record<StatedNoise>& noise_record() {
+  static const auto record =
+      Record<StatedNoise>("the noise")
+          .required("length_mm", &StatedNoise::length_mm, number({"mm", 0.0, 100.0}))
+          .required("position_mm", &StatedNoise::position_mm, number({"mm", 0.0, 100.0}))
+          .optional("dof", &StatedNoise::dof, number({"", 1.0, 1e9}));
+  return record;
+}
+
+const Record<SheetUncertainty>& sheet_record() {
+  using Sheet = SheetUncertainty;
+  static const auto record =
+      Record<Sheet>("the sheet's placement")
+          .required("shift_mm", &Sheet::shift_mm, number({"mm", 0.0, 1000.0}))
+          .required("rotation_mrad", &Sheet::rotation_mrad, number({"mrad", 0.0, 500.0}));
+  return record;
+}
+
+const Record<StatedPoint>& point_record() {
+  using Point = StatedPoint;
+  static const auto record =
+      Record<Point>("a point")
+          .required("x_mm", &Point::x_mm, number(kCoordinate))
+          .required("y_mm", &Point::y_mm, number(kCoordinate))
+          .optional("left_mm", &Point::left_mm, number(kLength))
+          .optional("right_mm", &Point::right_mm, number(kLength))
+          .optional("commanded_x_mm", &Point::commanded_x_mm, number(kCoordinate))
+          .optional("commanded_y_mm", &Point::commanded_y_mm, number(kCoordinate))
+          .optional("order", &Point::order, integer(0, kLargestOrder));
+  return record;
+}
+
+/// Like list(object(point_record())), and notes which points were wrong.
+void read_points(const Cursor& at, StatedGrid& grid) {
+  if (!at.json().is_array()) return at.expect("a list of points");
+  for (std::size_t i = 0; i < at.json().size(); ++i) {
+    const std::size_t problems_before = at.problems().list().size();
+    StatedPoint point = point_record().read(at.element(i)).value_or(StatedPoint{});
+    point.is_spoilt = at.problems().list().size() > problems_before;
+    grid.points.push_back(point);
+  }
+}
+
+const Record<StatedGrid>& grid_record() {
+  static const auto record =
+      Record<StatedGrid>("a grid", "chaintrue_grid")
+          .optional("name", &StatedGrid::name, text())
+          .optional("machine", &StatedGrid::machine, object(machine_record()))
+          .sparse("machine_file", &StatedGrid::machine_file, text())
+          .optional("noise", &StatedGrid::noise, object(noise_record()))
+          .optional("sheet", &StatedGrid::sheet, object(sheet_record()))
+          .sparse("readings", &StatedGrid::readings, list(object(reading_record())))
+          .custom("points",
+                  true,
+                  "a list of points",
+                  read_points,
+                  [value = list(object(point_record()))](const StatedGrid& grid) {
+                    return std::optional<Json>(value.write(grid.points));
+                  })
+          .check([](const Cursor& at, StatedGrid& grid) {
+            if (grid.machine && !grid.machine_file.empty()) {
+              at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
+            }
+          });
+  return record;
+}
+
+/// Reads the machine that the grid names, or takes the one given in its place.
+void fetch_machine(StatedGrid& grid, const GridOptions& options, Problems& problems) {
+  if (options.machine) {
+    grid.machine = options.machine;
+  } else if (!grid.machine_file.empty() && !grid.machine) {
+    const fs::path folder = fs::path(problems.file()).parent_path();
+    try {
+      ReadMachine read = read_machine_with_warnings(folder / grid.machine_file);
+      grid.machine = std::move(read.machine);
+      problems.add_warnings(read.warnings);
+    } catch (const InputError& error) {
+      problems.add_all(error);
+    }
+  }
+}
+
+/// What JSON and CSV have in common once the fields are read.
+ReadGrid finish(StatedGrid stated,
+                const PointPlaces& places,
+                const GridOptions& options,
+                Problems& problems) {
+  fetch_machine(stated, options, problems);
+  ReadGrid read;
+  MeasuredGrid& grid = read.grid;
+  grid.name = std::move(stated.name);
+  grid.machine = std::move(stated.machine);
+  grid.noise = options.noise ? options.noise : stated.noise;
+  grid.sheet = stated.sheet;
+  grid.readings = std::move(stated.readings);
+  const bool points_are_whole =
+      std::none_of(stated.points.begin(), stated.points.end(), [](const StatedPoint& point) {
+        return point.is_spoilt;
+      });
+  const std::size_t problems_before = problems.list().size();
+  grid.points = measured_points(stated.points, places, problems);
+  if (points_are_whole && problems.list().size() == problems_before) {
+    check_points_together(grid, options.fewest_points, places, problems);
+  }
+  problems.throw_if_any();
+  warn_of_repeats_that_disagree(grid, places, problems);
+  read.warnings = problems.warnings();
+  return read;
+}
+
+ReadGrid parse_json_grid(const std::string& text, const GridOptions& options, Problems& problems) {
+  const Json json = parse_json(text, problems);
+  auto stated = grid_record().read(Cursor(json, problems), true);
+  const bool has_points = json.is_object() && json.contains("points") && json["points"].is_array();
+  if (!stated || !has_points) problems.throw_if_any();
+  const PointPlaces places{"/points", [](std::size_t index, std::string_view field) {
+                             return field.empty() ? fmt::format("/points/{}", index)
+                                                  : fmt::format("/points/{}/{}", index, field);
+                           }};
+  return finish(std::move(stated.value()), places, options, problems);
+}
+
+ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Problems& problems) {
+  constexpr std::size_t kOrder = 4;
+  // Lengths are required unless the header has commands in their place.
+  const bool commanded = text.find("commanded_") != std::string::npos;
+  const std::vector<CsvColumn> columns = {{"x_mm", kCoordinate},
+                                          {"y_mm", kCoordinate},
+                                          {"left_mm", kLength, !commanded},
+                                          {"right_mm", kLength, !commanded},
+                                          {"order", {"", 0.0, kLargestOrder}, false},
+                                          {"commanded_x_mm", kCoordinate, commanded},
+                                          {"commanded_y_mm", kCoordinate, commanded}};
+  const CsvTable table = read_csv(text, columns, problems);
+  StatedGrid stated;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto& row = table.rows[i];
+    StatedPoint point{row[0].value_or(0.0),
+                      row[1].value_or(0.0),
+                      row[2],
+                      row[3],
+                      row[5],
+                      row[6],
+                      {},
+                      !table.clean[i]};
+    if (row[kOrder]) {
+      if (*row[kOrder] == std::floor(*row[kOrder])) {
+        point.order = static_cast<int>(*row[kOrder]);
+      } else {
+        point.is_spoilt = true;
+        const CsvCell& cell = table.cells[i][kOrder];
+        problems.add(cell.place(), cell.text, "a whole number (order)");
+      }
+    }
+    stated.points.push_back(point);
+  }
+  if (table.rows.empty()) {
+    if (!problems.any())
+      problems.add("", "a header line only", "at least one line of numbers below it");
+    problems.throw_if_any();
+  }
+  const PointPlaces places{"the points", [&table](std::size_t index, std::string_view field) {
+                             const CsvRow& cells = table.cells[index];
+                             return field == "order" && !cells[kOrder].text.empty()
+                                        ? cells[kOrder].place()
+                                        : cells.front().place();
+                           }};
+  return finish(std::move(stated), places, options, problems);
+}
+
+/// Marks which of the two formats the text is in; a byte order mark may stand before either.
+bool is_json(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark)
+    text.remove_prefix(kByteOrderMark.size());
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && (text[first] == '{' || text[first] == '[');
+}
+
+}  // namespace
+
+ReadGrid parse_grid(const std::string& text, const std::string& file, const GridOptions& options) {
+  Problems problems(file);
+  return is_json(text) ? parse_json_grid(text, options, problems)
+                       : parse_csv_grid(text, options, problems);
+}
+
+ReadGrid read_grid(const fs::path& path, const GridOptions& options) {
+  return parse_grid(read_whole_file(path), name_in_messages(path), options);
+}
+
+std::string write_grid(const MeasuredGrid& grid) {
+  StatedGrid stated{grid.name, grid.machine, {}, grid.noise, grid.sheet, grid.readings, {}};
+  for (const MeasuredPoint& point : grid.points) {
+    StatedPoint to{point.mark.x_mm, point.mark.y_mm, {}, {}, {}, {}, point.order};
+    if (point.lengths) {
+      to.left_mm = point.lengths->left_mm;
+      to.right_mm = point.lengths->right_mm;
+    }
+    if (point.commanded) {
+      to.commanded_x_mm = point.commanded->x_mm;
+      to.commanded_y_mm = point.commanded->y_mm;
+    }
+    stated.points.push_back(to);
+  }
+  return write_document(grid_record(), stated);
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Points measured twice, as a grid's reader compares them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "grid/files/grid_checks.hpp"
+#include "model/kinematics.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+constexpr double kRepeatDistance_mm = 25.0;
+/// Four standard deviations: in a grid of a hundred comparisons one false warning in 150 grids.
+constexpr double kSigmas = 4.0;
+constexpr std::size_t kMostWarnings = 20;
+
+/// A reading with what the machine model says of its place taken off.
+struct Compared {
+  std::size_t index;
+  model::BedPoint mark;
+  double first_mm;
+  double second_mm;
+};
+
+/// Of what a reading is compared, and how far it may change from one point to a near one.
+struct Comparison {
+  const char* first_name;
+  const char* second_name;
+  double sigma_mm;
+  double change_per_mm;
+  std::vector<Compared> readings;
+};
+
+/// A taped motor, a sheet laid by hand and the model's own faults change the way between two points
+/// by this share of it.
+double share_unknown_to_model(const MeasuredGrid& grid) {
+  constexpr double kMachineAsTaped = 0.01;
+  constexpr double kReach_mm = 1000.0;
+  if (!grid.sheet) return kMachineAsTaped;
+  return kMachineAsTaped + grid.sheet->shift_mm / kReach_mm + grid.sheet->rotation_mrad / 1000.0;
+}
+
+Comparison compare_lengths(const MeasuredGrid& grid, const StatedNoise& noise) {
+  // A chain grows by at most the tool's way, but for traces of sag and stretch.
+  constexpr double kWithoutModel = 1.02;
+  Comparison lengths{
+      "left", "right", std::hypot(noise.length_mm, noise.position_mm), kWithoutModel, {}};
+  std::unique_ptr<const model::Kinematics> kinematics;
+  if (grid.machine && model::problems_of(*grid.machine).empty()) {
+    kinematics =
+        model::make_kinematics(model::equilibrium_parameters(*grid.machine), model::Model::elastic);
+    lengths.change_per_mm = share_unknown_to_model(grid);
+  }
+  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    const MeasuredPoint& point = grid.points[i];
+    if (!point.lengths) continue;
+    Compared reading{i, point.mark, point.lengths->left_mm, point.lengths->right_mm};
+    if (kinematics) {
+      const auto pose = kinematics->inverse(point.mark);
+      if (!pose) continue;
+      reading.first_mm -= pose->lengths.left_mm;
+      reading.second_mm -= pose->lengths.right_mm;
+    }
+    lengths.readings.push_back(reading);
+  }
+  return lengths;
+}
+
+Comparison compare_commands(const MeasuredGrid& grid, const StatedNoise& noise) {
+  // A machine's error in x and y changes by a few mm over the bed: 0.05 is many times that.
+  constexpr double kErrorPerMm = 0.05;
+  Comparison errors{"x", "y", noise.position_mm, kErrorPerMm, {}};
+  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    const MeasuredPoint& point = grid.points[i];
+    if (!point.commanded) continue;
+    errors.readings.push_back({i,
+                               point.mark,
+                               point.commanded->x_mm - point.mark.x_mm,
+                               point.commanded->y_mm - point.mark.y_mm});
+  }
+  return errors;
+}
+
+void warn_of_pair(const Comparison& comparison,
+                  const Compared& a,
+                  const Compared& b,
+                  const PointPlaces& places,
+                  Problems& problems) {
+  const double apart_mm = std::hypot(a.mark.x_mm - b.mark.x_mm, a.mark.y_mm - b.mark.y_mm);
+  const double allowed_mm =
+      kSigmas * std::sqrt(2.0) * comparison.sigma_mm + comparison.change_per_mm * apart_mm;
+  const double first_mm = std::abs(a.first_mm - b.first_mm);
+  const double second_mm = std::abs(a.second_mm - b.second_mm);
+  if (first_mm <= allowed_mm && second_mm <= allowed_mm) return;
+  const bool first_is_worse = first_mm >= second_mm;
+  problems.warn(places.of(b.index, ""),
+                fmt::format("measured also at {}, {:.2f} mm away; the two disagree by {:.2f} mm "
+                            "({}), where the noise "
+                            "allows {:.2f} mm",
+                            places.of(a.index, ""),
+                            apart_mm,
+                            std::max(first_mm, second_mm),
+                            first_is_worse ? comparison.first_name : comparison.second_name,
+                            allowed_mm));
+}
+
+void warn_of_pairs(Comparison comparison, const PointPlaces& places, Problems& problems) {
+  auto& readings = comparison.readings;
+  std::stable_sort(readings.begin(), readings.end(), [](const Compared& a, const Compared& b) {
+    return a.mark.x_mm < b.mark.x_mm;
+  });
+  const std::size_t warnings_before = problems.warnings().size();
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    for (std::size_t j = i + 1; j < readings.size(); ++j) {
+      if (readings[j].mark.x_mm - readings[i].mark.x_mm > kRepeatDistance_mm) break;
+      if (problems.warnings().size() - warnings_before == kMostWarnings) {
+        problems.warn(places.all, "more points disagree with their repeats; these are the first");
+        return;
+      }
+      const double apart_mm = std::hypot(readings[i].mark.x_mm - readings[j].mark.x_mm,
+                                         readings[i].mark.y_mm - readings[j].mark.y_mm);
+      if (apart_mm > kRepeatDistance_mm) continue;
+      const bool in_order = readings[i].index < readings[j].index;
+      warn_of_pair(comparison,
+                   in_order ? readings[i] : readings[j],
+                   in_order ? readings[j] : readings[i],
+                   places,
+                   problems);
+    }
+  }
+}
+
+}  // namespace
+
+void warn_of_repeats_that_disagree(const MeasuredGrid& grid,
+                                   const PointPlaces& places,
+                                   Problems& problems) {
+  const StatedNoise noise = grid.noise.value_or(StatedNoise{});
+  warn_of_pairs(compare_lengths(grid, noise), places, problems);
+  warn_of_pairs(compare_commands(grid, noise), places, problems);
+}
+
+}  // namespace chaintrue::grid::files

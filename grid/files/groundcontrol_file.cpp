@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/groundcontrol_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "grid/files/ini_table.hpp"
+#include "grid/files/number_text.hpp"
+#include "grid/files/whole_file.hpp"
+#include "model/kinematics.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using model::Brackets;
+using model::ControllerSettings;
+using model::Feed;
+using model::Machine;
+using model::Ring;
+
+constexpr double kStandardGravity_m_per_s2 = 9.80665;
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+const std::vector<std::string> kSections = {"Maslow Settings", "Advanced Settings"};
+
+enum class Need { always, ring, brackets, never };
+
+/// A number of the ini file. `setting` is where the controller keeps it, if it does.
+struct NumberKey {
+  const char* key;
+  Range range;
+  Need need;
+  std::optional<double> ControllerSettings::*setting;
+};
+
+// Ranges as in model::problems_of, which a file meets in any case; here they speak of the ini's own
+// lines.
+constexpr NumberKey kNumberKeys[] = {
+    {"bedwidth", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_width_mm},
+    {"bedheight", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_height_mm},
+    {"motorspacingx", {"mm", 300, 40000}, Need::always, &ControllerSettings::motor_spacing_mm},
+    {"motoroffsety", {"mm", 1, 10000}, Need::always, &ControllerSettings::motor_offset_y_mm},
+    {"chainpitch", {"mm", 1, 50}, Need::always, &ControllerSettings::chain_pitch_mm},
+    {"gearteeth", {"teeth", 3, 100}, Need::always, &ControllerSettings::gear_teeth},
+    {"rotationradius", {"mm", 20, 1000}, Need::ring, &ControllerSettings::rotation_radius_mm},
+    {"sledwidth", {"mm", 20, 2000}, Need::brackets, nullptr},
+    {"sledheight", {"mm", 0, 2000}, Need::brackets, nullptr},
+    {"sledcg", {"mm", 0, 2000}, Need::brackets, nullptr},
+    {"topbeamtilt", {"degrees", -20, 20}, Need::never, &ControllerSettings::top_beam_tilt_deg},
+    {"chainsagcorrection",
+     {"1e-12 / mm^2", -1000, 1000},
+     Need::never,
+     &ControllerSettings::chain_sag_correction},
+    {"leftchaintolerance",
+     {"percent", -10, 10},
+     Need::never,
+     &ControllerSettings::left_chain_tolerance_percent},
+    {"rightchaintolerance",
+     {"percent", -10, 10},
+     Need::never,
+     &ControllerSettings::right_chain_tolerance_percent},
+    {"sledweight", {"N", 1, 2000}, Need::never, &ControllerSettings::sled_weight_n},
+    {"chainelongationfactor",
+     {"1/N", 0, 1e-3},
+     Need::never,
+     &ControllerSettings::chain_elongation_per_n},
+};
+
+/// Reads settings one by one and keeps what was wrong.
+class IniReader {
+ public:
+  IniReader(const IniTable& table, Problems& problems) : table_(table), problems_(problems) {}
+
+  std::optional<double> number(const NumberKey& key, bool is_needed) {
+    const IniEntry* entry = find(key.key, is_needed, key.range.expected());
+    if (entry == nullptr) return std::nullopt;
+    return checked_number(entry->text, place_of(*entry), key.key, key.range, problems_);
+  }
+
+  std::optional<std::string> word(const std::string& key, const std::vector<std::string>& words) {
+    const std::string expected = fmt::format("{} ({})", fmt::join(words, " or "), key);
+    const IniEntry* entry = find(key, true, expected);
+    if (entry == nullptr) return std::nullopt;
+    if (std::find(words.begin(), words.end(), entry->text) != words.end()) return entry->text;
+    problems_.add(place_of(*entry), entry->text.empty() ? "nothing" : entry->text, expected);
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::string place_of_key(const std::string& key) const {
+    const IniEntry* entry = table_.find(kSections, key);
+    return entry != nullptr ? place_of(*entry) : std::string();
+  }
+
+ private:
+  static std::string place_of(const IniEntry& entry) { return fmt::format("line {}", entry.line); }
+
+  const IniEntry* find(const std::string& key, bool is_needed, const std::string& expected) {
+    const IniEntry* entry = table_.find(kSections, key);
+    if (entry == nullptr && is_needed) {
+      problems_.add(key, "", fmt::format("{}, in [{}]", expected, fmt::join(kSections, "] or [")));
+    }
+    return entry;
+  }
+
+  const IniTable& table_;
+  Problems& problems_;
+};
+
+/// The numbers of the file by key.
+using Numbers = std::map<std::string, std::optional<double>>;
+
+/// All lengths of a router in one hand's breadth: a file in inches has lengths from 10 to 250, a
+/// file in mm has not.
+bool is_in_inches(const IniTable& table) {
+  for (const char* key : {"bedwidth", "bedheight", "motorspacingx"}) {
+    const IniEntry* entry = table.find(kSections, key);
+    const auto value = entry != nullptr ? number_of(entry->text) : std::nullopt;
+    if (!value || *value < 10.0 || *value > 250.0) return false;
+  }
+  return true;
+}
+
+void place_motors(const Numbers& numbers, Machine& machine) {
+  const double half_spacing = 0.5 * numbers.at("motorspacingx").value();
+  const double y = 0.5 * machine.bed.height_mm + numbers.at("motoroffsety").value();
+  const double tilt = numbers.at("topbeamtilt").value_or(0.0) * kDegree_rad;
+  // (1)
+  machine.motors.left = {-half_spacing * std::cos(tilt), y - half_spacing * std::sin(tilt)};
+  machine.motors.right = {half_spacing * std::cos(tilt), y + half_spacing * std::sin(tilt)};
+}
+
+void attach_sled(const Numbers& numbers, bool has_brackets, Machine& machine) {
+  if (has_brackets) {
+    machine.attachment = Brackets{numbers.at("sledwidth").value(),
+                                  numbers.at("sledheight").value(),
+                                  numbers.at("sledcg").value()};
+  } else {
+    machine.attachment = Ring{numbers.at("rotationradius").value()};
+  }
+}
+
+/// Sled, chain and frame: from the file where it says them, otherwise the default machine's, said
+/// as assumed.
+void weigh(const Numbers& numbers, Machine& machine, Problems& problems) {
+  const auto assume = [&problems](std::string what) {
+    problems.warn("", fmt::format("the settings do not say {}", std::move(what)));
+  };
+  if (const auto weight_n = numbers.at("sledweight")) {
+    machine.sled.mass_kg = *weight_n / kStandardGravity_m_per_s2;
+  } else {
+    assume(
+        fmt::format("what the sled weighs; assumed {} kg (/sled/mass_kg)", machine.sled.mass_kg));
+  }
+  if (const auto compliance = numbers.at("chainelongationfactor")) {
+    machine.chain.compliance_per_n = *compliance;
+  } else {
+    // The elongation that MaslowCNC/Firmware holds as its default (setting $45).
+    machine.chain.compliance_per_n = 5.1685e-6;
+    assume(fmt::format("how far the chain stretches; assumed {} per N (/chain/compliance_per_n)",
+                       machine.chain.compliance_per_n));
+  }
+  assume(fmt::format("what the chain weighs; assumed {} kg/m (/chain/mass_kg_per_m)",
+                     machine.chain.mass_kg_per_m));
+  assume(
+      fmt::format("how far the frame leans; assumed {} degrees from the vertical "
+                  "(/frame/tilt_from_vertical_deg)",
+                  machine.frame.tilt_from_vertical_deg));
+  assume(
+      fmt::format("how well it was taped; assumed are motor positions to {} mm, chain zeros to {} "
+                  "mm and the ring's "
+                  "radius to {} mm, 1 sigma (/uncertainty)",
+                  machine.uncertainty.motor_position_mm,
+                  machine.uncertainty.chain_zero_mm,
+                  machine.uncertainty.ring_radius_mm));
+}
+
+Numbers read_numbers(IniReader& reader, std::optional<bool> has_brackets) {
+  Numbers numbers;
+  for (const NumberKey& key : kNumberKeys) {
+    const bool is_of_this_sled =
+        key.need == Need::ring ? has_brackets == false : has_brackets == true;
+    const bool is_of_a_sled = key.need == Need::ring || key.need == Need::brackets;
+    const bool is_needed = key.need == Need::always || (is_of_a_sled && is_of_this_sled);
+    // The settings of the other kind of sled stand in every file and mean nothing.
+    if (is_of_a_sled && !is_of_this_sled) continue;
+    numbers[key.key] = reader.number(key, is_needed);
+  }
+  return numbers;
+}
+
+Machine machine_of(const Numbers& numbers, bool has_brackets, bool over_top) {
+  Machine machine;
+  machine.bed = {numbers.at("bedwidth").value(), numbers.at("bedheight").value()};
+  place_motors(numbers, machine);
+  machine.sprocket.pitch_mm = numbers.at("chainpitch").value();
+  machine.sprocket.teeth = static_cast<int>(numbers.at("gearteeth").value());
+  machine.feed = over_top ? Feed::over_top : Feed::off_bottom;
+  attach_sled(numbers, has_brackets, machine);
+  machine.controller.kind = model::ControllerKind::maslow_classic;
+  for (const NumberKey& key : kNumberKeys) {
+    const auto value = numbers.find(key.key);
+    if (key.setting != nullptr && value != numbers.end())
+      machine.controller.settings.*key.setting = value->second;
+  }
+  machine.controller.settings.chain_over_sprocket_top = over_top;
+  return machine;
+}
+
+}  // namespace
+
+ReadMachine parse_groundcontrol(const std::string& text, const std::string& file) {
+  Problems problems(file);
+  const IniTable table(text, problems);
+  problems.throw_if_any();
+  IniReader reader(table, problems);
+  if (is_in_inches(table)) {
+    problems.add(reader.place_of_key("bedwidth"),
+                 fmt::format("bedwidth = {}", table.find(kSections, "bedwidth")->text),
+                 "all lengths in mm; those of this file look like inches (multiply by 25.4)");
+    problems.throw_if_any();
+  }
+  const auto kinematics = reader.word("kinematicstype", {"Triangular", "Quadrilateral"});
+  const auto feed = reader.word("chainoversprocket", {"Top", "Bottom"});
+  const auto has_brackets =
+      kinematics ? std::optional(*kinematics == "Quadrilateral") : std::nullopt;
+  const Numbers numbers = read_numbers(reader, has_brackets);
+  if (const auto teeth = numbers.at("gearteeth"); teeth && *teeth != std::floor(*teeth)) {
+    problems.add(
+        reader.place_of_key("gearteeth"), fmt::format("{}", *teeth), "a whole number (gearteeth)");
+  }
+  problems.throw_if_any();
+  ReadMachine read;
+  read.machine = machine_of(numbers, *has_brackets, *feed == "Top");
+  read.machine.name = std::filesystem::path(file).filename().string();
+  weigh(numbers, read.machine, problems);
+  for (const model::MachineProblem& problem : model::problems_of(read.machine)) {
+    problems.add(
+        fmt::format("the machine's {}", problem.parameter), problem.value, problem.expected);
+  }
+  problems.throw_if_any();
+  read.warnings = problems.warnings();
+  return read;
+}
+
+ReadMachine read_groundcontrol(const std::filesystem::path& path) {
+  return parse_groundcontrol(read_whole_file(path), name_in_messages(path));
+}
+
+}  // namespace chaintrue::grid::files

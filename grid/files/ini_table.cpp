@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/ini_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace chaintrue::grid::files {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string in_small_letters(std::string_view text) {
+  std::string small(text);
+  std::transform(small.begin(), small.end(), small.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return small;
+}
+
+/// More lines than this that make no sense, and the file is something else.
+constexpr std::size_t kMostStrangeLines = 5;
+
+}  // namespace
+
+IniTable::IniTable(std::string_view text, Problems& problems) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark)
+    text.remove_prefix(kByteOrderMark.size());
+  if (trimmed(text).empty()) problems.add("", "an empty file", "an ini file with [sections]");
+  std::vector<IniEntry>* section = nullptr;
+  std::size_t strange = 0;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = trimmed(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.empty() || line.front() == ';' || line.front() == '#') continue;
+    const std::string place = fmt::format("line {}", number);
+    if (line.front() == '[' && line.back() == ']') {
+      section = &sections_[in_small_letters(trimmed(line.substr(1, line.size() - 2)))];
+      continue;
+    }
+    const std::size_t sign = line.find_first_of("=:");
+    if (sign == 0 || sign == std::string_view::npos || section == nullptr) {
+      problems.add(place, line, "[a section] or key = value in a section, as in an ini file");
+      if (++strange == kMostStrangeLines) return;
+      continue;
+    }
+    IniEntry entry{in_small_letters(trimmed(line.substr(0, sign))),
+                   std::string(trimmed(line.substr(sign + 1))),
+                   number};
+    const auto same =
+        std::find_if(section->begin(), section->end(), [&entry](const IniEntry& other) {
+          return other.key == entry.key;
+        });
+    if (same != section->end()) {
+      problems.add(
+          place, line, fmt::format("this key once; it stands at line {} already", same->line));
+    } else {
+      section->push_back(std::move(entry));
+    }
+  }
+}
+
+const IniEntry* IniTable::find(const std::vector<std::string>& sections,
+                               const std::string& key) const {
+  for (const std::string& name : sections) {
+    const auto section = sections_.find(in_small_letters(name));
+    if (section == sections_.end()) continue;
+    for (const IniEntry& entry : section->second) {
+      if (entry.key == key) return &entry;
+    }
+  }
+  return nullptr;
+}
+
+std::vector<std::string> IniTable::keys(const std::string& section) const {
+  std::vector<std::string> keys;
+  const auto found = sections_.find(in_small_letters(section));
+  if (found == sections_.end()) return keys;
+  for (const IniEntry& entry : found->second) keys.push_back(entry.key);
+  return keys;
+}
+
+bool IniTable::has_section(const std::string& section) const {
+  return sections_.count(in_small_letters(section)) > 0;
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/input_error.hpp"
+
+#include <fmt/format.h>
+
+namespace chaintrue::grid::files {
+namespace {
+
+std::string all_messages(const std::vector<InputProblem>& problems) {
+  std::string text;
+  for (const InputProblem& problem : problems) {
+    if (!text.empty()) text += '\n';
+    text += problem.message();
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string InputProblem::message() const {
+  const std::string where = place.empty() ? file : fmt::format("{}: {}", file, place);
+  if (value.empty()) return fmt::format("{}: missing, expected {}", where, expected);
+  return fmt::format("{}: found {}, expected {}", where, value, expected);
+}
+
+std::string Warning::message() const {
+  return place.empty() ? fmt::format("{}: {}", file, sentence)
+                       : fmt::format("{}: {}: {}", file, place, sentence);
+}
+
+InputError::InputError(std::vector<InputProblem> problems)
+    : std::runtime_error(all_messages(problems)), problems_(std::move(problems)) {}
+
+}  // namespace chaintrue::grid::files

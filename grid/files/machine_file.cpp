@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/machine_file.hpp"
+
+#include <cmath>
+
+#include "grid/files/machine_record.hpp"
+#include "grid/files/whole_file.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using model::Attachment;
+using model::Bed;
+using model::Brackets;
+using model::Chain;
+using model::ChainLengths;
+using model::Controller;
+using model::ControllerKind;
+using model::ControllerSettings;
+using model::Feed;
+using model::Frame;
+using model::Machine;
+using model::MotorPosition;
+using model::PerSide;
+using model::Ring;
+using model::Sled;
+using model::Sprocket;
+using model::Uncertainty;
+
+// What a value may reasonably be is said by model::problems_of, in one place for files and programs
+// alike. The ranges here only keep numbers that are no measure of anything away from arithmetic.
+constexpr double kBeyondMeaning = 1e6;
+
+Value<double> number_in(std::string_view unit) {
+  return number({unit, -kBeyondMeaning, kBeyondMeaning});
+}
+
+const Record<Bed>& bed_record() {
+  static const auto record = Record<Bed>("a bed")
+                                 .required("width_mm", &Bed::width_mm, number_in("mm"))
+                                 .required("height_mm", &Bed::height_mm, number_in("mm"));
+  return record;
+}
+
+const Record<MotorPosition>& motor_record() {
+  static const auto record = Record<MotorPosition>("a motor's position")
+                                 .required("x_mm", &MotorPosition::x_mm, number_in("mm"))
+                                 .required("y_mm", &MotorPosition::y_mm, number_in("mm"));
+  return record;
+}
+
+const Record<PerSide<MotorPosition>>& motors_record() {
+  using Motors = PerSide<MotorPosition>;
+  static const auto record = Record<Motors>("the motors")
+                                 .required("left", &Motors::left, object(motor_record()))
+                                 .required("right", &Motors::right, object(motor_record()));
+  return record;
+}
+
+const Record<Sprocket>& sprocket_record() {
+  static const auto record = Record<Sprocket>("a sprocket")
+                                 .required("teeth", &Sprocket::teeth, integer(1, 1000))
+                                 .required("pitch_mm", &Sprocket::pitch_mm, number_in("mm"))
+                                 .optional("radius_mm", &Sprocket::radius_mm, number_in("mm"));
+  return record;
+}
+
+const Record<Ring>& ring_record() {
+  static const auto record = Record<Ring>("a ring")
+                                 .constant("kind", "ring")
+                                 .required("radius_mm", &Ring::radius_mm, number_in("mm"));
+  return record;
+}
+
+const Record<Brackets>& brackets_record() {
+  static const auto record =
+      Record<Brackets>("a pair of brackets")
+          .constant("kind", "brackets")
+          .required("spacing_mm", &Brackets::spacing_mm, number_in("mm"))
+          .required("height_mm", &Brackets::height_mm, number_in("mm"))
+          .required("cg_below_bit_mm", &Brackets::cg_below_bit_mm, number_in("mm"));
+  return record;
+}
+
+/// One kind of attachment: reading and writing the variant's alternative.
+struct AttachmentKind {
+  std::function<void(const Cursor&, Attachment&)> read;
+  std::function<std::optional<Json>(const Attachment&)> write;
+};
+
+template <class Kind>
+AttachmentKind attachment_kind(const Record<Kind>& record) {
+  return {[&record](const Cursor& at, Attachment& attachment) {
+            if (const auto value = record.read(at)) attachment = *value;
+          },
+          [&record](const Attachment& attachment) -> std::optional<Json> {
+            const Kind* value = std::get_if<Kind>(&attachment);
+            return value != nullptr ? std::optional<Json>(record.write(*value)) : std::nullopt;
+          }};
+}
+
+const std::map<std::string, AttachmentKind>& attachment_kinds() {
+  static const std::map<std::string, AttachmentKind> kinds = {
+      {"ring", attachment_kind(ring_record())}, {"brackets", attachment_kind(brackets_record())}};
+  return kinds;
+}
+
+void read_attachment(const Cursor& at, Machine& machine) {
+  if (!at.json().is_object()) return at.expect(R"(an object with "kind": "ring" or "brackets")");
+  const Cursor kind = at.child("kind");
+  if (!at.has("kind")) return kind.missing(R"("ring" or "brackets")");
+  if (const auto name = one_of({"ring", "brackets"}).read(kind)) {
+    attachment_kinds().at(*name).read(at, machine.attachment);
+  }
+}
+
+std::optional<Json> write_attachment(const Machine& machine) {
+  for (const auto& [name, kind] : attachment_kinds()) {
+    if (auto json = kind.write(machine.attachment)) return json;
+  }
+  return std::nullopt;
+}
+
+const Record<Chain>& chain_record() {
+  static const auto record =
+      Record<Chain>("a chain")
+          .required("mass_kg_per_m", &Chain::mass_kg_per_m, number_in("kg/m"))
+          .required("compliance_per_n", &Chain::compliance_per_n, number_in("1/N"));
+  return record;
+}
+
+const Record<ChainLengths>& chain_zero_record() {
+  static const auto record = Record<ChainLengths>("the chain zeros")
+                                 .optional("left_mm", &ChainLengths::left_mm, number_in("mm"))
+                                 .optional("right_mm", &ChainLengths::right_mm, number_in("mm"));
+  return record;
+}
+
+const Record<Sled>& sled_record() {
+  static const auto record =
+      Record<Sled>("a sled").required("mass_kg", &Sled::mass_kg, number_in("kg"));
+  return record;
+}
+
+const Record<Frame>& frame_record() {
+  static const auto record = Record<Frame>("a frame").required(
+      "tilt_from_vertical_deg", &Frame::tilt_from_vertical_deg, number_in("degrees"));
+  return record;
+}
+
+const Record<Uncertainty>& uncertainty_record() {
+  static const auto record =
+      Record<Uncertainty>("the uncertainties")
+          .optional("motor_position_mm", &Uncertainty::motor_position_mm, number_in("mm"))
+          .optional("chain_zero_mm", &Uncertainty::chain_zero_mm, number_in("mm"))
+          .optional("ring_radius_mm", &Uncertainty::ring_radius_mm, number_in("mm"))
+          .check([](const Cursor& at, Uncertainty&) {
+            for (const char* key : {"motor_position_mm", "chain_zero_mm", "ring_radius_mm"}) {
+              const Cursor value = at.child(key);
+              if (!at.has(key) || value.json().is_null())
+                value.warn("not stated, its default is assumed");
+            }
+          });
+  return record;
+}
+
+const Record<ControllerSettings>& settings_record() {
+  using Settings = ControllerSettings;
+  static const auto record =
+      Record<Settings>("the controller's settings, named as GroundControl names them,")
+          .optional("bedwidth", &Settings::bed_width_mm, number_in("mm"))
+          .optional("bedheight", &Settings::bed_height_mm, number_in("mm"))
+          .optional("motorspacingx", &Settings::motor_spacing_mm, number_in("mm"))
+          .optional("motoroffsety", &Settings::motor_offset_y_mm, number_in("mm"))
+          .optional("rotationradius", &Settings::rotation_radius_mm, number_in("mm"))
+          .optional(
+              "chainsagcorrection", &Settings::chain_sag_correction, number_in("1e-12 / mm^2"))
+          .optional(
+              "leftchaintolerance", &Settings::left_chain_tolerance_percent, number_in("percent"))
+          .optional(
+              "rightchaintolerance", &Settings::right_chain_tolerance_percent, number_in("percent"))
+          .optional("topbeamtilt", &Settings::top_beam_tilt_deg, number_in("degrees"))
+          .optional("chainpitch", &Settings::chain_pitch_mm, number_in("mm"))
+          .optional("gearteeth", &Settings::gear_teeth, number_in("teeth"))
+          .optional("chainoversprocket",
+                    &Settings::chain_over_sprocket_top,
+                    choice<bool>({{"Top", true}, {"Bottom", false}}))
+          .optional("sledweight", &Settings::sled_weight_n, number_in("N"))
+          .optional("chainelongationfactor", &Settings::chain_elongation_per_n, number_in("1/N"));
+  return record;
+}
+
+const Record<Controller>& controller_record() {
+  static const auto record =
+      Record<Controller>("a controller")
+          .required("kind",
+                    &Controller::kind,
+                    choice<ControllerKind>(
+                        {{"ideal", ControllerKind::ideal},
+                         {"maslow_classic", ControllerKind::maslow_classic},
+                         {"holey", ControllerKind::holey},
+                         {"fluidnc_wallplotter", ControllerKind::fluidnc_wallplotter}}))
+          .optional("settings", &Controller::settings, object(settings_record()));
+  return record;
+}
+
+/// The default controller, ideal and without settings, is left out of the file.
+std::optional<Json> write_controller(const Machine& machine) {
+  if (machine.controller.kind == ControllerKind::ideal &&
+      settings_record().write(machine.controller.settings).empty()) {
+    return std::nullopt;
+  }
+  return controller_record().write(machine.controller);
+}
+
+/// No hanging router has a bed and motors within a hand's breadth; in inches every one of them has.
+bool is_in_inches(const Machine& machine) {
+  constexpr double kLongestInInches = 250.0;
+  constexpr double kShortestInInches = 10.0;
+  const auto in_inches = [](double length) {
+    return std::abs(length) <= kLongestInInches && std::abs(length) >= kShortestInInches;
+  };
+  return in_inches(machine.bed.width_mm) && in_inches(machine.bed.height_mm) &&
+         in_inches(machine.motors.left.x_mm) && in_inches(machine.motors.right.x_mm);
+}
+
+void check_machine(const Cursor& at, Machine& machine) {
+  // The struct's default names a machine that this file does not speak of.
+  if (!at.has("name")) machine.name.clear();
+  if (!at.has("uncertainty") || at.child("uncertainty").json().is_null()) {
+    const Uncertainty& assumed = machine.uncertainty;
+    at.child("uncertainty")
+        .warn(fmt::format(
+            "not stated; assumed are motor positions to {} mm, chain zeros to {} mm and the ring's "
+            "radius to {} mm (1 sigma)",
+            assumed.motor_position_mm,
+            assumed.chain_zero_mm,
+            assumed.ring_radius_mm));
+  }
+  if (is_in_inches(machine)) {
+    constexpr double kMillimetresPerInch = 25.4;
+    const auto size = [](double width, double height) {
+      return fmt::format("{:.6g} x {:.6g}", width, height);
+    };
+    at.problems().add(
+        at.pointer(),
+        fmt::format("a bed of {}", size(machine.bed.width_mm, machine.bed.height_mm)),
+        fmt::format("all lengths in mm; these look like inches (times 25.4 the bed is {} mm)",
+                    size(machine.bed.width_mm * kMillimetresPerInch,
+                         machine.bed.height_mm * kMillimetresPerInch)));
+    return;
+  }
+  for (const model::MachineProblem& problem : model::problems_of(machine)) {
+    const std::string place = at.pointer() + problem.parameter;
+    // A field that could not be read keeps its default, of which there is nothing to say.
+    if (!at.problems().at_or_below(place))
+      at.problems().add(place, problem.value, problem.expected);
+  }
+  // The sums of effects and machine are only looked at where the machine itself is sound.
+  if (!at.clean()) return;
+  for (const model::MachineProblem& problem : model::effects::problems_of_effects(machine)) {
+    at.problems().add(at.pointer() + problem.parameter, problem.value, problem.expected);
+  }
+}
+
+ReadMachine parse_with(const std::string& text, const std::string& file) {
+  Problems problems(file);
+  ReadMachine read;
+  read.machine = read_document(machine_record(), text, problems);
+  read.warnings = problems.warnings();
+  return read;
+}
+
+}  // namespace
+
+const Record<model::AppliedEffect>& effect_record() {
+  using model::AppliedEffect;
+  static const auto record =
+      Record<AppliedEffect>("an effect")
+          .required("effect", &AppliedEffect::effect, text())
+          .sparse("side", &AppliedEffect::side, one_of({"left", "right", "both", "x", "y"}))
+          .required("parameters", &AppliedEffect::parameters, dictionary(number_in("")));
+  return record;
+}
+
+const Record<Machine>& machine_record() {
+  static const auto record =
+      Record<Machine>("a machine", "chaintrue_machine")
+          .optional("name", &Machine::name, text())
+          .required("bed", &Machine::bed, object(bed_record()))
+          .required("motors", &Machine::motors, object(motors_record()))
+          .required("sprocket", &Machine::sprocket, object(sprocket_record()))
+          .required("feed",
+                    &Machine::feed,
+                    choice<Feed>({{"over_top", Feed::over_top}, {"off_bottom", Feed::off_bottom}}))
+          .custom("attachment", true, "a ring or brackets", read_attachment, write_attachment)
+          .required("chain", &Machine::chain, object(chain_record()))
+          .optional("chain_zero", &Machine::chain_zero, object(chain_zero_record()))
+          .required("sled", &Machine::sled, object(sled_record()))
+          .required("frame", &Machine::frame, object(frame_record()))
+          .optional("uncertainty", &Machine::uncertainty, object(uncertainty_record()))
+          .custom(
+              "controller",
+              false,
+              controller_record().expected(),
+              [](const Cursor& at, Machine& machine) {
+                if (auto value = controller_record().read(at)) machine.controller = *value;
+              },
+              write_controller)
+          .sparse("effects", &Machine::effects, list(object(effect_record())))
+          .check(check_machine);
+  return record;
+}
+
+ReadMachine parse_machine_with_warnings(const std::string& text, const std::string& file) {
+  return parse_with(text, file);
+}
+
+ReadMachine read_machine_with_warnings(const std::filesystem::path& path) {
+  return parse_with(read_whole_file(path), name_in_messages(path));
+}
+
+Machine parse_machine(const std::string& text, const std::string& file) {
+  return parse_with(text, file).machine;
+}
+
+Machine read_machine(const std::filesystem::path& path) {
+  return read_machine_with_warnings(path).machine;
+}
+
+std::string write_machine(const Machine& machine, const std::vector<std::string>& comments) {
+  Json json = machine_record().write(machine);
+  if (!comments.empty()) json["comment"] = comments;
+  return print_json(json);
+}
+
+}  // namespace chaintrue::grid::files

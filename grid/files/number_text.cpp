@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/number_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace chaintrue::grid::files {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// from_chars takes no plus sign.
+std::string_view without_plus(std::string_view text) {
+  return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
+}
+
+struct Parsed {
+  double value = 0.0;
+  bool is_whole = false;
+  bool is_out_of_range = false;
+};
+
+Parsed parse(std::string_view text) {
+  text = without_plus(text);
+  Parsed parsed;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parsed.value);
+  parsed.is_whole = !text.empty() && end == text.data() + text.size();
+  parsed.is_out_of_range = error == std::errc::result_out_of_range;
+  return parsed;
+}
+
+/// Of two texts that are out of a double's range, the one with a negative exponent is near zero; so
+/// is a text without any, 0.000...
+bool is_near_zero(std::string_view text) {
+  const std::size_t exponent = text.find_first_of("eE");
+  if (exponent != std::string_view::npos && exponent + 1 < text.size())
+    return text[exponent + 1] == '-';
+  const std::size_t first = text.find_first_not_of("+-");
+  return first != std::string_view::npos && (text[first] == '0' || text[first] == '.');
+}
+
+}  // namespace
+
+std::string Range::expected() const {
+  const std::string in_unit = unit.empty() ? std::string() : fmt::format(" in {}", unit);
+  return fmt::format("a number{} from {} to {}", in_unit, least, most);
+}
+
+std::optional<double> number_of(std::string_view text) {
+  const Parsed parsed = parse(text);
+  if (!parsed.is_whole) return std::nullopt;
+  if (parsed.is_out_of_range) return is_near_zero(text) ? std::optional(0.0) : std::nullopt;
+  return std::isfinite(parsed.value) ? std::optional(parsed.value) : std::nullopt;
+}
+
+bool is_beyond_double(std::string_view text) {
+  const Parsed parsed = parse(text);
+  if (!parsed.is_whole) return false;
+  return parsed.is_out_of_range ? !is_near_zero(text) : !std::isfinite(parsed.value);
+}
+
+bool looks_like_decimal_comma(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos || text.find(',', comma + 1) != std::string_view::npos) {
+    return false;
+  }
+  if (comma == 0 || comma + 1 == text.size()) return false;
+  if (!is_digit(text[comma - 1]) || !is_digit(text[comma + 1])) return false;
+  return std::all_of(text.begin(), text.end(), [](char c) {
+    return is_digit(c) || c == ',' || c == '.' || c == '-' || c == '+' || c == ' ';
+  });
+}
+
+std::optional<double> checked_number(std::string_view text,
+                                     const std::string& place,
+                                     std::string_view name,
+                                     const Range& range,
+                                     Problems& problems) {
+  const auto value = number_of(text);
+  if (value && range.holds(*value)) return value;
+  const std::string_view hint =
+      looks_like_decimal_comma(text) ? ", with a decimal point, not a comma" : "";
+  problems.add(place, text, fmt::format("{} ({}){}", range.expected(), name, hint));
+  return std::nullopt;
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Numbers as people and programs write them into files, read without the locale. Private to
+/// grid/files.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "grid/files/problems.hpp"
+
+namespace chaintrue::grid::files {
+
+/// What a number may be; `unit` may be empty. Both ends are allowed.
+struct Range {
+  std::string_view unit;
+  double least = 0.0;
+  double most = 0.0;
+  [[nodiscard]] bool holds(double value) const { return value >= least && value <= most; }
+  [[nodiscard]] std::string expected() const;
+};
+
+/// The finite number that the whole text is. A plus sign may stand before it; a number nearer to
+/// zero than the smallest double is zero; one beyond the largest, NaN and infinity are no numbers.
+[[nodiscard]] std::optional<double> number_of(std::string_view text);
+
+/// True for a number that no double holds: 1e999, NaN, Infinity.
+[[nodiscard]] bool is_beyond_double(std::string_view text);
+
+/// True for `12,5` and `-1.200,5`: a number written with a decimal comma.
+[[nodiscard]] bool looks_like_decimal_comma(std::string_view text);
+
+/// The number in its range; otherwise reports it at `place` and gives nothing. `name` says whose
+/// value it is.
+[[nodiscard]] std::optional<double> checked_number(std::string_view text,
+                                                   const std::string& place,
+                                                   std::string_view name,
+                                                   const Range& range,
+                                                   Problems& problems);
+
+}  // namespace chaintrue::grid::files

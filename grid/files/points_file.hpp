@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Points of the bed from a CSV with the columns x_mm and y_mm; what such a CSV may look like is
+/// said in grid_file.hpp.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "grid/files/input_error.hpp"
+#include "model/coordinates.hpp"
+
+namespace chaintrue::grid::files {
+
+/// In the file's order. "-" reads standard input. \throws InputError with every problem of the
+/// file.
+[[nodiscard]] std::vector<model::BedPoint> read_points(const std::filesystem::path& path);
+/// `file` is the name used in messages.
+[[nodiscard]] std::vector<model::BedPoint> parse_points(const std::string& text,
+                                                        const std::string& file);
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/problems.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace chaintrue::grid::files {
+namespace {
+
+bool is_continuation_byte(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// Levenshtein's distance, blind to case.
+std::size_t slips_between(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+void Problems::add(std::string place, std::string_view value, std::string expected) {
+  list_.push_back({file_, std::move(place), shortened(value), std::move(expected)});
+}
+
+void Problems::warn(std::string place, std::string sentence) {
+  warnings_.push_back({file_, std::move(place), std::move(sentence)});
+}
+
+void Problems::add_all(const InputError& error) {
+  list_.insert(list_.end(), error.problems().begin(), error.problems().end());
+}
+
+void Problems::add_warnings(const std::vector<Warning>& warnings) {
+  warnings_.insert(warnings_.end(), warnings.begin(), warnings.end());
+}
+
+bool Problems::at_or_below(std::string_view pointer) const {
+  return std::any_of(list_.begin(), list_.end(), [pointer](const InputProblem& problem) {
+    const std::string_view place = problem.place;
+    return place.substr(0, pointer.size()) == pointer &&
+           (place.size() == pointer.size() || place[pointer.size()] == '/');
+  });
+}
+
+void Problems::throw_if_any() const {
+  if (list_.empty()) return;
+  std::vector<InputProblem> shown = list_;
+  if (shown.size() > kMostProblems) {
+    shown.resize(kMostProblems);
+    shown.push_back({file_,
+                     "",
+                     fmt::format("{} more problems", list_.size() - kMostProblems),
+                     "those above to be mended first"});
+  }
+  throw InputError(std::move(shown));
+}
+
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  constexpr std::string_view kCut = "...";
+  std::string printable;
+  std::size_t characters = 0;
+  std::size_t cut_at = 0;
+  for (const char c : text) {
+    if (!is_continuation_byte(c)) {
+      if (characters == kLongest - kCut.size()) cut_at = printable.size();
+      if (++characters > kLongest) break;
+    }
+    const auto byte = static_cast<unsigned char>(c);
+    printable += byte < 0x20U || byte == 0x7FU ? ' ' : c;
+  }
+  if (characters > kLongest) {
+    printable.resize(cut_at);
+    printable += kCut;
+  }
+  return printable;
+}
+
+std::string line_and_column(std::size_t line, std::size_t column) {
+  return fmt::format("line {}, column {}", line, column);
+}
+
+std::string line_and_column_of(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, std::min(offset, text.size()));
+  const auto line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+  const std::size_t last_break = before.rfind('\n');
+  const std::size_t column =
+      last_break == std::string_view::npos ? before.size() + 1 : before.size() - last_break;
+  return line_and_column(line, column);
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t kLongestCompared = 100;
+  if (word.size() > kLongestCompared) return {};
+  const std::size_t most_slips = std::max<std::size_t>(2, word.size() / 3);
+  std::string best;
+  std::size_t fewest = most_slips + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t slips = slips_between(word, candidate);
+    if (slips < fewest && slips < candidate.size()) {
+      fewest = slips;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace chaintrue::grid::files

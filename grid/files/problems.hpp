@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Gathers what is wrong with one file, so that its owner mends everything in one go, and the small
+/// helpers that make findings readable. Shared by the JSON, CSV and ini readers.
+///
+/// \code
+///   Problems problems("grid.csv");
+///   problems.add("line 4, column 12", "abc", "a number in mm");
+///   problems.throw_if_any();
+/// \endcode
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/files/input_error.hpp"
+
+namespace chaintrue::grid::files {
+
+class Problems {
+ public:
+  explicit Problems(std::string file) : file_(std::move(file)) {}
+
+  /// `value` is shortened to 60 characters and made printable here.
+  void add(std::string place, std::string_view value, std::string expected);
+  void warn(std::string place, std::string sentence);
+  /// Those of another file that this one names.
+  void add_all(const InputError& error);
+  void add_warnings(const std::vector<Warning>& warnings);
+  /// True where something was found at this JSON pointer or below it.
+  [[nodiscard]] bool at_or_below(std::string_view pointer) const;
+  [[nodiscard]] bool any() const { return !list_.empty(); }
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] const std::vector<InputProblem>& list() const { return list_; }
+  [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
+  /// \throws InputError with everything gathered; past kMostProblems the rest is counted, not
+  /// listed.
+  void throw_if_any() const;
+
+  static constexpr std::size_t kMostProblems = 100;
+
+ private:
+  std::string file_;
+  std::vector<InputProblem> list_;
+  std::vector<Warning> warnings_;
+};
+
+/// At most 60 characters, on one line, without control characters; cut between UTF-8 characters.
+[[nodiscard]] std::string shortened(std::string_view text);
+/// `line 4, column 12`, both from 1; the column counts bytes.
+[[nodiscard]] std::string line_and_column(std::size_t line, std::size_t column);
+[[nodiscard]] std::string line_and_column_of(std::string_view text, std::size_t offset);
+/// The candidate with the fewest typing slips; empty where none is near.
+[[nodiscard]] std::string nearest(std::string_view word,
+                                  const std::vector<std::string>& candidates);
+/// `a, b, c`
+[[nodiscard]] std::string joined(const std::vector<std::string>& words);
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A file is read whole and written whole or not at all. "-" is standard input and standard output.
+///
+/// Writing goes to a temporary file in the same directory, which then takes the name in one step:
+/// whoever looks sees the old file or the new one. Devices and pipes (/dev/null, /dev/stdout) are
+/// written to directly; a symbolic link keeps pointing at the file it names. Not for two writers of
+/// the same name at once: the last one wins, whole.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace chaintrue::grid::files {
+
+/// How messages call a path: itself, or "standard input" for "-".
+[[nodiscard]] std::string name_in_messages(const std::filesystem::path& path);
+/// \throws InputError where the path cannot be opened, is a directory, or reading fails half-way.
+[[nodiscard]] std::string read_whole_file(const std::filesystem::path& path);
+/// \throws InputError where the path is a directory, its directory is missing, or it cannot be
+/// written.
+void write_whole_file(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace chaintrue::grid::files

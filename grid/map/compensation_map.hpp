@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The compensation map: true chain lengths for any point of the bed, with what is known of their error.
+///
+/// Frame: answers are in the frame of the grid's points (the marks) unless Frame::bed is asked for; the two differ by
+/// the sheet's placement. Lengths are what a reading would be without drift, skips and hysteresis.
+///
+/// \code
+///   const CompensationMap map(contents);                       // from fit() or files::read_map()
+///   if (const auto answer = map.query({100.0, -200.0})) use(answer->lengths, answer->sigma, answer->status);
+///   if (const auto mark = map.inverse({1702.1, 1821.4})) use(*mark);
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <variant>
+#include <vector>
+
+#include "grid/map/measured_area.hpp"
+#include "grid/map/residual_surface.hpp"
+#include "grid/measured_grid.hpp"
+#include "interp/tensor_spline.hpp"
+#include "model/calibration/sheet_placement.hpp"
+
+namespace chaintrue::grid {
+
+/// One setting, before and after.
+struct SettingResult {
+  model::Setting setting;
+  double stated = 0.0;
+  double calibrated = 0.0;
+  double sigma = 0.0;
+  /// Moved by more than three of its stated sigmas: what was stated is wrong, or something else imitates it.
+  bool off = false;
+};
+
+/// Root mean square and largest value of a set of errors.
+struct ErrorSummary {
+  double rms_mm = 0.0;
+  double maximum_mm = 0.0;
+};
+
+/// Errors of one way of holding points out. Chain: both chains alike. Tool: distance from where the tool was.
+struct HeldOutError {
+  ErrorSummary chain;
+  ErrorSummary tool;
+  double tool_x_rms_mm = 0.0;
+  double tool_y_rms_mm = 0.0;
+};
+
+/// What the map says of its own error. Held-out errors are relative to the readings, whose noise they contain;
+/// expected errors are relative to the true machine, one sigma.
+struct MapAccuracy {
+  HeldOutError leave_one_out;
+  HeldOutError blocked;
+  /// Of the tool over the measured part of the bed.
+  ErrorSummary expected_tool;
+  model::BedPoint expected_worst_at;
+};
+
+/// The noise that the fit went by.
+struct MapNoise {
+  double length_mm = 0.0;
+  double position_mm = 0.0;
+  /// "stated", "repeats" or "fit"
+  std::string source;
+  /// The noise found in the residuals, as a multiple of the one above.
+  double factor_found = 1.0;
+};
+
+/// A measured point as the map sees it, in millimetres at the tool: how far the tool was beyond where each model thinks.
+struct MapPoint {
+  model::BedPoint mark;
+  model::ChainLengths lengths;
+  bool bad = false;
+  /// Left-out residual in sigmas, both chains together.
+  double distance_sigmas = 0.0;
+  Eigen::Vector2d as_stated_mm = Eigen::Vector2d::Zero();
+  Eigen::Vector2d sheet_placed_mm = Eigen::Vector2d::Zero();
+  Eigen::Vector2d mapped_mm = Eigen::Vector2d::Zero();
+  Eigen::Vector2d left_out_mm = Eigen::Vector2d::Zero();
+};
+
+/// seeds/001's claim that R is L mirrored, held against the points: R measured at (x, y)
+/// minus the map's L at (-x, y), mirrored about the middle of the bed.
+struct MirrorTest {
+  std::size_t points = 0;  ///< whose mirror image lies on the map
+  ErrorSummary difference;
+  double mean_mm = 0.0;
+  model::BedPoint worst_at;
+  double worst_signed_mm = 0.0;
+  /// Some point differs by more than chance (4.5 sigmas of noise and map) allows.
+  bool holds = true;
+  std::string sentence;
+};
+
+/// Surface on the calibrated model.
+struct ModelSurface {
+  model::Machine machine;  ///< calibrated
+  model::SheetPlacement sheet;
+  ResidualSurface residual;
+  FitColumns columns;
+  std::vector<model::Setting> settings;
+  /// C = F F', lower triangular, of all unknowns in the order of FitColumns.
+  Eigen::MatrixXd covariance_factor;
+};
+
+/// Splines through the measured lengths themselves; no machine.
+struct DirectSurface {
+  std::vector<double> x_nodes_mm;
+  std::vector<double> y_nodes_mm;
+  model::PerSide<Eigen::MatrixXd> lengths_mm;  ///< (ix, iy)
+  interp::TensorEnds ends;
+  /// Estimated from what happens when inner lines are left out.
+  double interpolation_sigma_mm = 0.0;
+};
+
+/// Everything that a map file holds.
+struct MapContents {
+  std::string name;
+  std::variant<DirectSurface, ModelSurface> surface;
+  std::vector<model::BedPoint> hull;
+  double edge_mm = 0.0;
+  interp::Rectangle domain;
+  MapNoise noise;
+  MapAccuracy accuracy;
+  std::vector<SettingResult> settings;
+  std::vector<MapPoint> points;
+  std::optional<MirrorTest> mirror;
+  /// Sentences for the person: what was assumed, set aside, or found odd.
+  std::vector<std::string> notes;
+};
+
+enum class Frame { marks, bed };
+
+struct MapAnswer {
+  model::ChainLengths lengths;
+  model::ChainLengths sigma;
+  /// Of the two lengths, including their correlation.
+  Eigen::Matrix2d covariance;
+  /// d(left, right)/d(mark)
+  Eigen::Matrix2d mark_jacobian;
+  /// Root of the summed variances of the tool's x and y.
+  double tool_sigma_mm = 0.0;
+  MapStatus status = MapStatus::inside;
+};
+
+/// Why there is no answer.
+enum class MapFailure {
+  outside_map,    ///< off the domain
+  unreachable,    ///< no pose of the machine there
+  not_converged,  ///< the inverse did not settle
+};
+[[nodiscard]] std::string_view explain(MapFailure failure);
+
+/// Immutable, thread safe.
+class CompensationMap {
+ public:
+  explicit CompensationMap(MapContents contents);
+  [[nodiscard]] const MapContents& contents() const { return contents_; }
+
+  [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::BedPoint point,
+                                                          Frame frame = Frame::marks) const;
+  /// Lengths and their derivative alone, some ten times faster: what a path needs between its corners.
+  struct Lengths {
+    model::ChainLengths lengths;
+    Eigen::Matrix2d mark_jacobian;
+  };
+  [[nodiscard]] tl::expected<Lengths, MapFailure> lengths(model::BedPoint point, Frame frame = Frame::marks) const;
+  /// Where the tool is when these lengths are paid out: Newton to 1e-9 mm, at most 30 steps.
+  [[nodiscard]] tl::expected<model::BedPoint, MapFailure> inverse(model::ChainLengths lengths,
+                                                                  Frame frame = Frame::marks) const;
+  [[nodiscard]] MapStatus status(model::BedPoint point, Frame frame = Frame::marks) const;
+  /// The same place in the other frame; a direct map knows only one.
+  [[nodiscard]] model::BedPoint to_mark(model::BedPoint bed) const;
+  [[nodiscard]] model::BedPoint to_bed(model::BedPoint mark) const;
+  /// Null for a direct map.
+  [[nodiscard]] const model::Machine* machine() const;
+
+ private:
+  class Field;
+  class ModelField;
+  class DirectField;
+  [[nodiscard]] model::BedPoint mark_of(model::BedPoint point, Frame frame) const;
+
+  MapContents contents_;
+  MeasuredArea area_;
+  std::shared_ptr<const Field> field_;
+};
+
+}  // namespace chaintrue::grid

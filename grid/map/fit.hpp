@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// From measured points to a compensation map.
+///
+/// \code
+///   const auto map = fit(grid);
+///   if (!map) fmt::print("{}\n", map.error().sentence);
+/// \endcode
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+
+#include "grid/map/compensation_map.hpp"
+
+namespace chaintrue::grid {
+
+enum class SurfaceKind {
+  residual,  ///< the calibrated machine and a smooth correction of what it leaves
+  direct,    ///< splines through the lengths themselves; points on full rows and columns, no machine
+};
+
+struct FitOptions {
+  SurfaceKind surface = SurfaceKind::residual;
+  /// Of the direct surface's edges.
+  interp::TensorEnds ends;
+};
+
+struct FitFailure {
+  enum class Reason {
+    no_machine,         ///< the residual surface needs one
+    not_a_grid,         ///< the direct surface needs full rows and columns
+    no_lengths,         ///< a point gives a command that its controller cannot reach, or no controller is stated
+    point_unreachable,  ///< a point where the stated machine cannot hold the sled
+    rank_deficient,
+    not_converged,
+  } reason;
+  std::string sentence;
+};
+
+[[nodiscard]] tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid, const FitOptions& options = {});
+
+}  // namespace chaintrue::grid

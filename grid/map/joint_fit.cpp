@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Notation: theta, deviations of the settings from what was stated; b, all unknowns (theta first); d, distance of a
+/// point's left-out residual in sigmas.
+#include "grid/map/joint_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "grid/map/spatial_blocks.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::Setting;
+
+constexpr int kMaximumPasses = 25;
+/// Below a hundredth of a sigma a further pass changes no length by more than some 1e-4 mm.
+constexpr double kSettledSigmas = 1e-3;
+/// Huber's constant for two degrees of freedom: 95 % efficient on clean data.
+constexpr double kHuberDistance = 2.2;
+/// Passes with soft weights only, so that several bad points cannot hide each other.
+constexpr int kSoftPasses = 4;
+
+/// The unknown settings: their sigmas, and the machine and sheet at a theta.
+class Unknowns {
+ public:
+  Unknowns(const model::Machine& stated, const std::optional<SheetUncertainty>& sheet) : stated_(stated) {
+    for (Setting setting : model::kMachineSettings) {
+      settings_.push_back(setting);
+      sigmas_.push_back(model::stated_sigma(stated, setting));
+    }
+    if (sheet) {
+      settings_.insert(settings_.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
+      sigmas_.insert(sigmas_.end(), {sheet->shift_mm, sheet->shift_mm, 1e-3 * sheet->rotation_mrad});
+    }
+  }
+  [[nodiscard]] const std::vector<Setting>& settings() const { return settings_; }
+  [[nodiscard]] double sigma(Eigen::Index i) const { return sigmas_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(settings_.size()); }
+
+  [[nodiscard]] model::Machine machine_at(const Eigen::VectorXd& theta) const {
+    model::Machine machine = stated_;
+    for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {
+      machine = model::with_setting(std::move(machine), settings_[i],
+                                    model::stated_value(stated_, settings_[i]) + theta[static_cast<Eigen::Index>(i)]);
+    }
+    return machine;
+  }
+  [[nodiscard]] model::SheetPlacement sheet_at(const Eigen::VectorXd& theta) const {
+    const auto first = static_cast<Eigen::Index>(model::kMachineSettings.size());
+    if (theta.size() == first) return {};
+    return {theta[first], theta[first + 1], theta[first + 2]};
+  }
+
+ private:
+  model::Machine stated_;
+  std::vector<Setting> settings_;
+  std::vector<double> sigmas_;
+};
+
+/// One point, linearised and whitened: rows of the design and the response, and the way back to millimetres.
+struct WhitePoint {
+  Eigen::MatrixXd design;     // 2 x total
+  Eigen::Vector2d response;   // whitened, for all unknowns
+  Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  // W with W C W' = I
+};
+
+JointFitFailure unreachable(const LengthPoint& point, model::PoseFailure failure) {
+  return {JointFitFailure::Reason::point_unreachable,
+          fmt::format("point {} at ({:.1f}, {:.1f}): {}", point.index, point.mark.x_mm, point.mark.y_mm,
+                      model::explain(failure))};
+}
+
+/// About 1.7 coefficients a point, so that noise-free points can be met; the penalty makes more of them harmless.
+interp::BsplineBasis basis_for(const interp::Rectangle& domain, std::size_t points) {
+  const double wanted = 1.7 * static_cast<double>(points);
+  const double aspect = std::clamp(domain.width() / domain.height(), 0.25, 4.0);
+  const auto intervals = [](double columns, int most) {
+    return std::clamp(static_cast<int>(std::ceil(columns)) - 3, 3, most);
+  };
+  return {domain, intervals(std::sqrt(wanted * aspect), 12), intervals(std::sqrt(wanted / aspect), 8)};
+}
+
+class JointFitter {
+ public:
+  explicit JointFitter(const JointFitInput& input)
+      : input_(input),
+        unknowns_(input.machine, input.sheet),
+        basis_(basis_for(input.domain, input.points.size())),
+        columns_{unknowns_.size(), basis_.size()},
+        theta_(Eigen::VectorXd::Zero(unknowns_.size())),
+        weights_(Eigen::VectorXd::Ones(static_cast<Eigen::Index>(input.points.size()))),
+        distances_(Eigen::VectorXd::Zero(weights_.size())) {}
+
+  tl::expected<JointFit, JointFitFailure> run();
+
+ private:
+  tl::expected<void, JointFitFailure> linearise();
+  tl::expected<void, JointFitFailure> solve(bool correct_covariance);
+  void measure_distances();
+  [[nodiscard]] bool update_weights(int pass);
+  [[nodiscard]] interp::PenalisedProblem problem() const;
+  [[nodiscard]] JointFit result() const;
+  [[nodiscard]] std::vector<Eigen::Vector2d> left_out(const std::vector<std::size_t>& group) const;
+
+  const JointFitInput& input_;
+  Unknowns unknowns_;
+  interp::BsplineBasis basis_;
+  FitColumns columns_;
+  Eigen::VectorXd theta_;
+  Eigen::VectorXd weights_;
+  Eigen::VectorXd distances_;
+  std::vector<WhitePoint> white_;
+  std::vector<WhitePoint> extra_;
+  interp::PenalisedFit fit_;
+};
+
+tl::expected<void, JointFitFailure> JointFitter::linearise() {
+  const model::ReadingModel model(unknowns_.machine_at(theta_));
+  const model::SheetPlacement sheet = unknowns_.sheet_at(theta_);
+  white_.clear();
+  for (const LengthPoint& point : input_.points) {
+    const model::ChainReading reading(point.mark, point.lengths, input_.noise);
+    const auto line = reading.linearise(model, sheet, unknowns_.settings());
+    if (!line) return tl::unexpected(unreachable(point, line.error()));
+    WhitePoint white;
+    const Eigen::Matrix2d lower = Eigen::Matrix2d(line->covariance).llt().matrixL();
+    white.whitening = lower.inverse();
+    const model::ChainLengths predicted{point.lengths.left_mm - line->residual[0],
+                                        point.lengths.right_mm - line->residual[1]};
+    white.design = white.whitening *
+                   design_rows(basis_, columns_, point.mark, predicted, line->setting_jacobian);
+    white.response = white.whitening * (line->residual + line->setting_jacobian * theta_);
+    white_.push_back(std::move(white));
+  }
+  extra_.clear();
+  for (const auto& observation : input_.extra) {
+    const auto line = observation->linearise(model, sheet, unknowns_.settings());
+    if (!line) continue;  // readings of the machine itself have no pose that could fail
+    WhitePoint white;
+    const double scale = 1.0 / std::sqrt(line->covariance(0, 0));
+    white.design = Eigen::MatrixXd::Zero(1, columns_.total());
+    white.design.leftCols(columns_.settings) = scale * line->setting_jacobian;
+    white.response = Eigen::Vector2d(scale * (line->residual + line->setting_jacobian * theta_)[0], 0.0);
+    extra_.push_back(std::move(white));
+  }
+  return {};
+}
+
+interp::PenalisedProblem JointFitter::problem() const {
+  interp::PenalisedProblem problem(columns_.total());
+  const auto points = static_cast<Eigen::Index>(white_.size());
+  Eigen::MatrixXd design(2 * points, columns_.total());
+  Eigen::VectorXd response(2 * points);
+  Eigen::Index rows = 0;
+  for (Eigen::Index i = 0; i < points; ++i) {
+    if (weights_[i] == 0.0) continue;
+    const double root = std::sqrt(weights_[i]);
+    const WhitePoint& white = white_[static_cast<std::size_t>(i)];
+    design.middleRows(rows, 2) = root * white.design;
+    response.segment(rows, 2) = root * white.response;
+    rows += 2;
+  }
+  problem.add_rows(design.topRows(rows), response.head(rows));
+
+  problem.prior_precision = Eigen::MatrixXd::Zero(columns_.total(), columns_.total());
+  for (Eigen::Index i = 0; i < columns_.settings; ++i) {
+    problem.prior_precision(i, i) = 1.0 / (unknowns_.sigma(i) * unknowns_.sigma(i));
+  }
+  // Readings of the machine itself are data of known sigma: the noise factor of the points does not scale them.
+  problem.prior_mean = Eigen::VectorXd::Zero(columns_.total());
+  Eigen::VectorXd pull = Eigen::VectorXd::Zero(columns_.settings);
+  for (const WhitePoint& white : extra_) {
+    const Eigen::RowVectorXd row = white.design.leftCols(columns_.settings);
+    problem.prior_precision.topLeftCorner(columns_.settings, columns_.settings) += row.transpose() * row;
+    pull += row.transpose() * white.response[0];
+  }
+  problem.prior_mean.head(columns_.settings) =
+      problem.prior_precision.topLeftCorner(columns_.settings, columns_.settings).ldlt().solve(pull);
+
+  const Eigen::MatrixXd planes = basis_.plane_coefficients();
+  const Eigen::MatrixXd to_plane = (planes.transpose() * planes).ldlt().solve(planes.transpose());
+  const Eigen::MatrixXd plane_precision = to_plane.transpose() * to_plane / (kPlaneSigmaMm * kPlaneSigmaMm);
+  for (model::Side side : model::kSides) {
+    problem.prior_precision(columns_.scale(side), columns_.scale(side)) = 1.0 / (kScaleSigma * kScaleSigma);
+    problem.prior_precision.block(columns_.spline(side), columns_.spline(side), basis_.size(), basis_.size()) =
+        plane_precision;
+  }
+
+  // One smoothness for both chains: what bends one surface bends the other.
+  interp::Penalty penalty;
+  penalty.first_column = columns_.spline(model::Side::left);
+  penalty.matrix = Eigen::MatrixXd::Zero(2 * basis_.size(), 2 * basis_.size());
+  penalty.matrix.topLeftCorner(basis_.size(), basis_.size()) = basis_.thin_plate_penalty();
+  penalty.matrix.bottomRightCorner(basis_.size(), basis_.size()) =
+      penalty.matrix.topLeftCorner(basis_.size(), basis_.size());
+  penalty.rank = 2 * basis_.thin_plate_rank();
+  problem.penalties = {std::move(penalty)};
+  problem.noise = input_.noise_scale;
+  return problem;
+}
+
+tl::expected<void, JointFitFailure> JointFitter::solve(bool correct_covariance) {
+  interp::FitOptions options;
+  options.correct_covariance = correct_covariance;
+  auto fit = interp::fit_penalised(problem(), options);
+  if (!fit) {
+    const bool rank = fit.error().reason == interp::FitFailure::kRankDeficient;
+    return tl::unexpected(JointFitFailure{rank ? JointFitFailure::Reason::rank_deficient
+                                               : JointFitFailure::Reason::not_converged,
+                                          fit.error().sentence});
+  }
+  fit_ = std::move(*fit);
+  return {};
+}
+
+/// Whitened residuals of a group of points, seen from a fit without them. Points set aside are not in the fit.
+std::vector<Eigen::Vector2d> JointFitter::left_out(const std::vector<std::size_t>& group) const {
+  std::vector<std::size_t> used;
+  for (std::size_t i : group) {
+    if (weights_[static_cast<Eigen::Index>(i)] > 0.0) used.push_back(i);
+  }
+  Eigen::MatrixXd design(2 * static_cast<Eigen::Index>(used.size()), columns_.total());
+  Eigen::VectorXd response(design.rows());
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    const double root = std::sqrt(weights_[static_cast<Eigen::Index>(used[k])]);
+    design.middleRows(2 * static_cast<Eigen::Index>(k), 2) = root * white_[used[k]].design;
+    response.segment(2 * static_cast<Eigen::Index>(k), 2) = root * white_[used[k]].response;
+  }
+  const auto held = used.empty() ? tl::expected<interp::HeldOut, interp::FitRefusal>(interp::HeldOut{})
+                                 : fit_.held_out(design, response);
+  std::vector<Eigen::Vector2d> residuals;
+  std::size_t k = 0;
+  for (std::size_t i : group) {
+    if (held && k < used.size() && used[k] == i) {
+      const double root = std::sqrt(weights_[static_cast<Eigen::Index>(i)]);
+      residuals.emplace_back(held->residual.segment(2 * static_cast<Eigen::Index>(k), 2) / root);
+      ++k;
+    } else {
+      residuals.emplace_back(white_[i].response - white_[i].design * fit_.coefficients);
+    }
+  }
+  return residuals;
+}
+
+void JointFitter::measure_distances() {
+  for (Eigen::Index i = 0; i < distances_.size(); ++i) {
+    const WhitePoint& white = white_[static_cast<std::size_t>(i)];
+    const Eigen::Vector2d residual = left_out({static_cast<std::size_t>(i)}).front();
+    // Variance of a left-out residual: the noise plus what the fit without the point does not know.
+    Eigen::Matrix2d spread = white.design * fit_.covariance * white.design.transpose();
+    const Eigen::Matrix2d noise = fit_.sigma2 * Eigen::Matrix2d::Identity();
+    if (weights_[i] > 0.0) {
+      const Eigen::Matrix2d kept = noise - weights_[i] * spread;
+      const Eigen::LLT<Eigen::Matrix2d> factor(kept);
+      spread = factor.info() == Eigen::Success ? Eigen::Matrix2d(noise * factor.solve(spread)) : spread;
+    }
+    distances_[i] = std::sqrt(residual.dot((noise + spread).ldlt().solve(residual)));
+  }
+}
+
+/// True where the weights changed enough to fit again.
+bool JointFitter::update_weights(int pass) {
+  measure_distances();
+  double change = 0.0;
+  for (Eigen::Index i = 0; i < weights_.size(); ++i) {
+    const bool bad = pass >= kSoftPasses && distances_[i] > kBadPointDistance;
+    const double weight = bad ? 0.0 : std::min(1.0, kHuberDistance / std::max(distances_[i], 1e-12));
+    change = std::max(change, std::abs(weight - weights_[i]));
+    weights_[i] = weight;
+  }
+  return change > 1e-3;
+}
+
+tl::expected<JointFit, JointFitFailure> JointFitter::run() {
+  for (int pass = 0; pass < kMaximumPasses; ++pass) {
+    if (auto done = linearise(); !done) return tl::unexpected(done.error());
+    if (auto done = solve(false); !done) return tl::unexpected(done.error());
+    const Eigen::VectorXd next = fit_.coefficients.head(columns_.settings);
+    double step = 0.0;
+    for (Eigen::Index i = 0; i < next.size(); ++i) {
+      step = std::max(step, std::abs(next[i] - theta_[i]) / unknowns_.sigma(i));
+    }
+    theta_ = next;
+    const bool reweighted = update_weights(pass);
+    if (pass > kSoftPasses && step < kSettledSigmas && !reweighted) break;
+  }
+  if (auto done = linearise(); !done) return tl::unexpected(done.error());
+  if (auto done = solve(true); !done) return tl::unexpected(done.error());
+  measure_distances();
+  return result();
+}
+
+JointFit JointFitter::result() const {
+  JointFit fit{unknowns_.machine_at(theta_),
+               unknowns_.sheet_at(theta_),
+               unknowns_.settings(),
+               columns_,
+               {basis_, {}, {}},
+               fit_.corrected_covariance,
+               std::sqrt(fit_.sigma2),
+               fit_.edf,
+               {},
+               {}};
+  for (model::Side side : model::kSides) {
+    fit.surface.scale[side] = fit_.coefficients[columns_.scale(side)];
+    fit.surface.coefficients[side] = fit_.coefficients.segment(columns_.spline(side), basis_.size());
+  }
+  const model::ReadingModel model(fit.machine);
+  for (std::size_t i = 0; i < white_.size(); ++i) {
+    const WhitePoint& white = white_[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    const Eigen::Matrix2d back = white.whitening.inverse();
+    FittedPoint point;
+    point.point = input_.points[i];
+    point.bad = weights_[at] == 0.0;
+    point.distance = distances_[at];
+    point.residual_mm = back * (white.response - white.design * fit_.coefficients);
+    point.left_out_residual_mm = back * left_out({i}).front();
+    // linearise() reached every point at this very theta.
+    const model::PointReading reading = model.at(fit.sheet.to_bed(point.point.mark)).value();
+    point.mark_jacobian = fit.surface
+                              .apply(point.point.mark, reading.lengths,
+                                     reading.position_jacobian * fit.sheet.rotation())
+                              .mark_jacobian;
+    fit.points.push_back(point);
+  }
+  fit.blocked_residual_mm.resize(white_.size());
+  for (const auto& block : spatial_blocks(input_.points)) {
+    const auto residuals = left_out(block);
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      fit.blocked_residual_mm[block[k]] = white_[block[k]].whitening.inverse() * residuals[k];
+    }
+  }
+  return fit;
+}
+
+}  // namespace
+
+tl::expected<JointFit, JointFitFailure> fit_jointly(const JointFitInput& input) {
+  return JointFitter(input).run();
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/length_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "model/controllers/payout.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::Machine;
+
+void take_ring_radius(Machine& machine, const ExtraReading& reading) {
+  auto* ring = std::get_if<model::Ring>(&machine.attachment);
+  if (ring == nullptr) return;
+  const double stated = 1.0 / std::pow(machine.uncertainty.ring_radius_mm, 2);
+  const double read = 1.0 / std::pow(reading.sigma, 2);
+  ring->radius_mm = (stated * ring->radius_mm + read * reading.value) / (stated + read);
+}
+
+void take_link_pitch(Machine& machine, const ExtraReading& reading) {
+  machine.effects.push_back({"chain_pitch_error",
+                             reading.side,
+                             {{"elongation", reading.value / machine.sprocket.pitch_mm - 1.0}}});
+}
+
+using TakeReading = std::function<void(Machine&, const ExtraReading&)>;
+
+const std::map<std::string, TakeReading>& machine_readings() {
+  static const std::map<std::string, TakeReading> kReadings = {
+      {"sled_mass_kg", [](Machine& m, const ExtraReading& r) { m.sled.mass_kg = r.value; }},
+      {"chain_mass_kg_per_m", [](Machine& m, const ExtraReading& r) { m.chain.mass_kg_per_m = r.value; }},
+      {"ring_radius_mm", take_ring_radius},
+      {"link_pitch_mm", take_link_pitch},
+  };
+  return kReadings;
+}
+
+using MakeObservation = std::function<std::shared_ptr<const model::Observation>(const ExtraReading&)>;
+
+const std::map<std::string, MakeObservation>& setting_readings() {
+  static const std::map<std::string, MakeObservation> kReadings = {
+      {"motor_spacing_mm",
+       [](const ExtraReading& r) { return std::make_shared<const model::MotorSpacing>(r.value, r.sigma); }},
+      {"beam_rise_mm",
+       [](const ExtraReading& r) { return std::make_shared<const model::BeamRise>(r.value, r.sigma); }},
+  };
+  return kReadings;
+}
+
+tl::unexpected<FitFailure> no_lengths(std::size_t index, const std::string& why) {
+  return tl::unexpected(FitFailure{
+      FitFailure::Reason::no_lengths, fmt::format("point {} gives a command and no lengths, but {}", index, why)});
+}
+
+}  // namespace
+
+tl::expected<std::vector<LengthPoint>, FitFailure> length_points(const MeasuredGrid& grid) {
+  const bool commands = std::any_of(grid.points.begin(), grid.points.end(),
+                                    [](const MeasuredPoint& point) { return !point.lengths; });
+  std::unique_ptr<const model::ControllerKinematics> controller;
+  if (commands && grid.machine) controller = model::make_controller_kinematics(*grid.machine);
+  std::vector<LengthPoint> points;
+  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    const MeasuredPoint& point = grid.points[i];
+    LengthPoint result{i, point.mark, {}};
+    if (point.lengths) {
+      result.lengths = *point.lengths;
+    } else {
+      if (!controller) return no_lengths(i, "no machine is stated whose controller would tell them");
+      if (!point.commanded) return no_lengths(i, "the command is missing");
+      const auto paid_out = controller->lengths(*point.commanded);
+      if (!paid_out) return no_lengths(i, fmt::format("the controller cannot go there: {}", model::explain(paid_out.error())));
+      result.lengths = *paid_out;
+    }
+    points.push_back(result);
+  }
+  return points;
+}
+
+std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoint>& points) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto near = [&](const std::vector<std::size_t>& group) {
+      const model::BedPoint first = points[group.front()].mark;
+      return std::hypot(first.x_mm - points[i].mark.x_mm, first.y_mm - points[i].mark.y_mm) <= kRepeatDistanceMm;
+    };
+    const auto group = std::find_if(groups.begin(), groups.end(), near);
+    if (group == groups.end()) {
+      groups.push_back({i});
+    } else {
+      group->push_back(i);
+    }
+  }
+  std::erase_if(groups, [](const auto& group) { return group.size() < 2; });
+  return groups;
+}
+
+Machine with_readings(Machine machine, const std::vector<ExtraReading>& readings) {
+  for (const ExtraReading& reading : readings) {
+    const auto take = machine_readings().find(reading.what);
+    if (take != machine_readings().end()) take->second(machine, reading);
+  }
+  return machine;
+}
+
+std::vector<std::shared_ptr<const model::Observation>> setting_observations(
+    const std::vector<ExtraReading>& readings) {
+  std::vector<std::shared_ptr<const model::Observation>> observations;
+  for (const ExtraReading& reading : readings) {
+    const auto make = setting_readings().find(reading.what);
+    if (make != setting_readings().end()) observations.push_back(make->second(reading));
+  }
+  return observations;
+}
+
+}  // namespace chaintrue::grid

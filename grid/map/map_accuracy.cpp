@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/map_accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace chaintrue::grid {
+namespace {
+
+/// Running root mean square and largest magnitude.
+class Tally {
+ public:
+  void add(double value) {
+    squares_ += value * value;
+    largest_ = std::max(largest_, std::abs(value));
+    ++count_;
+  }
+  [[nodiscard]] double rms() const { return count_ == 0 ? 0.0 : std::sqrt(squares_ / static_cast<double>(count_)); }
+  [[nodiscard]] ErrorSummary summary() const { return {rms(), largest_}; }
+
+ private:
+  double squares_ = 0.0;
+  double largest_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+HeldOutError summarise(const std::vector<HeldOutResidual>& residuals) {
+  Tally chain;
+  Tally tool;
+  Tally x;
+  Tally y;
+  for (const HeldOutResidual& residual : residuals) {
+    chain.add(residual.chain_mm[0]);
+    chain.add(residual.chain_mm[1]);
+    const Eigen::Vector2d at_tool = residual.mark_jacobian.inverse() * residual.chain_mm;
+    tool.add(at_tool.norm());
+    x.add(at_tool.x());
+    y.add(at_tool.y());
+  }
+  return {chain.summary(), tool.summary(), x.rms(), y.rms()};
+}
+
+void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy) {
+  constexpr int kColumns = 49;
+  constexpr int kRows = 25;
+  const interp::Rectangle& domain = map.contents().domain;
+  Tally tool;
+  double worst = -1.0;
+  for (int iy = 0; iy < kRows; ++iy) {
+    for (int ix = 0; ix < kColumns; ++ix) {
+      const model::BedPoint mark{domain.x_min + domain.width() * ix / (kColumns - 1),
+                                 domain.y_min + domain.height() * iy / (kRows - 1)};
+      if (map.status(mark) != MapStatus::inside) continue;
+      const auto answer = map.query(mark);
+      if (!answer) continue;
+      tool.add(answer->tool_sigma_mm);
+      if (answer->tool_sigma_mm > worst) {
+        worst = answer->tool_sigma_mm;
+        accuracy.expected_worst_at = mark;
+      }
+    }
+  }
+  accuracy.expected_tool = tool.summary();
+}
+
+MirrorTest test_mirror(const CompensationMap& map) {
+  MirrorTest test;
+  Tally tally;
+  double sum = 0.0;
+  for (const MapPoint& point : map.contents().points) {
+    const model::BedPoint bed = map.to_bed(point.mark);
+    const model::BedPoint mirrored = map.to_mark({-bed.x_mm, bed.y_mm});
+    const MapStatus status = map.status(mirrored);
+    if (point.bad || (status != MapStatus::inside && status != MapStatus::edge)) continue;
+    const auto here = map.query(point.mark);
+    const auto there = map.query(mirrored);
+    if (!here || !there) continue;
+    const double difference = point.lengths.right_mm - there->lengths.left_mm;
+    const MapNoise& noise = map.contents().noise;
+    const double scale = noise.factor_found;
+    const double variance = std::pow(scale * noise.length_mm, 2) +
+                            std::pow(scale * noise.position_mm, 2) * here->mark_jacobian.row(1).squaredNorm() +
+                            there->sigma.left_mm * there->sigma.left_mm;
+    constexpr double kBeyondChance = 4.5;
+    test.holds = test.holds && std::abs(difference) <= kBeyondChance * std::sqrt(variance);
+    if (test.points == 0 || std::abs(difference) > std::abs(test.worst_signed_mm)) {
+      test.worst_signed_mm = difference;
+      test.worst_at = point.mark;
+    }
+    tally.add(difference);
+    sum += difference;
+    ++test.points;
+  }
+  if (test.points == 0) {
+    test.sentence = "No point's mirror image lies on the measured part of the bed, so the mirror claim was not tested.";
+    return test;
+  }
+  test.difference = tally.summary();
+  test.mean_mm = sum / static_cast<double>(test.points);
+  const auto than = [](double value) { return value >= 0.0 ? "longer" : "shorter"; };
+  if (test.holds) {
+    test.sentence = fmt::format(
+        "Within the noise the right chain is the left one mirrored: the largest difference at {} points is {:.2f} mm.",
+        test.points, std::abs(test.worst_signed_mm));
+  } else {
+    test.sentence = fmt::format(
+        "The right chain is not the left one mirrored: at ({:.0f}, {:.0f}) it is {:.2f} mm {} than the left chain at the "
+        "mirrored place, {:.2f} mm rms over {} points (mean {:+.2f} mm). One surface for both chains would cut that "
+        "error into every part.",
+        test.worst_at.x_mm, test.worst_at.y_mm, std::abs(test.worst_signed_mm), than(test.worst_signed_mm),
+        test.difference.rms_mm, test.points, test.mean_mm);
+  }
+  return test;
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// How far a place is from what was measured: the convex hull of the points, its neighbourhood, and the domain beyond
+/// which nothing is answered.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "interp/surface.hpp"
+#include "model/coordinates.hpp"
+
+namespace chaintrue::grid {
+
+/// Stands with every answer of a map.
+enum class MapStatus {
+  inside,        ///< between measured points
+  edge,          ///< beyond the outermost points by at most half their spacing
+  extrapolated,  ///< farther, but on the bed: continued smoothly, with the sigma that this deserves
+  outside,       ///< off the bed, or where the chains cannot hold the sled: no lengths
+};
+
+[[nodiscard]] std::string_view name(MapStatus status);
+
+/// Immutable, thread safe.
+class MeasuredArea {
+ public:
+  /// `domain` is where answers are given at all. \throws std::invalid_argument for fewer than 3 points.
+  MeasuredArea(const std::vector<model::BedPoint>& points, const interp::Rectangle& domain);
+  /// From a hull as written in a file: counter-clockwise corners, and half the points' spacing.
+  MeasuredArea(std::vector<model::BedPoint> hull, double edge_mm, const interp::Rectangle& domain);
+
+  [[nodiscard]] MapStatus status(model::BedPoint mark) const;
+  /// Corners, counter-clockwise, the lowest of the leftmost first.
+  [[nodiscard]] const std::vector<model::BedPoint>& hull() const { return hull_; }
+  [[nodiscard]] double edge_mm() const { return edge_mm_; }
+  [[nodiscard]] const interp::Rectangle& domain() const { return domain_; }
+
+ private:
+  std::vector<model::BedPoint> hull_;
+  double edge_mm_;
+  interp::Rectangle domain_;
+};
+
+}  // namespace chaintrue::grid

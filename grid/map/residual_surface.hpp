@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What the calibrated model leaves: one smooth correction for each chain.
+///
+///   correction_i(q) = e_i f_i(q) + s_i(q)                                                          (1)
+///
+///   q    a mark                                f_i   the model's length of chain i there
+///   e_i  a length scale of the chain           s_i   cubic B-splines with a thin-plate penalty
+///
+/// The scale is there because a chain's pitch is never quite nominal, and because a correction that follows the chain's
+/// length is a far better guess between and beyond the points than one that knows only x and y.
+///
+/// Coefficients stand in the order: settings, e_left, e_right, s_left, s_right (FitColumns).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "interp/bspline_basis.hpp"
+#include "model/calibration/observation.hpp"
+
+namespace chaintrue::grid {
+
+/// Where each group of unknowns begins.
+struct FitColumns {
+  Eigen::Index settings = 0;  ///< how many settings there are
+  Eigen::Index basis = 0;     ///< coefficients of one spline
+  [[nodiscard]] Eigen::Index scale(model::Side side) const {
+    return settings + (side == model::Side::left ? 0 : 1);
+  }
+  [[nodiscard]] Eigen::Index spline(model::Side side) const {
+    return settings + 2 + (side == model::Side::left ? 0 : basis);
+  }
+  [[nodiscard]] Eigen::Index total() const { return settings + 2 + 2 * basis; }
+};
+
+/// Immutable, thread safe.
+struct ResidualSurface {
+  interp::BsplineBasis basis;
+  model::PerSide<double> scale;
+  model::PerSide<Eigen::VectorXd> coefficients;
+
+  /// The corrected lengths and d(lengths)/d(mark), from the model's own at the same mark.
+  struct Corrected {
+    model::ChainLengths lengths;
+    Eigen::Matrix2d mark_jacobian;
+  };
+  [[nodiscard]] Corrected apply(model::BedPoint mark, model::ChainLengths lengths,
+                                const Eigen::Matrix2d& mark_jacobian) const;
+};
+
+/// The two rows of the design at a mark: d(corrected lengths)/d(unknowns). `settings_jacobian` is 2 x settings.
+[[nodiscard]] Eigen::MatrixXd design_rows(const interp::BsplineBasis& basis, const FitColumns& columns,
+                                          model::BedPoint mark, model::ChainLengths lengths,
+                                          const Eigen::MatrixXd& settings_jacobian);
+
+}  // namespace chaintrue::grid

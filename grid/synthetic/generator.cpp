@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/synthetic/generator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid::synthetic {
+namespace {
+
+using model::BedPoint;
+using model::ChainLengths;
+using model::Machine;
+using model::Setting;
+using model::Visit;
+
+// What draws from which stream. A new purpose gets a new number; the old ones never change, or old
+// seeds would give other grids.
+enum Stream : std::uint64_t {
+  kMarks = 1,
+  kOrder = 2,
+  kRepeats = 3,
+  kJitter = 4,
+  kLengthNoise = 5,
+  kPositionNoise = 6,
+  kBadPoints = 7,
+  kSettings = 8,
+  kSheet = 9,
+};
+
+// Digits that a number with noise still has: far below any noise, and far above what differs
+// between mathematical libraries, so that the bytes are the same everywhere.
+constexpr double kNoisyStep_mm = 1e-4;
+
+double rounded(double value, double step) {
+  if (step <= 0.0) return value;
+  // Dividing by a whole number of steps per mm gives the double nearest to the decimal number.
+  const double per_mm = std::round(1.0 / step);
+  const bool divides = std::abs(per_mm * step - 1.0) < 1e-12;
+  return divides ? std::round(value * per_mm) / per_mm : std::round(value / step) * step;
+}
+
+double step_of(double rounding_mm, double sigma_mm) {
+  if (rounding_mm > 0.0) return rounding_mm;
+  return sigma_mm > 0.0 ? kNoisyStep_mm : 0.0;
+}
+
+double draw(Random& random, const SyntheticNoise& noise, double sigma) {
+  if (sigma == 0.0) return 0.0;
+  return sigma * (noise.heavy_tails ? random.heavy_tailed() : random.normal());
+}
+
+// Up to `radius` away, evenly over the disc.
+BedPoint beside(BedPoint place, double radius_mm, Random& random) {
+  if (radius_mm == 0.0) return place;
+  for (;;) {
+    const double x = random.uniform(-1.0, 1.0);
+    const double y = random.uniform(-1.0, 1.0);
+    if (x * x + y * y <= 1.0) return {place.x_mm + radius_mm * x, place.y_mm + radius_mm * y};
+  }
+}
+
+// A visit of every mark in order, and the repeats spread evenly between: after a share of the
+// marks, one of them again.
+std::vector<BedPoint> session_of(const std::vector<Mark>& marks, int repeats, Random& random) {
+  std::vector<BedPoint> session;
+  std::vector<std::size_t> unrepeated;
+  int done = 0;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    session.push_back(marks[i].place);
+    unrepeated.push_back(i);
+    while (done < repeats && (i + 1) * static_cast<std::size_t>(repeats) >=
+                                 marks.size() * static_cast<std::size_t>(done + 1)) {
+      // Each mark once more before any is visited a third time.
+      if (unrepeated.empty()) {
+        for (std::size_t k = 0; k <= i; ++k) unrepeated.push_back(k);
+      }
+      const std::size_t pick = random.below(unrepeated.size());
+      session.push_back(marks[unrepeated[pick]].place);
+      unrepeated.erase(unrepeated.begin() + static_cast<std::ptrdiff_t>(pick));
+      ++done;
+    }
+  }
+  return session;
+}
+
+void offset_setting(Machine& machine, model::SheetPlacement& sheet, const SettingOffset& offset) {
+  switch (offset.setting) {
+    case Setting::sheet_x_mm:
+      sheet.x_mm += offset.offset;
+      break;
+    case Setting::sheet_y_mm:
+      sheet.y_mm += offset.offset;
+      break;
+    case Setting::sheet_rotation_rad:
+      sheet.rotation_rad += offset.offset;
+      break;
+    default:
+      machine = model::with_setting(
+          machine, offset.setting, model::stated_value(machine, offset.setting) + offset.offset);
+  }
+}
+
+std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticSpec& spec) {
+  std::vector<SettingOffset> offsets = spec.offsets;
+  if (spec.draw_settings) {
+    Random random(spec.seed, kSettings);
+    for (const Setting setting : model::kMachineSettings) {
+      offsets.push_back({setting, model::stated_sigma(stated, setting) * random.normal()});
+    }
+  }
+  if (spec.sheet) {
+    Random random(spec.seed, kSheet);
+    offsets.push_back({Setting::sheet_x_mm, spec.sheet->shift_mm * random.normal()});
+    offsets.push_back({Setting::sheet_y_mm, spec.sheet->shift_mm * random.normal()});
+    offsets.push_back(
+        {Setting::sheet_rotation_rad, 1e-3 * spec.sheet->rotation_mrad * random.normal()});
+  }
+  return offsets;
+}
+
+// The points whose links the machine's effects miscount.
+std::vector<std::size_t> miscounted(const Machine& machine, const std::vector<Visit>& visits) {
+  std::vector<std::size_t> points;
+  for (const model::AppliedEffect& effect : machine.effects) {
+    if (effect.effect != "link_miscount" || effect.parameters.at("links") == 0.0) continue;
+    for (std::size_t i = 0; i < visits.size(); ++i) {
+      if (visits[i].order == effect.parameters.at("visit")) points.push_back(i);
+    }
+  }
+  return points;
+}
+
+// Noise, slips and rounding on top of what was truly written and read; `bad_points` receives the
+// slips.
+std::vector<MeasuredPoint> written_down(const std::vector<BedPoint>& marks,
+                                        const std::vector<ChainLengths>& lengths,
+                                        const SyntheticSpec& spec,
+                                        std::vector<std::size_t>& bad_points) {
+  const SyntheticNoise& noise = spec.noise;
+  Random length_noise(spec.seed, kLengthNoise);
+  Random position_noise(spec.seed, kPositionNoise);
+  Random slips(spec.seed, kBadPoints);
+  std::vector<std::size_t> shuffled(marks.size());
+  for (std::size_t i = 0; i < shuffled.size(); ++i) shuffled[i] = i;
+  slips.shuffle(shuffled);
+  shuffled.resize(std::min(shuffled.size(), static_cast<std::size_t>(spec.bad.count)));
+  std::sort(shuffled.begin(), shuffled.end());
+
+  const double position_step = step_of(noise.position_rounding_mm, noise.position_mm);
+  const double length_step = step_of(noise.length_rounding_mm, noise.length_mm);
+  std::vector<MeasuredPoint> points;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    BedPoint mark = marks[i];
+    mark.x_mm += draw(position_noise, noise, noise.position_mm);
+    mark.y_mm += draw(position_noise, noise, noise.position_mm);
+    if (std::binary_search(shuffled.begin(), shuffled.end(), i)) {
+      const double direction = slips.uniform(-std::numbers::pi, std::numbers::pi);
+      mark.x_mm += spec.bad.size_mm * std::cos(direction);
+      mark.y_mm += spec.bad.size_mm * std::sin(direction);
+      bad_points.push_back(i);
+    }
+    const double left = lengths[i].left_mm + draw(length_noise, noise, noise.length_mm);
+    const double right = lengths[i].right_mm + draw(length_noise, noise, noise.length_mm);
+    points.push_back({{rounded(mark.x_mm, position_step), rounded(mark.y_mm, position_step)},
+                      ChainLengths{rounded(left, length_step), rounded(right, length_step)},
+                      std::nullopt,
+                      static_cast<int>(i)});
+  }
+  return points;
+}
+
+std::optional<StatedNoise> stated_noise(const SyntheticSpec& spec) {
+  if (spec.stated) return spec.stated;
+  if (spec.noise.length_mm == 0.0 && spec.noise.position_mm == 0.0) return std::nullopt;
+  StatedNoise stated;
+  stated.length_mm = spec.noise.length_mm;
+  stated.position_mm = spec.noise.position_mm;
+  return stated;
+}
+
+}  // namespace
+
+Machine with_effects(const Machine& stated, const std::vector<model::AppliedEffect>& hidden) {
+  Machine machine = stated;
+  machine.effects.insert(machine.effects.end(), hidden.begin(), hidden.end());
+  return machine;
+}
+
+tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
+                                                         const SyntheticSpec& spec) {
+  SyntheticSession session;
+  SyntheticAnswer& answer = session.answer;
+  answer.seed = spec.seed;
+  answer.hidden = spec.hidden;
+  answer.machine = with_effects(stated, spec.hidden);
+  answer.offsets = drawn_offsets(stated, spec);
+  for (const SettingOffset& offset : answer.offsets)
+    offset_setting(answer.machine, answer.sheet, offset);
+
+  Random mark_random(spec.seed, kMarks);
+  Random order_random(spec.seed, kOrder);
+  Random repeat_random(spec.seed, kRepeats);
+  Random jitter_random(spec.seed, kJitter);
+  std::vector<Mark> pattern = marks(stated.bed, spec.design, mark_random);
+  put_in_order(pattern, spec.order, order_random);
+  std::vector<Visit> visits;
+  for (const BedPoint& intended : session_of(pattern, spec.repeats, repeat_random)) {
+    const BedPoint place = beside(intended, spec.jitter_mm, jitter_random);
+    visits.push_back({answer.sheet.to_bed(place), static_cast<int>(visits.size())});
+    answer.places.push_back(visits.back().position);
+  }
+
+  const model::ReadingModel reading_model(answer.machine, spec.model);
+  const auto lengths = model::readings(reading_model, visits);
+  if (!lengths) {
+    return tl::unexpected(
+        UnreachableMark{visits[lengths.error().index].position, lengths.error().reason});
+  }
+  answer.lengths = *lengths;
+  const model::Paper paper(answer.machine);
+  std::vector<BedPoint> written;
+  for (const BedPoint& place : answer.places)
+    written.push_back(paper.written(answer.sheet.to_mark(place)));
+
+  session.grid.machine = stated;
+  session.grid.noise = stated_noise(spec);
+  session.grid.sheet = spec.sheet;
+  session.grid.points = written_down(written, *lengths, spec, answer.bad_points);
+  for (const std::size_t point : miscounted(answer.machine, visits))
+    answer.bad_points.push_back(point);
+  std::sort(answer.bad_points.begin(), answer.bad_points.end());
+  answer.bad_points.erase(std::unique(answer.bad_points.begin(), answer.bad_points.end()),
+                          answer.bad_points.end());
+  return session;
+}
+
+PlacesRead read_places(const Machine& stated,
+                       const std::vector<model::AppliedEffect>& hidden,
+                       const std::vector<Visit>& visits,
+                       model::Model model) {
+  PlacesRead result;
+  const Machine machine = with_effects(stated, hidden);
+  const model::ReadingModel reading_model(machine, model);
+  const model::Paper paper(machine);
+  std::vector<Visit> reached;
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    const auto reading = reading_model.at(visits[i].position);
+    if (reading) {
+      reached.push_back(visits[i]);
+    } else {
+      result.unreachable.emplace_back(i, reading.error());
+    }
+  }
+  const auto lengths = model::readings(reading_model, reached);
+  result.grid.machine = stated;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    result.grid.points.push_back(
+        {paper.written(reached[i].position), lengths->at(i), std::nullopt, reached[i].order});
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid::synthetic

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/bspline_basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace chaintrue::interp {
+namespace {
+
+using Four = std::array<double, 4>;
+
+// The four B-splines over one cell at t in [0, 1], and their derivatives by t.
+Four values(double t) {
+  const double s = 1.0 - t;
+  return {s * s * s / 6.0,
+          (4.0 + t * t * (3.0 * t - 6.0)) / 6.0,
+          (1.0 + 3.0 * t * (1.0 + t * s)) / 6.0,
+          t * t * t / 6.0};
+}
+
+Four first_derivatives(double t) {
+  const double s = 1.0 - t;
+  return {-s * s / 2.0, t * (3.0 * t - 4.0) / 2.0, (1.0 + t * (2.0 - 3.0 * t)) / 2.0, t * t / 2.0};
+}
+
+Four second_derivatives(double t) {
+  const double s = 1.0 - t;
+  return {s, 3.0 * t - 2.0, 1.0 - 3.0 * t, t};
+}
+
+struct AxisSupport {
+  Eigen::Index first;
+  Four value;
+  Four slope;
+};
+
+AxisSupport axis_support(double position, double low, double step, Eigen::Index columns) {
+  const auto cells = static_cast<double>(columns - 3);
+  const double u = (position - low) / step;
+  const double inside = std::clamp(u, 0.0, cells);
+  const double cell = std::min(std::floor(inside), cells - 1.0);
+  AxisSupport result{
+      static_cast<Eigen::Index>(cell), values(inside - cell), first_derivatives(inside - cell)};
+  const double beyond = u - inside;
+  for (std::size_t i = 0; i < 4; ++i) {
+    result.value[i] += beyond * result.slope[i];
+    result.slope[i] /= step;
+  }
+  return result;
+}
+
+// Integral over the axis of the product of two functions' derivatives of one order, for all pairs.
+// Products of cubics have degree six at most: four Gauss points are exact.
+Eigen::MatrixXd axis_gram(Eigen::Index columns,
+                          double step,
+                          Four (*derivative)(double),
+                          int order) {
+  constexpr std::array<double, 4> kNode = {
+      0.069431844202973712, 0.330009478207571868, 0.669990521792428132, 0.930568155797026288};
+  constexpr std::array<double, 4> kWeight = {
+      0.173927422568726929, 0.326072577431273071, 0.326072577431273071, 0.173927422568726929};
+  Eigen::Matrix4d cell = Eigen::Matrix4d::Zero();
+  for (std::size_t g = 0; g < 4; ++g) {
+    const Four b = derivative(kNode[g]);
+    const Eigen::Map<const Eigen::Vector4d> v(b.data());
+    cell += kWeight[g] * v * v.transpose();
+  }
+  cell *= std::pow(step, 1 - 2 * order);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns, columns);
+  for (Eigen::Index i = 0; i + 3 < columns; ++i) {
+    gram.block<4, 4>(i, i) += cell;
+  }
+  return gram;
+}
+
+void add_kronecker(Eigen::MatrixXd& sum,
+                   double factor,
+                   const Eigen::MatrixXd& y_part,
+                   const Eigen::MatrixXd& x_part) {
+  const Eigen::Index m = x_part.rows();
+  for (Eigen::Index i = 0; i < y_part.rows(); ++i) {
+    const Eigen::Index band_end = std::min(y_part.cols(), i + 4);
+    for (Eigen::Index j = std::max<Eigen::Index>(0, i - 3); j < band_end; ++j) {
+      sum.block(i * m, j * m, m, m) += (factor * y_part(i, j)) * x_part;
+    }
+  }
+}
+
+}  // namespace
+
+BsplineBasis::BsplineBasis(const Rectangle& rectangle, int nx, int ny)
+    : rectangle_(rectangle),
+      columns_x_(nx + 3),
+      columns_y_(ny + 3),
+      step_x_(rectangle.width() / nx),
+      step_y_(rectangle.height() / ny) {
+  if (nx < 1 || ny < 1) {
+    throw std::invalid_argument(fmt::format("a B-spline basis of {} x {} intervals", nx, ny));
+  }
+  if (!(std::isfinite(step_x_) && std::isfinite(step_y_) && step_x_ > 0.0 && step_y_ > 0.0)) {
+    throw std::invalid_argument(fmt::format(
+        "a B-spline basis over a rectangle of {} x {}", rectangle.width(), rectangle.height()));
+  }
+}
+
+BasisSupport BsplineBasis::at(double x, double y) const {
+  const AxisSupport sx = axis_support(x, rectangle_.x_min, step_x_, columns_x_);
+  const AxisSupport sy = axis_support(y, rectangle_.y_min, step_y_, columns_y_);
+  BasisSupport result;
+  for (std::size_t j = 0; j < 4; ++j) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t k = 4 * j + i;
+      result.index[k] = (sy.first + static_cast<Eigen::Index>(j)) * columns_x_ + sx.first +
+                        static_cast<Eigen::Index>(i);
+      result.value[k] = sx.value[i] * sy.value[j];
+      result.dx[k] = sx.slope[i] * sy.value[j];
+      result.dy[k] = sx.value[i] * sy.slope[j];
+    }
+  }
+  return result;
+}
+
+namespace {
+
+Eigen::VectorXd spread(Eigen::Index size,
+                       const BasisSupport& support,
+                       const std::array<double, 16>& entries) {
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(size);
+  for (std::size_t k = 0; k < 16; ++k) {
+    row(support.index[k]) = entries[k];
+  }
+  return row;
+}
+
+}  // namespace
+
+Eigen::VectorXd BsplineBasis::row(double x, double y) const {
+  const BasisSupport support = at(x, y);
+  return spread(size(), support, support.value);
+}
+
+Eigen::VectorXd BsplineBasis::row_dx(double x, double y) const {
+  const BasisSupport support = at(x, y);
+  return spread(size(), support, support.dx);
+}
+
+Eigen::VectorXd BsplineBasis::row_dy(double x, double y) const {
+  const BasisSupport support = at(x, y);
+  return spread(size(), support, support.dy);
+}
+
+ValueGradient BsplineBasis::evaluate(const Eigen::Ref<const Eigen::VectorXd>& coefficients,
+                                     double x,
+                                     double y) const {
+  if (coefficients.size() != size()) {
+    throw std::invalid_argument(
+        fmt::format("{} coefficients for a basis of {} functions", coefficients.size(), size()));
+  }
+  const BasisSupport support = at(x, y);
+  ValueGradient result;
+  for (std::size_t k = 0; k < 16; ++k) {
+    const double c = coefficients(support.index[k]);
+    result.value += c * support.value[k];
+    result.dx += c * support.dx[k];
+    result.dy += c * support.dy[k];
+  }
+  return result;
+}
+
+Eigen::MatrixXd BsplineBasis::thin_plate_penalty() const {
+  const Eigen::MatrixXd x0 = axis_gram(columns_x_, step_x_, values, 0);
+  const Eigen::MatrixXd x1 = axis_gram(columns_x_, step_x_, first_derivatives, 1);
+  const Eigen::MatrixXd x2 = axis_gram(columns_x_, step_x_, second_derivatives, 2);
+  const Eigen::MatrixXd y0 = axis_gram(columns_y_, step_y_, values, 0);
+  const Eigen::MatrixXd y1 = axis_gram(columns_y_, step_y_, first_derivatives, 1);
+  const Eigen::MatrixXd y2 = axis_gram(columns_y_, step_y_, second_derivatives, 2);
+  Eigen::MatrixXd penalty = Eigen::MatrixXd::Zero(size(), size());
+  add_kronecker(penalty, 1.0, y0, x2);
+  add_kronecker(penalty, 2.0, y1, x1);
+  add_kronecker(penalty, 1.0, y2, x0);
+  return penalty;
+}
+
+Eigen::MatrixXd BsplineBasis::plane_coefficients() const {
+  Eigen::MatrixXd planes(size(), 3);
+  for (Eigen::Index iy = 0; iy < columns_y_; ++iy) {
+    for (Eigen::Index ix = 0; ix < columns_x_; ++ix) {
+      // A uniform cubic B-spline reproduces a straight line from its values at the knot averages.
+      const double u = static_cast<double>(ix - 1) * step_x_ / rectangle_.width();
+      const double v = static_cast<double>(iy - 1) * step_y_ / rectangle_.height();
+      planes.row(iy * columns_x_ + ix) << 1.0, 2.0 * u - 1.0, 2.0 * v - 1.0;
+    }
+  }
+  return planes;
+}
+
+}  // namespace chaintrue::interp

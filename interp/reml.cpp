@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Notation as in reml.hpp; theta are the logarithms of lambda_k, then of sigma2 where it is free.
+#include "interp/reml.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <Eigen/Cholesky>
+
+#include "interp/reml_marginal.hpp"
+#include "interp/reml_search.hpp"
+
+namespace chaintrue::interp {
+namespace {
+
+void check(const PenalisedProblem& problem) {
+  const Eigen::Index q = problem.columns();
+  const auto fail = [](const std::string& what) { throw std::invalid_argument(what); };
+  if (q == 0 || problem.gram.rows() != q || problem.moment.size() != q) {
+    fail(fmt::format(
+        "a fit with X'X of {} x {} and X'y of {}", problem.gram.rows(), q, problem.moment.size()));
+  }
+  if (!problem.gram.allFinite() || !problem.moment.allFinite() ||
+      !std::isfinite(problem.response_square)) {
+    fail("the data of a penalised fit are not finite");
+  }
+  if (problem.prior_precision.size() != 0 &&
+      (problem.prior_precision.rows() != q || problem.prior_precision.cols() != q)) {
+    fail(fmt::format("a prior precision of {} x {} for {} columns",
+                     problem.prior_precision.rows(),
+                     problem.prior_precision.cols(),
+                     q));
+  }
+  if (problem.prior_mean.size() != 0 && problem.prior_mean.size() != q) {
+    fail(fmt::format("a prior mean of {} for {} columns", problem.prior_mean.size(), q));
+  }
+  for (const Penalty& penalty : problem.penalties) {
+    const Eigen::Index m = penalty.matrix.rows();
+    if (m == 0 || penalty.matrix.cols() != m || penalty.first_column < 0 ||
+        penalty.first_column + m > q || !penalty.matrix.allFinite()) {
+      fail(fmt::format("a penalty of {} x {} from column {} on among {} columns",
+                       m,
+                       penalty.matrix.cols(),
+                       penalty.first_column,
+                       q));
+    }
+  }
+  if (problem.noise.knowledge == NoiseKnowledge::kFromRepeats &&
+      !(problem.noise.degrees_of_freedom > 0.0)) {
+    fail(fmt::format("a noise scale known from {} degrees of freedom",
+                     problem.noise.degrees_of_freedom));
+  }
+}
+
+tl::unexpected<FitRefusal> rank_deficient() {
+  return tl::unexpected(FitRefusal{
+      FitFailure::kRankDeficient,
+      "the points do not determine the fit: some combination of its unknowns is left free"});
+}
+
+// The posterior of one component of theta, others at their optimum, on a grid: weights and offsets.
+struct ThetaGrid {
+  std::vector<double> offset;
+  std::vector<double> weight;
+};
+
+// For a smoothing parameter the prior is flat in lambda^(-1/2), the standard deviation of the field
+// (A. Gelman, Bayesian Analysis 1 (2006) 515-534): proper where V runs out flat towards lambda ->
+// infinity, and there the field stays as uncertain as the data leave it. For log sigma2 it is flat.
+ThetaGrid posterior_grid(const reml::Marginal& marginal,
+                         const reml::SearchResult& found,
+                         Eigen::Index i,
+                         double sigma) {
+  constexpr double kNegligible = 5.0;  // e^-5 of the peak
+  constexpr int kLongest = 60;
+  const double step = std::clamp(sigma / 1.5, 0.2, 1.0);
+  const double slope = i < marginal.penalties() ? -0.5 : 0.0;
+  std::vector<double> log_weight;
+  ThetaGrid grid;
+  double peak = -std::numeric_limits<double>::infinity();
+  for (const double direction : {-1.0, 1.0}) {
+    for (int j = direction < 0.0 ? 0 : 1; j < kLongest; ++j) {
+      const double offset = direction * step * j;
+      Eigen::VectorXd theta = found.theta;
+      theta(i) += offset;
+      const auto state = marginal.evaluate(theta, reml::Order::kValue);
+      if (!state) {
+        break;
+      }
+      const double w = -0.5 * state->value + slope * offset;
+      peak = std::max(peak, w);
+      if (w < peak - kNegligible) {
+        break;
+      }
+      grid.offset.push_back(offset);
+      log_weight.push_back(w);
+    }
+  }
+  double sum = 0.0;
+  for (const double w : log_weight) {
+    grid.weight.push_back(w > peak - kNegligible ? std::exp(w - peak) : 0.0);
+    sum += grid.weight.back();
+  }
+  for (double& w : grid.weight) {
+    w /= sum;
+  }
+  return grid;
+}
+
+// The posterior covariance of b about the fit with theta averaged over rather than fixed, one
+// component of theta at a time, in working coordinates: E[A^-1] + E[(b - fit)(b - fit)'].
+Eigen::MatrixXd averaged_covariance(const reml::Marginal& marginal,
+                                    const reml::SearchResult& found,
+                                    const Eigen::VectorXd& sigma,
+                                    const Eigen::MatrixXd& plain) {
+  const Eigen::VectorXd fit =
+      marginal.evaluate(found.theta, reml::Order::kValue).value().coefficients;
+  Eigen::MatrixXd total = plain;
+  for (Eigen::Index i = 0; i < marginal.unknowns(); ++i) {
+    const ThetaGrid grid = posterior_grid(marginal, found, i, sigma(i));
+    for (std::size_t j = 0; j < grid.offset.size(); ++j) {
+      if (!(grid.weight[j] > 0.0)) {
+        continue;
+      }
+      Eigen::VectorXd theta = found.theta;
+      theta(i) += grid.offset[j];
+      const Eigen::VectorXd shift =
+          marginal.evaluate(theta, reml::Order::kValue).value().coefficients - fit;
+      total += grid.weight[j] * (marginal.inverse(theta) - plain);
+      total.noalias() += grid.weight[j] * shift * shift.transpose();
+    }
+  }
+  return total;
+}
+
+PenalisedFit assemble(const PenalisedProblem& problem,
+                      const reml::Marginal& marginal,
+                      const reml::SearchResult& found,
+                      const FitOptions& options) {
+  const reml::State state = marginal.evaluate(found.theta, reml::Order::kHessian).value();
+  const reml::Structure& structure = marginal.structure();
+  const Eigen::Index k = marginal.penalties();
+  PenalisedFit fit;
+  fit.coefficients = structure.to_columns(state.coefficients);
+  const Eigen::MatrixXd inverse = marginal.inverse(found.theta);
+  fit.covariance = structure.covariance_to_columns(inverse);
+  fit.lambda = found.theta.head(k).array().exp();
+  fit.sigma2 = marginal.sigma2(found.theta);
+  const Eigen::VectorXd& b = fit.coefficients;
+  fit.residual_square = std::max(
+      0.0, problem.response_square - 2.0 * b.dot(problem.moment) + b.dot(problem.gram * b));
+  fit.column_edf = fit.covariance.cwiseProduct(problem.gram).rowwise().sum() / fit.sigma2;
+  fit.edf = fit.column_edf.sum();
+  fit.minus_two_log_reml = state.value;
+  fit.iterations = found.iterations;
+  fit.ends = found.ends;
+  const Eigen::MatrixXd spread = reml::covariance_from_hessian(state.hessian, found.ends);
+  Eigen::VectorXd sigma = spread.diagonal().cwiseSqrt();
+  for (Eigen::Index i = 0; i < k; ++i) {
+    if (found.ends[static_cast<std::size_t>(i)] != SmoothingEnd::kInside) {
+      sigma(i) = std::numeric_limits<double>::infinity();
+    }
+  }
+  fit.log_lambda_sigma = sigma.head(k);
+  fit.corrected_covariance =
+      options.correct_covariance
+          ? structure.covariance_to_columns(averaged_covariance(marginal, found, sigma, inverse))
+          : fit.covariance;
+  return fit;
+}
+
+}  // namespace
+
+PenalisedProblem::PenalisedProblem(Eigen::Index columns)
+    : gram(Eigen::MatrixXd::Zero(columns, columns)), moment(Eigen::VectorXd::Zero(columns)) {}
+
+void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& design,
+                                const Eigen::Ref<const Eigen::VectorXd>& response) {
+  if (design.cols() != columns() || design.rows() != response.size()) {
+    throw std::invalid_argument(fmt::format("{} x {} design rows and {} responses for {} columns",
+                                            design.rows(),
+                                            design.cols(),
+                                            response.size(),
+                                            columns()));
+  }
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(design.transpose());
+  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  moment.noalias() += design.transpose() * response;
+  response_square += response.squaredNorm();
+  rows += design.rows();
+}
+
+void PenalisedProblem::add_sparse_row(const std::vector<Eigen::Index>& indices,
+                                      const std::vector<double>& values,
+                                      double response) {
+  if (indices.size() != values.size()) {
+    throw std::invalid_argument(
+        fmt::format("a sparse row of {} columns and {} values", indices.size(), values.size()));
+  }
+  for (std::size_t a = 0; a < indices.size(); ++a) {
+    if (indices[a] < 0 || indices[a] >= columns()) {
+      throw std::invalid_argument(fmt::format("column {} of {}", indices[a], columns()));
+    }
+    double* column = gram.col(indices[a]).data();
+    for (std::size_t b = 0; b < indices.size(); ++b) {
+      column[indices[b]] += values[a] * values[b];
+    }
+    moment(indices[a]) += values[a] * response;
+  }
+  response_square += response * response;
+  ++rows;
+}
+
+tl::expected<PenalisedFit, FitRefusal> fit_penalised(const PenalisedProblem& problem,
+                                                     const FitOptions& options) {
+  check(problem);
+  const reml::Marginal marginal(problem, std::nullopt);
+  if (!marginal.positive()) {
+    return rank_deficient();
+  }
+  const auto found = reml::search(marginal, options.maximum_iterations);
+  if (!found) {
+    return found.error() == FitFailure::kRankDeficient
+               ? rank_deficient()
+               : tl::unexpected(
+                     FitRefusal{found.error(),
+                                fmt::format("the choice of smoothing did not settle in {} steps",
+                                            options.maximum_iterations)});
+  }
+  return assemble(problem, marginal, *found, options);
+}
+
+tl::expected<PenalisedFit, FitRefusal> fit_with_smoothing(
+    const PenalisedProblem& problem,
+    const Eigen::Ref<const Eigen::VectorXd>& lambda,
+    double sigma2,
+    const FitOptions& options) {
+  check(problem);
+  if (lambda.size() != static_cast<Eigen::Index>(problem.penalties.size()) ||
+      !(lambda.array() > 0.0).all() || !(sigma2 > 0.0)) {
+    throw std::invalid_argument(
+        "each penalty needs a positive lambda, and sigma2 must be positive");
+  }
+  const reml::Marginal marginal(problem, sigma2);
+  reml::SearchResult fixed;
+  fixed.theta = lambda.array().log();
+  fixed.ends.assign(problem.penalties.size(), SmoothingEnd::kInside);
+  if (!marginal.positive() || !marginal.evaluate(fixed.theta, reml::Order::kValue)) {
+    return rank_deficient();
+  }
+  FitOptions plain = options;
+  plain.correct_covariance = false;
+  return assemble(problem, marginal, fixed, plain);
+}
+
+tl::expected<double, FitRefusal> minus_two_log_reml(const PenalisedProblem& problem,
+                                                    const Eigen::Ref<const Eigen::VectorXd>& lambda,
+                                                    double sigma2) {
+  check(problem);
+  const reml::Marginal marginal(problem, sigma2);
+  if (marginal.positive()) {
+    if (const auto state = marginal.evaluate(lambda.array().log(), reml::Order::kValue)) {
+      return state->value;
+    }
+  }
+  return rank_deficient();
+}
+
+tl::expected<HeldOut, FitRefusal> PenalisedFit::held_out(
+    const Eigen::Ref<const Eigen::MatrixXd>& design,
+    const Eigen::Ref<const Eigen::VectorXd>& response) const {
+  if (design.cols() != coefficients.size() || design.rows() != response.size()) {
+    throw std::invalid_argument(fmt::format("{} x {} held-out rows and {} responses for {} columns",
+                                            design.rows(),
+                                            design.cols(),
+                                            response.size(),
+                                            coefficients.size()));
+  }
+  const Eigen::Index m = design.rows();
+  const Eigen::MatrixXd spread =
+      Eigen::MatrixXd::Identity(m, m) - design * covariance * design.transpose() / sigma2;
+  const Eigen::LLT<Eigen::MatrixXd> factor(spread);
+  // The rounding of covariance * gram leaves about 1e-12 of one.
+  constexpr double kSmallestPivot = 1e-9;
+  if (factor.info() != Eigen::Success ||
+      factor.matrixLLT().diagonal().array().square().minCoeff() < kSmallestPivot) {
+    return tl::unexpected(FitRefusal{FitFailure::kRankDeficient,
+                                     "the other points do not determine the fit without these"});
+  }
+  HeldOut result;
+  result.residual = factor.solve(response - design * coefficients);
+  result.covariance = sigma2 * factor.solve(Eigen::MatrixXd::Identity(m, m));
+  return result;
+}
+
+}  // namespace chaintrue::interp

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// \file
+/// Penalised least squares with the smoothing chosen by restricted maximum likelihood (REML).
+///
+/// Notation (rows are whitened: unit weight, noise variance sigma2):
+///
+///     y = X b + e,   e ~ N(0, sigma2 I)                                                        (1)
+///     b ~ N(b0, (S0 + sum_k lambda_k S_k)^-)                                                   (2)
+///
+///   y        n responses                     X    n x q design
+///   b        q coefficients                  b0   prior mean (enters through S0 only)
+///   S0       fixed prior precision, singular where nothing is known beforehand
+///   S_k      penalty k, positive semidefinite; lambda_k >= 0 its unknown precision
+///   A        X'X / sigma2 + S0 + sum lambda_k S_k, the posterior precision of b
+///   V        minus twice the restricted log likelihood, up to a constant:
+///
+///     V = n log sigma2 + |y - X b|^2 / sigma2 + (b - b0)' S (b - b0) + log|A| - log|S|_+ (3)
+///
+/// with b = A^-1 (X'y / sigma2 + S0 b0) and |S|_+ the product of the non-zero eigenvalues. A noise
+/// scale known from d degrees of freedom adds d log sigma2 + d / sigma2. Sources: S. Wood, Fast
+/// stable restricted maximum likelihood ..., J. R. Statist. Soc. B 73 (2011) 3-36, equations (4)
+/// and (5); A. Gelman, Prior distributions for variance parameters ..., Bayesian
+/// Analysis 1 (2006) 515-534, for the covariance that knows the smoothing is estimated: b is
+/// averaged over lambda with a prior flat in lambda^(-1/2), the field's own standard deviation.
+///
+/// lambda multiplies an absolute precision, so that priors in S0 keep their stated sigmas whatever
+/// sigma2 turns out to be. The usual smoothing parameter relative to the noise is sigma2 * lambda.
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <tl/expected.hpp>
+
+namespace chaintrue::interp {
+
+/// A quadratic penalty on the columns first_column .. first_column + matrix.rows() - 1.
+struct Penalty {
+  Eigen::Index first_column = 0;
+  Eigen::MatrixXd matrix;
+  Eigen::Index rank = -1;  ///< of `matrix`; negative: found from its eigenvalues
+};
+
+/// What is known of the noise scale sigma2 beforehand.
+enum class NoiseKnowledge {
+  kExact,        ///< sigma2 = 1: the whitening is right
+  kFromRepeats,  ///< sigma2 about 1, known from `degrees_of_freedom` (scaled inverse chi-square)
+  kUnknown,      ///< sigma2 free
+};
+
+struct NoiseScale {
+  NoiseKnowledge knowledge = NoiseKnowledge::kExact;
+  double degrees_of_freedom = 0.0;  ///< for kFromRepeats
+};
+
+/// The data of a fit, reduced to what the fit needs: n, X'X, X'y, y'y.
+///
+///     PenalisedProblem problem(q);
+///     problem.add_rows(design, response);          // whitened
+///     problem.penalties = {{0, basis.thin_plate_penalty(), basis.thin_plate_rank()}};
+///     auto fit = fit_penalised(problem);
+struct PenalisedProblem {
+  explicit PenalisedProblem(Eigen::Index columns);
+
+  void add_rows(const Eigen::Ref<const Eigen::MatrixXd>& design,
+                const Eigen::Ref<const Eigen::VectorXd>& response);
+  /// One row whose only non-zero entries are `values` at `columns`.
+  void add_sparse_row(const std::vector<Eigen::Index>& columns,
+                      const std::vector<double>& values,
+                      double response);
+
+  [[nodiscard]] Eigen::Index columns() const { return gram.cols(); }
+
+  Eigen::Index rows = 0;
+  Eigen::MatrixXd gram;             ///< X'X
+  Eigen::VectorXd moment;           ///< X'y
+  double response_square = 0.0;     ///< y'y
+  Eigen::MatrixXd prior_precision;  ///< S0, q x q; empty: none
+  Eigen::VectorXd prior_mean;       ///< b0; empty: zero
+  std::vector<Penalty> penalties;
+  NoiseScale noise;
+};
+
+/// Where the search for one lambda ended.
+enum class SmoothingEnd {
+  kInside,       ///< at a minimum of V
+  kStiff,        ///< lambda at its upper limit: only the penalty's null space is left
+  kInterpolate,  ///< lambda at its lower limit: the penalty does nothing
+};
+
+enum class FitFailure {
+  kRankDeficient,  ///< data, priors and penalties together leave a combination of columns free
+  kNotConverged,   ///< the search for the smoothing did not settle
+};
+
+/// What a fit says about itself when it has no answer.
+struct FitRefusal {
+  FitFailure reason;
+  std::string sentence;
+};
+
+/// A group of rows seen as if it had been left out of the fit, smoothing held fixed.
+struct HeldOut {
+  Eigen::VectorXd residual;    ///< y_g - X_g b(without g) = (I - H_gg)^-1 (y_g - X_g b)
+  Eigen::MatrixXd covariance;  ///< of that residual: sigma2 (I - H_gg)^-1
+};
+
+/// The fitted model. Covariances are of the Bayesian posterior (2).
+struct PenalisedFit {
+  Eigen::VectorXd coefficients;
+  Eigen::MatrixXd covariance;            ///< A^-1, smoothing and sigma2 taken as known
+  Eigen::MatrixXd corrected_covariance;  ///< smoothing and sigma2 averaged over
+  Eigen::VectorXd lambda;
+  Eigen::VectorXd log_lambda_sigma;  ///< standard error of log lambda; infinite at a limit
+  std::vector<SmoothingEnd> ends;
+  double sigma2 = 1.0;
+  double residual_square = 0.0;     ///< |y - X b|^2
+  double edf = 0.0;                 ///< trace of the hat matrix
+  Eigen::VectorXd column_edf;       ///< its share of each column: diagonal of A^-1 X'X / sigma2
+  double minus_two_log_reml = 0.0;  ///< V of (3)
+  int iterations = 0;
+
+  /// Closed-form residuals and their covariance with the rows of `design` left out. Empty when the
+  /// rest of the data cannot do without these rows (I - H_gg not positive definite).
+  [[nodiscard]] tl::expected<HeldOut, FitRefusal> held_out(
+      const Eigen::Ref<const Eigen::MatrixXd>& design,
+      const Eigen::Ref<const Eigen::VectorXd>& response) const;
+};
+
+struct FitOptions {
+  bool correct_covariance = true;  ///< fill corrected_covariance
+  int maximum_iterations = 100;
+};
+
+/// Chooses lambda and sigma2 and fits. Deterministic: same input, same bytes. Throws
+/// std::invalid_argument when shapes do not fit or a number is not finite.
+/// Cost: O(q^3) once, and O(q p^2) for each of some 60 evaluations of V while each penalty has
+/// columns of its own that the data couple to the others only through p unpenalised columns; O(q^3)
+/// for each evaluation otherwise.
+[[nodiscard]] tl::expected<PenalisedFit, FitRefusal> fit_penalised(const PenalisedProblem& problem,
+                                                                   const FitOptions& options = {});
+
+/// The same with lambda and sigma2 given.
+[[nodiscard]] tl::expected<PenalisedFit, FitRefusal> fit_with_smoothing(
+    const PenalisedProblem& problem,
+    const Eigen::Ref<const Eigen::VectorXd>& lambda,
+    double sigma2,
+    const FitOptions& options = {});
+
+/// V of (3) at given lambda and sigma2, from scratch; for tests and plots.
+[[nodiscard]] tl::expected<double, FitRefusal> minus_two_log_reml(
+    const PenalisedProblem& problem,
+    const Eigen::Ref<const Eigen::VectorXd>& lambda,
+    double sigma2);
+
+}  // namespace chaintrue::interp

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Notation beyond reml.hpp, for one block with Gram matrix G and penalty S:
+//   c        balances the traces of G and S
+//   T        T' (G + c S) T = I and T' c S T = diag(w), hence T' G T = diag(1 - w)            (1)
+//   a        diagonal of A in the block: (1 - w) / sigma2 + (lambda / c) w
+//   C        T' times the Gram matrix of the block with the p shared columns
+//   U        diag(1 / a) C / sigma2
+//   H        Schur complement on the shared columns: G_pp / sigma2 + S0 - sum C' diag(1/a) C /
+//   sigma2^2
+// A^-1 is diag(1 / a) + U H^-1 U' within the blocks, -U H^-1 beside them, H^-1 in the corner. (2)
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "interp/reml_structure.hpp"
+
+namespace chaintrue::interp::reml {
+namespace {
+
+struct Block {
+  Eigen::Index first_column;   // in the problem
+  Eigen::Index first_working;  // in working coordinates
+  Eigen::MatrixXd basis;       // T
+  Eigen::VectorXd weight;      // w
+  double balance;              // c
+  double log_basis;            // log |T|
+  Eigen::MatrixXd coupling;    // C
+};
+
+struct Shared {
+  std::vector<Eigen::Index> columns;
+  Eigen::MatrixXd gram;
+  Eigen::MatrixXd prior;
+};
+
+class ArrowFactor final : public Factor {
+ public:
+  ArrowFactor(const std::vector<Block>& blocks,
+              const Shared& shared,
+              const Eigen::VectorXd& lambda,
+              double sigma2)
+      : blocks_(blocks), shared_(shared), lambda_(lambda), size_(shared.gram.rows()) {
+    Eigen::MatrixXd h = shared.gram / sigma2 + shared.prior;
+    const Eigen::VectorXd before = h.diagonal();
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      const Block& block = blocks[k];
+      Eigen::VectorXd a =
+          (1.0 - block.weight.array()) / sigma2 +
+          (lambda(static_cast<Eigen::Index>(k)) / block.balance) * block.weight.array();
+      Eigen::MatrixXd u = a.cwiseInverse().asDiagonal() * (block.coupling / sigma2);
+      h.noalias() -= (block.coupling.transpose() / sigma2) * u;
+      log_determinant_ += a.array().log().sum() - 2.0 * block.log_basis;
+      size_ += a.size();
+      inverse_diagonal_.push_back(a.cwiseInverse());
+      beside_.push_back(std::move(u));
+    }
+    positive_ = true;
+    if (h.rows() > 0) {
+      const ScaledCholesky cholesky(h, before);
+      positive_ = cholesky.positive();
+      if (positive_) {
+        log_determinant_ += cholesky.log_determinant();
+        corner_ = cholesky.inverse();
+      }
+    } else {
+      corner_.resize(0, 0);
+    }
+  }
+
+  [[nodiscard]] bool positive() const { return positive_; }
+  [[nodiscard]] double log_determinant() const override { return log_determinant_; }
+
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const override {
+    const Eigen::Index p = corner_.rows();
+    Eigen::MatrixXd result(right.rows(), right.cols());
+    Eigen::MatrixXd corner_right = right.bottomRows(p);
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      corner_right.noalias() -= beside_[k].transpose() * part(right, k);
+    }
+    const Eigen::MatrixXd corner = corner_ * corner_right;
+    result.bottomRows(p) = corner;
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      result.middleRows(blocks_[k].first_working, blocks_[k].weight.size()) =
+          inverse_diagonal_[k].asDiagonal() * part(right, k) - beside_[k] * corner;
+    }
+    return result;
+  }
+
+  [[nodiscard]] Traces traces() const override {
+    const auto n = static_cast<Eigen::Index>(blocks_.size()) + 1;
+    Traces result{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
+    std::vector<Eigen::MatrixXd> low_rank;  // H^-1 U' D U
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      const Eigen::VectorXd d = (lambda_(i) / blocks_[k].balance) * blocks_[k].weight;
+      const Eigen::VectorXd plain = d.cwiseProduct(inverse_diagonal_[k]);
+      const Eigen::VectorXd extra =
+          d.cwiseProduct((beside_[k] * corner_).cwiseProduct(beside_[k]).rowwise().sum());
+      result.first(i) = plain.sum() + extra.sum();
+      result.second(i, i) = plain.squaredNorm() + 2.0 * plain.dot(extra);
+      low_rank.push_back(corner_ * (beside_[k].transpose() * d.asDiagonal() * beside_[k]));
+    }
+    low_rank.push_back(corner_ * shared_.prior);
+    result.first(n - 1) = low_rank.back().trace();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = 0; j < n; ++j) {
+        result.second(i, j) += low_rank[static_cast<std::size_t>(i)]
+                                   .cwiseProduct(low_rank[static_cast<std::size_t>(j)].transpose())
+                                   .sum();
+      }
+    }
+    return result;
+  }
+
+  [[nodiscard]] Eigen::MatrixXd inverse() const override {  // (2)
+    const Eigen::Index p = corner_.rows();
+    Eigen::MatrixXd wide(size_, p);
+    wide.bottomRows(p).setIdentity();
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      wide.middleRows(blocks_[k].first_working, blocks_[k].weight.size()) = -beside_[k];
+    }
+    Eigen::MatrixXd result = wide * (corner_ * wide.transpose());
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      result.diagonal().segment(blocks_[k].first_working, blocks_[k].weight.size()) +=
+          inverse_diagonal_[k];
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd part(const Eigen::MatrixXd& right, std::size_t k) const {
+    return right.middleRows(blocks_[k].first_working, blocks_[k].weight.size());
+  }
+
+  const std::vector<Block>& blocks_;
+  const Shared& shared_;
+  Eigen::VectorXd lambda_;
+  Eigen::Index size_;
+  std::vector<Eigen::VectorXd> inverse_diagonal_;
+  std::vector<Eigen::MatrixXd> beside_;  // U
+  Eigen::MatrixXd corner_;               // H^-1
+  double log_determinant_ = 0.0;
+  bool positive_ = false;
+};
+
+class ArrowStructure final : public Structure {
+ public:
+  explicit ArrowStructure(const PenalisedProblem& problem) : columns_(problem.columns()) {
+    gather_shared(problem);
+    Eigen::Index working = 0;
+    for (const Penalty& penalty : problem.penalties) {
+      if (!add_block(problem, penalty, working)) {
+        return;
+      }
+      working += penalty.matrix.rows();
+    }
+    positive_ = true;
+    moment_ = to_working(problem.moment);
+    Eigen::VectorXd prior_moment = Eigen::VectorXd::Zero(columns_);
+    if (problem.prior_mean.size() > 0 && problem.prior_precision.size() > 0) {
+      prior_moment = problem.prior_precision * problem.prior_mean;
+    }
+    prior_moment_ = to_working(prior_moment);
+  }
+
+  [[nodiscard]] bool positive() const { return positive_; }
+
+  [[nodiscard]] Eigen::VectorXd penalty_times(Eigen::Index k,
+                                              const Eigen::VectorXd& b) const override {
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(columns_);
+    if (k < static_cast<Eigen::Index>(blocks_.size())) {
+      const Block& block = blocks_[static_cast<std::size_t>(k)];
+      const Eigen::Index m = block.weight.size();
+      result.segment(block.first_working, m) =
+          block.weight.cwiseProduct(b.segment(block.first_working, m)) / block.balance;
+    } else {
+      const Eigen::Index p = shared_.gram.rows();
+      result.tail(p) = shared_.prior * b.tail(p);
+    }
+    return result;
+  }
+
+  [[nodiscard]] std::unique_ptr<Factor> factor(const Eigen::VectorXd& lambda,
+                                               double sigma2) const override {
+    auto result = std::make_unique<ArrowFactor>(blocks_, shared_, lambda, sigma2);
+    if (!result->positive()) {
+      return nullptr;
+    }
+    return result;
+  }
+
+  [[nodiscard]] Eigen::MatrixXd to_columns(const Eigen::MatrixXd& working) const override {
+    Eigen::MatrixXd result(columns_, working.cols());
+    for (const Block& block : blocks_) {
+      const Eigen::Index m = block.weight.size();
+      result.middleRows(block.first_column, m).noalias() =
+          block.basis * working.middleRows(block.first_working, m);
+    }
+    const Eigen::Index p = shared_.gram.rows();
+    for (Eigen::Index i = 0; i < p; ++i) {
+      result.row(shared_.columns[static_cast<std::size_t>(i)]) =
+          working.row(working.rows() - p + i);
+    }
+    return result;
+  }
+
+  [[nodiscard]] Eigen::MatrixXd covariance_to_columns(
+      const Eigen::MatrixXd& working) const override {
+    const Eigen::MatrixXd half = to_columns(working).transpose();
+    const Eigen::MatrixXd full = to_columns(half);
+    return 0.5 * (full + full.transpose());
+  }
+
+ private:
+  void gather_shared(const PenalisedProblem& problem) {
+    std::vector<bool> penalised(static_cast<std::size_t>(columns_), false);
+    for (const Penalty& penalty : problem.penalties) {
+      std::fill_n(penalised.begin() + penalty.first_column, penalty.matrix.rows(), true);
+    }
+    for (Eigen::Index i = 0; i < columns_; ++i) {
+      if (!penalised[static_cast<std::size_t>(i)]) {
+        shared_.columns.push_back(i);
+      }
+    }
+    shared_.gram = problem.gram(shared_.columns, shared_.columns);
+    shared_.prior = Eigen::MatrixXd::Zero(shared_.gram.rows(), shared_.gram.rows());
+    if (problem.prior_precision.size() > 0) {
+      shared_.prior = problem.prior_precision(shared_.columns, shared_.columns);
+    }
+  }
+
+  bool add_block(const PenalisedProblem& problem, const Penalty& penalty, Eigen::Index working) {
+    const Eigen::Index m = penalty.matrix.rows();
+    const auto gram = problem.gram.block(penalty.first_column, penalty.first_column, m, m);
+    const double trace = penalty.matrix.trace();
+    Block block{penalty.first_column, working, {}, {}, gram.trace() / trace, 0.0, {}};
+    if (!(trace > 0.0) || !(block.balance > 0.0)) {
+      return false;
+    }
+    const ScaledCholesky cholesky(gram + block.balance * penalty.matrix);
+    if (!cholesky.positive()) {
+      return false;
+    }
+    const Eigen::MatrixXd half = cholesky.half_solve(penalty.matrix);
+    Eigen::MatrixXd scaled = block.balance * cholesky.half_solve(half.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+    block.weight = solver.eigenvalues().cwiseMax(0.0).cwiseMin(1.0);
+    // Eigenvalues come in rising order: the first are the penalty's null space.
+    const Eigen::Index nullity = penalty.rank >= 0 ? m - penalty.rank : 0;
+    block.weight.head(nullity).setZero();
+    block.basis = cholesky.transposed_half_solve(solver.eigenvectors());
+    block.log_basis = -0.5 * cholesky.log_determinant();
+    Eigen::MatrixXd beside(m, static_cast<Eigen::Index>(shared_.columns.size()));
+    for (std::size_t i = 0; i < shared_.columns.size(); ++i) {
+      beside.col(static_cast<Eigen::Index>(i)) =
+          problem.gram.col(shared_.columns[i]).segment(penalty.first_column, m);
+    }
+    block.coupling = block.basis.transpose() * beside;
+    blocks_.push_back(std::move(block));
+    return true;
+  }
+
+  [[nodiscard]] Eigen::VectorXd to_working(const Eigen::VectorXd& columns) const {
+    Eigen::VectorXd result(columns_);
+    for (const Block& block : blocks_) {
+      const Eigen::Index m = block.weight.size();
+      result.segment(block.first_working, m) =
+          block.basis.transpose() * columns.segment(block.first_column, m);
+    }
+    const Eigen::Index p = shared_.gram.rows();
+    for (Eigen::Index i = 0; i < p; ++i) {
+      result(columns_ - p + i) = columns(shared_.columns[static_cast<std::size_t>(i)]);
+    }
+    return result;
+  }
+
+  Eigen::Index columns_;
+  std::vector<Block> blocks_;
+  Shared shared_;
+  bool positive_ = false;
+};
+
+}  // namespace
+
+bool is_arrow(const PenalisedProblem& problem) {
+  std::vector<int> owner(static_cast<std::size_t>(problem.columns()), -1);
+  for (std::size_t k = 0; k < problem.penalties.size(); ++k) {
+    const Penalty& penalty = problem.penalties[k];
+    for (Eigen::Index i = 0; i < penalty.matrix.rows(); ++i) {
+      int& mine = owner[static_cast<std::size_t>(penalty.first_column + i)];
+      if (mine >= 0) {
+        return false;
+      }
+      mine = static_cast<int>(k);
+    }
+    const bool prior_here =
+        problem.prior_precision.size() > 0 &&
+        !problem.prior_precision.middleCols(penalty.first_column, penalty.matrix.rows())
+             .isZero(0.0);
+    if (prior_here) {
+      return false;
+    }
+  }
+  for (Eigen::Index j = 0; j < problem.columns(); ++j) {
+    for (Eigen::Index i = 0; i < problem.columns(); ++i) {
+      const int a = owner[static_cast<std::size_t>(i)];
+      const int b = owner[static_cast<std::size_t>(j)];
+      if (a != b && a >= 0 && b >= 0 && problem.gram(i, j) != 0.0) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+std::unique_ptr<Structure> make_arrow(const PenalisedProblem& problem) {
+  auto result = std::make_unique<ArrowStructure>(problem);
+  if (!result->positive()) {
+    return nullptr;
+  }
+  return result;
+}
+
+}  // namespace chaintrue::interp::reml

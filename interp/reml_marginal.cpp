@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/reml_marginal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace chaintrue::interp::reml {
+namespace {
+
+// Eigenvalues below this share of the largest count as zero: the rounding of a penalty's entries is
+// about 1e-16 of its largest, its smallest true eigenvalue above 1e-9 for the bases in use.
+constexpr double kZeroEigenvalue = 1e-12;
+
+Eigen::Index rank_of(const Eigen::MatrixXd& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
+  const Eigen::VectorXd& values = solver.eigenvalues();
+  const double largest = values.cwiseAbs().maxCoeff();
+  return (values.array() > kZeroEigenvalue * largest).count();
+}
+
+}  // namespace
+
+Marginal::Marginal(const PenalisedProblem& problem, std::optional<double> fixed_sigma2)
+    : problem_(problem) {
+  structure_ = is_arrow(problem) ? make_arrow(problem) : make_dense(problem);
+  if (problem.prior_mean.size() > 0 && problem.prior_precision.size() > 0) {
+    prior_square_ = problem.prior_mean.dot(problem.prior_precision * problem.prior_mean);
+  }
+  sigma2_fixed_ = fixed_sigma2.value_or(1.0);
+  sigma2_free_ = !fixed_sigma2 && problem.noise.knowledge != NoiseKnowledge::kExact;
+  if (problem.noise.knowledge == NoiseKnowledge::kFromRepeats) {
+    extra_degrees_ = problem.noise.degrees_of_freedom;
+  }
+  find_ranks();
+}
+
+void Marginal::find_ranks() {
+  const Eigen::Index q = problem_.columns();
+  std::vector<int> owners(static_cast<std::size_t>(q), 0);
+  const bool prior = problem_.prior_precision.size() > 0;
+  for (Eigen::Index i = 0; prior && i < q; ++i) {
+    owners[static_cast<std::size_t>(i)] = problem_.prior_precision.col(i).isZero(0.0) ? 0 : 1;
+  }
+  Eigen::Index sum_of_ranks = 0;
+  for (const Penalty& penalty : problem_.penalties) {
+    const Eigen::Index rank = penalty.rank >= 0 ? penalty.rank : rank_of(penalty.matrix);
+    ranks_.push_back(static_cast<double>(rank));
+    sum_of_ranks += rank;
+    for (Eigen::Index i = 0; i < penalty.matrix.rows(); ++i) {
+      ++owners[static_cast<std::size_t>(penalty.first_column + i)];
+    }
+  }
+  // |S0 + sum lambda_k S_k|_+ is a product of powers of lambda when the ranges only meet in zero;
+  // disjoint columns are the cheap proof of that.
+  if (std::all_of(owners.begin(), owners.end(), [](int n) { return n <= 1; })) {
+    return;
+  }
+  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(q, q);
+  if (prior) {
+    const double largest = problem_.prior_precision.cwiseAbs().maxCoeff();
+    total += problem_.prior_precision / std::max(largest, 1e-300);
+    sum_of_ranks += rank_of(problem_.prior_precision);
+  }
+  for (const Penalty& penalty : problem_.penalties) {
+    const Eigen::Index m = penalty.matrix.rows();
+    total.block(penalty.first_column, penalty.first_column, m, m) +=
+        penalty.matrix / penalty.matrix.cwiseAbs().maxCoeff();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(total);
+  const double largest = solver.eigenvalues().maxCoeff();
+  const Eigen::Index rank = (solver.eigenvalues().array() > kZeroEigenvalue * largest).count();
+  ranges_overlap_ = rank < sum_of_ranks;
+  if (!ranges_overlap_) {
+    return;
+  }
+  const Eigen::MatrixXd basis = solver.eigenvectors().rightCols(rank);
+  range_prior_ = Eigen::MatrixXd::Zero(rank, rank);
+  if (prior) {
+    range_prior_ = basis.transpose() * problem_.prior_precision * basis;
+  }
+  for (const Penalty& penalty : problem_.penalties) {
+    const auto part = basis.middleRows(penalty.first_column, penalty.matrix.rows());
+    range_penalty_.push_back(part.transpose() * penalty.matrix * part);
+  }
+}
+
+double Marginal::sigma2(const Eigen::VectorXd& theta) const {
+  return sigma2_free_ ? std::exp(theta(theta.size() - 1)) : sigma2_fixed_;
+}
+
+double Marginal::balanced_log_lambda(Eigen::Index k) const {
+  const Penalty& penalty = problem_.penalties[static_cast<std::size_t>(k)];
+  const Eigen::Index m = penalty.matrix.rows();
+  const double data =
+      problem_.gram.diagonal().segment(penalty.first_column, m).sum() / sigma2_fixed_;
+  return std::log(std::max(data, 1e-300) / penalty.matrix.trace());
+}
+
+Marginal::LogDeterminant Marginal::log_determinant(const Eigen::VectorXd& theta,
+                                                   Order order) const {
+  const Eigen::Index k = penalties();
+  LogDeterminant result;
+  result.gradient = Eigen::VectorXd::Zero(k);
+  result.hessian = Eigen::MatrixXd::Zero(k, k);
+  if (!ranges_overlap_) {
+    for (Eigen::Index i = 0; i < k; ++i) {
+      result.value += ranks_[static_cast<std::size_t>(i)] * theta(i);
+      result.gradient(i) = ranks_[static_cast<std::size_t>(i)];
+    }
+    return result;
+  }
+  Eigen::MatrixXd total = range_prior_;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    total += std::exp(theta(i)) * range_penalty_[static_cast<std::size_t>(i)];
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(total);
+  result.value = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  if (order == Order::kValue) {
+    return result;
+  }
+  std::vector<Eigen::MatrixXd> solved;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    solved.push_back(
+        factor.solve(std::exp(theta(i)) * range_penalty_[static_cast<std::size_t>(i)]));
+    result.gradient(i) = solved.back().trace();
+    result.hessian(i, i) = result.gradient(i);
+  }
+  for (Eigen::Index i = 0; i < k; ++i) {
+    for (Eigen::Index j = 0; j < k; ++j) {
+      result.hessian(i, j) -= solved[static_cast<std::size_t>(i)]
+                                  .cwiseProduct(solved[static_cast<std::size_t>(j)].transpose())
+                                  .sum();
+    }
+  }
+  return result;
+}
+
+std::optional<State> Marginal::evaluate(const Eigen::VectorXd& theta, Order order) const {
+  const double s2 = sigma2(theta);
+  const auto factor = structure_->factor(theta.head(penalties()).array().exp(), s2);
+  if (!factor) {
+    return std::nullopt;
+  }
+  State state;
+  const Eigen::VectorXd moment = structure_->moment() / s2 + structure_->prior_moment();
+  state.coefficients = factor->solve(moment);
+  // |y - X b|^2 / sigma2 + (b - b0)' S (b - b0) at its minimum over b.
+  const double deviance =
+      problem_.response_square / s2 + prior_square_ - state.coefficients.dot(moment);
+  const double log_s2 = std::log(s2);
+  state.value = static_cast<double>(problem_.rows) * log_s2 + deviance + factor->log_determinant() -
+                log_determinant(theta, Order::kValue).value + extra_degrees_ * (log_s2 + 1.0 / s2);
+  if (order == Order::kHessian) {
+    add_derivatives(state, *factor, theta);
+  }
+  return state;
+}
+
+Eigen::MatrixXd Marginal::inverse(const Eigen::VectorXd& theta) const {
+  return structure_->factor(theta.head(penalties()).array().exp(), sigma2(theta))->inverse();
+}
+
+// With D_i = dA / dtheta_i and u_i = D_i b - d(A b) / dtheta_i, db / dtheta_i = -A^-1 u_i. For
+// sigma2 D = -(A - S), which spares X'X: A^-1 D = -(1 - sum A^-1 D_k - A^-1 S0).
+void Marginal::add_derivatives(State& state,
+                               const Factor& factor,
+                               const Eigen::VectorXd& theta) const {
+  const Eigen::Index q = problem_.columns();
+  const Eigen::Index k = penalties();
+  const Eigen::Index n = unknowns();
+  const Eigen::VectorXd& b = state.coefficients;
+  const double s2 = sigma2(theta);
+  const Traces traces = factor.traces();
+  Eigen::MatrixXd u(q, n);
+  Eigen::VectorXd trace(n);
+  Eigen::VectorXd first(n);
+  Eigen::MatrixXd second(n, n);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    u.col(i) = std::exp(theta(i)) * structure_->penalty_times(i, b);
+    first(i) = b.dot(u.col(i));
+  }
+  trace.head(k) = traces.first.head(k);
+  second.topLeftCorner(k, k) = traces.second.topLeftCorner(k, k);
+  if (sigma2_free_) {
+    const Eigen::VectorXd prior_force =
+        structure_->penalty_times(k, b) - structure_->prior_moment();
+    u.col(k) = u.leftCols(k).rowwise().sum() + prior_force;
+    const Eigen::VectorXd moment = structure_->moment() / s2 + structure_->prior_moment();
+    const double penalty_square = first.head(k).sum() + b.dot(prior_force) -
+                                  b.dot(structure_->prior_moment()) + prior_square_;
+    first(k) = -(problem_.response_square / s2 + prior_square_ - b.dot(moment) - penalty_square);
+    trace(k) = -(static_cast<double>(q) - traces.first.sum());
+    second(k, k) = static_cast<double>(q) - 2.0 * traces.first.sum() + traces.second.sum();
+    second.col(k).head(k) = -(traces.first.head(k) - traces.second.topRows(k).rowwise().sum());
+    second.row(k).head(k) = second.col(k).head(k).transpose();
+  }
+  state.gradient = first + trace;
+  state.hessian = -2.0 * u.transpose() * factor.solve(u) - second;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    // The second derivative of exp(+-theta) adds the first derivative once more, with its sign.
+    state.hessian(i, i) += (i < k ? 1.0 : -1.0) * state.gradient(i);
+  }
+  const LogDeterminant log_s = log_determinant(theta, Order::kHessian);
+  state.gradient.head(k) -= log_s.gradient;
+  state.hessian.topLeftCorner(k, k) -= log_s.hessian;
+  if (sigma2_free_) {
+    state.gradient(k) += static_cast<double>(problem_.rows) + extra_degrees_ * (1.0 - 1.0 / s2);
+    state.hessian(k, k) += extra_degrees_ / s2;
+  }
+}
+
+}  // namespace chaintrue::interp::reml

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/reml_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+namespace chaintrue::interp::reml {
+namespace {
+
+// Ten decades either side of balance: beyond, the penalty (or the data) is below the rounding of
+// the other.
+constexpr double kHalfRange = 23.0;
+constexpr double kScanStep = 3.0;
+constexpr double kLongestStep = 4.0;
+// V is of order one where the data decide; a gradient of 1e-7 moves theta by about 1e-7 of its
+// sigma.
+constexpr double kGradientTolerance = 1e-7;
+
+struct Limits {
+  Eigen::VectorXd low;
+  Eigen::VectorXd high;
+};
+
+Limits limits_of(const Marginal& marginal) {
+  const Eigen::Index n = marginal.unknowns();
+  Limits limits{Eigen::VectorXd::Constant(n, -kHalfRange),
+                Eigen::VectorXd::Constant(n, kHalfRange)};
+  for (Eigen::Index k = 0; k < marginal.penalties(); ++k) {
+    limits.low(k) += marginal.balanced_log_lambda(k);
+    limits.high(k) += marginal.balanced_log_lambda(k);
+  }
+  return limits;
+}
+
+double value_at(const Marginal& marginal, const Eigen::VectorXd& theta) {
+  const auto state = marginal.evaluate(theta, Order::kValue);
+  return state ? state->value : std::numeric_limits<double>::infinity();
+}
+
+// All lambdas are moved together over the range; the best of them starts the search.
+Eigen::VectorXd scan(const Marginal& marginal, const Eigen::VectorXd& balance) {
+  Eigen::VectorXd best = balance;
+  double best_value = std::numeric_limits<double>::infinity();
+  for (double offset = -15.0; offset <= 15.0; offset += kScanStep) {
+    Eigen::VectorXd theta = balance;
+    theta.head(marginal.penalties()).array() += offset;
+    const double value = value_at(marginal, theta);
+    if (value < best_value) {
+      best_value = value;
+      best = theta;
+    }
+  }
+  return best;
+}
+
+std::vector<bool> held_at_limit(const Eigen::VectorXd& theta,
+                                const Eigen::VectorXd& gradient,
+                                const Limits& limits) {
+  std::vector<bool> held(static_cast<std::size_t>(theta.size()), false);
+  for (Eigen::Index i = 0; i < theta.size(); ++i) {
+    held[static_cast<std::size_t>(i)] = (theta(i) <= limits.low(i) && gradient(i) > 0.0) ||
+                                        (theta(i) >= limits.high(i) && gradient(i) < 0.0);
+  }
+  return held;
+}
+
+// Newton's step with the Hessian's eigenvalues made positive, no longer than kLongestStep.
+Eigen::VectorXd newton_step(const State& state, const std::vector<bool>& held) {
+  Eigen::MatrixXd hessian = state.hessian;
+  Eigen::VectorXd gradient = state.gradient;
+  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+    if (held[static_cast<std::size_t>(i)]) {
+      hessian.row(i).setZero();
+      hessian.col(i).setZero();
+      hessian(i, i) = 1.0;
+      gradient(i) = 0.0;
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hessian);
+  const double floor = 1e-8 * std::max(1.0, solver.eigenvalues().cwiseAbs().maxCoeff());
+  const Eigen::VectorXd curvature = solver.eigenvalues().cwiseAbs().cwiseMax(floor);
+  Eigen::VectorXd step = -(solver.eigenvectors() *
+                           (solver.eigenvectors().transpose() * gradient).cwiseQuotient(curvature));
+  const double longest = step.cwiseAbs().maxCoeff();
+  return longest > kLongestStep ? Eigen::VectorXd(step * (kLongestStep / longest)) : step;
+}
+
+// Far out V only creeps towards its limit: a flat gradient there is an end, not a minimum.
+SmoothingEnd end_of(double theta, double low, double high, double curvature) {
+  constexpr double kFlat = 1e-4;
+  const double middle = 0.5 * (low + high);
+  if (theta >= high || (curvature < kFlat && theta > middle)) {
+    return SmoothingEnd::kStiff;
+  }
+  if (theta <= low || (curvature < kFlat && theta < middle)) {
+    return SmoothingEnd::kInterpolate;
+  }
+  return SmoothingEnd::kInside;
+}
+
+double largest_free_gradient(const Eigen::VectorXd& gradient, const std::vector<bool>& held) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+    if (!held[static_cast<std::size_t>(i)]) {
+      largest = std::max(largest, std::abs(gradient(i)));
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+tl::expected<SearchResult, FitFailure> search(const Marginal& marginal, int maximum_iterations) {
+  const Limits limits = limits_of(marginal);
+  SearchResult result;
+  const Eigen::VectorXd balance = 0.5 * (limits.low + limits.high);
+  if (!marginal.evaluate(balance, Order::kValue)) {
+    return tl::unexpected(FitFailure::kRankDeficient);
+  }
+  result.theta = scan(marginal, balance);
+  auto state = marginal.evaluate(result.theta, Order::kHessian);
+  bool settled = false;
+  while (!settled) {
+    const std::vector<bool> held = held_at_limit(result.theta, state->gradient, limits);
+    if (largest_free_gradient(state->gradient, held) < kGradientTolerance) {
+      break;
+    }
+    if (result.iterations == maximum_iterations) {
+      return tl::unexpected(FitFailure::kNotConverged);
+    }
+    ++result.iterations;
+    Eigen::VectorXd step = newton_step(*state, held);
+    double fraction = 1.0;
+    Eigen::VectorXd next;
+    // Halve until V falls; when it no longer does the rounding of V is reached.
+    for (; fraction > 1e-6; fraction *= 0.5) {
+      next = (result.theta + fraction * step).cwiseMax(limits.low).cwiseMin(limits.high);
+      if (value_at(marginal, next) < state->value) {
+        break;
+      }
+    }
+    settled = fraction <= 1e-6;
+    if (!settled) {
+      result.theta = next;
+      state = marginal.evaluate(result.theta, Order::kHessian);
+    }
+  }
+  for (Eigen::Index k = 0; k < marginal.penalties(); ++k) {
+    result.ends.push_back(
+        end_of(result.theta(k), limits.low(k), limits.high(k), state->hessian(k, k)));
+  }
+  return result;
+}
+
+Eigen::MatrixXd covariance_from_hessian(const Eigen::MatrixXd& hessian,
+                                        const std::vector<SmoothingEnd>& ends) {
+  const Eigen::Index n = hessian.rows();
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (k >= ends.size() || ends[k] == SmoothingEnd::kInside) {
+      free.push_back(i);
+    }
+  }
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+  if (free.empty()) {
+    return covariance;
+  }
+  const Eigen::MatrixXd information = 0.5 * hessian(free, free);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(information);
+  // A flat direction would claim an unbounded spread: ten decades of lambda are the most there is.
+  const double floor = 1.0 / (kHalfRange * kHalfRange);
+  const Eigen::VectorXd variance = solver.eigenvalues().cwiseMax(floor).cwiseInverse();
+  covariance(free, free) =
+      solver.eigenvectors() * variance.asDiagonal() * solver.eigenvectors().transpose();
+  return covariance;
+}
+
+}  // namespace chaintrue::interp::reml

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// \file
+/// The minimiser of V over theta: a coarse scan, then Newton with a bounded step. Internal to
+/// interp.
+
+#include <vector>
+
+#include "interp/reml_marginal.hpp"
+
+namespace chaintrue::interp::reml {
+
+struct SearchResult {
+  Eigen::VectorXd theta;
+  std::vector<SmoothingEnd> ends;  ///< one a penalty
+  int iterations = 0;
+};
+
+[[nodiscard]] tl::expected<SearchResult, FitFailure> search(const Marginal& marginal,
+                                                            int maximum_iterations);
+
+/// The covariance of theta from the Hessian of V (twice the information). Unknowns that ended at a
+/// limit are left out: their rows and columns are zero.
+[[nodiscard]] Eigen::MatrixXd covariance_from_hessian(const Eigen::MatrixXd& hessian,
+                                                      const std::vector<SmoothingEnd>& ends);
+
+}  // namespace chaintrue::interp::reml

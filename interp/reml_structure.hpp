@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// \file
+/// Two ways to work with A = X'X / sigma2 + S0 + sum lambda_k S_k at many lambda (internal to
+/// interp; notation as in reml.hpp). Both answer in working coordinates, b = T (working b).
+///
+///   dense   any penalties; each lambda costs O(q^3). T is the identity.
+///   arrow   each penalty has columns of its own, coupled to the others only through the p columns
+///           that no penalty touches. T diagonalises the penalty and X'X of each block together, A
+///           becomes an arrow, and each lambda costs O(q p^2).
+
+#include <memory>
+
+#include "interp/reml.hpp"
+
+namespace chaintrue::interp::reml {
+
+/// Traces of A^-1 D_i and of A^-1 D_i A^-1 D_j, where D_i = lambda_i S_i and the last is D = S0.
+struct Traces {
+  Eigen::VectorXd first;
+  Eigen::MatrixXd second;
+};
+
+/// A at one lambda and sigma2.
+class Factor {
+ public:
+  virtual ~Factor() = default;
+  [[nodiscard]] virtual double log_determinant() const = 0;
+  [[nodiscard]] virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const = 0;
+  [[nodiscard]] virtual Traces traces() const = 0;
+  /// A^-1 in working coordinates.
+  [[nodiscard]] virtual Eigen::MatrixXd inverse() const = 0;
+};
+
+class Structure {
+ public:
+  virtual ~Structure() = default;
+  [[nodiscard]] const Eigen::VectorXd& moment() const { return moment_; }
+  [[nodiscard]] const Eigen::VectorXd& prior_moment() const { return prior_moment_; }
+  /// S_k b; k one past the last penalty stands for S0.
+  [[nodiscard]] virtual Eigen::VectorXd penalty_times(Eigen::Index k,
+                                                      const Eigen::VectorXd& b) const = 0;
+  /// Null where A is not positive definite to rounding.
+  [[nodiscard]] virtual std::unique_ptr<Factor> factor(const Eigen::VectorXd& lambda,
+                                                       double sigma2) const = 0;
+  [[nodiscard]] virtual Eigen::MatrixXd to_columns(const Eigen::MatrixXd& working) const = 0;
+  [[nodiscard]] virtual Eigen::MatrixXd covariance_to_columns(
+      const Eigen::MatrixXd& working) const = 0;
+
+ protected:
+  Eigen::VectorXd moment_;        // T' X'y
+  Eigen::VectorXd prior_moment_;  // T' S0 b0
+};
+
+/// Null where a block's own data and penalty leave some of its columns free.
+[[nodiscard]] std::unique_ptr<Structure> make_arrow(const PenalisedProblem& problem);
+[[nodiscard]] std::unique_ptr<Structure> make_dense(const PenalisedProblem& problem);
+/// Whether the problem has the shape that make_arrow asks for.
+[[nodiscard]] bool is_arrow(const PenalisedProblem& problem);
+
+/// A pivot of the unit-diagonal A below this share of q means that a combination of columns is
+/// free.
+inline constexpr double kZeroPivot = 1e-12;
+
+/// Cholesky factor of a matrix scaled to unit diagonal: what a column is measured in must not
+/// decide its rank.
+class ScaledCholesky {
+ public:
+  /// `diagonal` is what the pivots are compared with; empty: the matrix's own.
+  explicit ScaledCholesky(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& diagonal = {});
+  [[nodiscard]] bool positive() const { return positive_; }
+  [[nodiscard]] double log_determinant() const;
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
+  [[nodiscard]] Eigen::MatrixXd inverse() const;
+  /// L^-1 right and L^-T right with L L' = matrix.
+  [[nodiscard]] Eigen::MatrixXd half_solve(const Eigen::MatrixXd& right) const;
+  [[nodiscard]] Eigen::MatrixXd transposed_half_solve(const Eigen::MatrixXd& right) const;
+
+ private:
+  Eigen::VectorXd scale_;
+  Eigen::MatrixXd lower_;
+  bool positive_ = false;
+};
+
+}  // namespace chaintrue::interp::reml

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// \file
+/// Cubic spline interpolation along one axis, factored once and applied to any number of lines.
+///
+/// A C2 cubic spline through (x_i, f_i) is fixed by its slopes d_i at the nodes. They solve a
+/// tridiagonal system (C. de Boor, A Practical Guide to Splines, revised edition 2001, chapter IV,
+/// equations (6) to (15)):
+///
+///     h_i d_{i-1} + 2 (h_{i-1} + h_i) d_i + h_{i-1} d_{i+1} = 3 (h_i q_{i-1} + h_{i-1} q_i) (1)
+///
+/// with h_i = x_{i+1} - x_i and q_i = (f_{i+1} - f_i) / h_i, and one equation for each end.
+///
+/// With two nodes every end but a clamped one gives the straight line; with three nodes two
+/// not-a-knot ends give the parabola, as Octave's interp1 does.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace chaintrue::interp {
+
+/// What closes the spline at one end of an axis.
+enum class EndCondition {
+  kNotAKnot,   ///< the first two cells carry one cubic (MATLAB, Octave, FITPACK)
+  kNatural,    ///< second derivative zero (GSL)
+  kParabolic,  ///< third derivative zero in the end cell (ALGLIB)
+  kClamped,    ///< slope given
+};
+
+/// The two ends of one axis.
+struct AxisEnds {
+  EndCondition low = EndCondition::kNotAKnot;
+  EndCondition high = EndCondition::kNotAKnot;
+};
+
+/// The four cubic Hermite basis functions of one cell, or their derivatives: the spline is
+/// value_low f_i + value_high f_{i+1} + slope_low d_i + slope_high d_{i+1}.
+struct HermiteWeights {
+  double value_low;
+  double value_high;
+  double slope_low;
+  double slope_high;
+};
+
+/// Where a run of numbers lies in memory: element i of line j is at base[i * step + j * line_step].
+struct LineLayout {
+  std::size_t lines = 1;
+  std::ptrdiff_t step = 1;
+  std::ptrdiff_t line_step = 0;
+};
+
+/// One axis with its ends. Immutable; safe to share between threads.
+///
+///     SplineAxis axis({0.0, 1.0, 3.0, 4.0}, {});
+///     Eigen::Vector4d weights = axis.cardinal_weights(2.5);   // spline(2.5) = weights . f
+class SplineAxis {
+ public:
+  /// Throws std::invalid_argument unless there are at least two finite, strictly increasing nodes.
+  explicit SplineAxis(std::vector<double> nodes, AxisEnds ends = {});
+
+  [[nodiscard]] std::span<const double> nodes() const { return nodes_; }
+  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+  [[nodiscard]] AxisEnds ends() const { return ends_; }
+
+  /// The cell that answers for x: 0 .. size()-2, the end cells also for what lies beyond them.
+  [[nodiscard]] std::size_t cell(double x) const;
+
+  /// Slopes at the nodes for every line of `values`; both arrays share the layout. The slopes at a
+  /// clamped end are read from `low_slopes` / `high_slopes`, one a line (null: zero).
+  void slopes(const double* values,
+              double* slopes,
+              const LineLayout& layout,
+              const double* low_slopes = nullptr,
+              const double* high_slopes = nullptr) const;
+
+  /// Basis functions of `cell` at x and their derivatives; beyond the cell the cubic continues.
+  [[nodiscard]] HermiteWeights weights(std::size_t cell, double x) const;
+  [[nodiscard]] HermiteWeights derivative_weights(std::size_t cell, double x) const;
+
+  /// The spline at x as weights on the node values (clamped ends: slope zero). O(size()^2).
+  [[nodiscard]] Eigen::VectorXd cardinal_weights(double x) const;
+
+ private:
+  void factor();
+
+  std::vector<double> nodes_;
+  AxisEnds ends_;
+  std::vector<double> step_;           // h_i
+  std::vector<double> inverse_step_;   // 1 / h_i
+  std::vector<double> lower_;          // below the diagonal, divided by nothing
+  std::vector<double> upper_;          // above the diagonal, divided by the pivot of its row
+  std::vector<double> inverse_pivot_;  // 1 / pivot after elimination
+  bool straight_line_ = false;
+};
+
+}  // namespace chaintrue::interp

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// \file
+/// What every surface z = f(x, y) of this folder answers. Units are the caller's: x and y share one
+/// (mm throughout chaintrue), z has its own. Nothing here knows what z means.
+
+namespace chaintrue::interp {
+
+/// f and its gradient at one point. Units: z, z per x, z per y.
+struct ValueGradient {
+  double value = 0.0;
+  double dx = 0.0;
+  double dy = 0.0;
+};
+
+/// A closed rectangle of the plane.
+struct Rectangle {
+  double x_min = 0.0;
+  double x_max = 0.0;
+  double y_min = 0.0;
+  double y_max = 0.0;
+
+  [[nodiscard]] constexpr bool contains(double x, double y) const {
+    return x >= x_min && x <= x_max && y >= y_min && y <= y_max;
+  }
+  [[nodiscard]] constexpr double width() const { return x_max - x_min; }
+  [[nodiscard]] constexpr double height() const { return y_max - y_min; }
+};
+
+/// A smooth surface. Implementations are immutable after construction, allocate nothing in `at`,
+/// and may be read from any number of threads. Every point of the plane has an answer: outside the
+/// domain each class states how it continues; whether that answer may be used is the caller's
+/// policy.
+class Surface {
+ public:
+  virtual ~Surface() = default;
+  [[nodiscard]] virtual ValueGradient at(double x, double y) const = 0;
+  /// Where the surface rests on data.
+  [[nodiscard]] virtual Rectangle domain() const = 0;
+
+ protected:
+  Surface() = default;
+  Surface(const Surface&) = default;
+  Surface(Surface&&) = default;
+  Surface& operator=(const Surface&) = default;
+  Surface& operator=(Surface&&) = default;
+};
+
+}  // namespace chaintrue::interp

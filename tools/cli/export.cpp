@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue export: a machine as the numbers that another program wants typed in.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "grid/files/groundcontrol_file.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+
+struct ExportCommand {
+  std::string machine;
+  std::string output = "-";
+};
+
+int export_groundcontrol(const ExportCommand& command) {
+  const files::GroundcontrolText settings =
+      files::write_groundcontrol(files::read_machine(command.machine));
+  files::write_whole_file(command.output, settings.text);
+  for (const std::string& remark : settings.remarks) fmt::print(stderr, "{}\n", remark);
+  return kDone;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Run& run) {
+  CLI::App* verb = app.add_subcommand("export", "Turn a machine into settings for other programs");
+  verb->require_subcommand(1);
+  constexpr const char* kExample =
+      "Example:\n  build/chaintrue export groundcontrol fixtures/machines/groundcontrol.json";
+  verb->footer(kExample);
+  auto command = std::make_shared<ExportCommand>();
+  CLI::App* groundcontrol =
+      verb->add_subcommand("groundcontrol", "The numbers to type into GroundControl's settings");
+  groundcontrol->add_option("machine", command->machine, "A chaintrue_machine file")->required();
+  groundcontrol->add_option("-o,--output", command->output, "Where they go; - is standard output")
+      ->capture_default_str();
+  groundcontrol->footer(kExample);
+  groundcontrol->callback(
+      [command, &run] { run = [command] { return export_groundcontrol(*command); }; });
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue import: what other programs wrote becomes a machine or a grid.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "grid/files/grid_file.hpp"
+#include "grid/files/groundcontrol_file.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/optical_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+
+struct OpticalCommand {
+  std::string input;
+  std::string machine;
+  std::string output = "-";
+  double pitch_mm = 76.2;
+  std::string order;
+};
+
+const std::map<std::string, files::VisitOrder>& orders() {
+  static const std::map<std::string, files::VisitOrder> by_name = {
+      {"rows", files::VisitOrder::rows},
+      {"columns", files::VisitOrder::columns},
+      {"serpentine_rows", files::VisitOrder::serpentine_rows},
+      {"serpentine_columns", files::VisitOrder::serpentine_columns}};
+  return by_name;
+}
+
+void print_warnings(const std::vector<files::Warning>& warnings) {
+  for (const files::Warning& warning : warnings) fmt::print(stderr, "{}\n", warning.message());
+}
+
+int import_optical(const OpticalCommand& command) {
+  files::ReadMachine machine = files::read_machine_with_warnings(command.machine);
+  print_warnings(machine.warnings);
+  files::OpticalOptions options;
+  options.machine = std::move(machine.machine);
+  options.pitch_mm = command.pitch_mm;
+  if (!command.order.empty()) options.order = orders().at(command.order);
+  const files::ReadOptical read = files::read_optical(command.input, options);
+  files::write_whole_file(command.output, files::write_grid(read.grid));
+  fmt::print(stderr,
+             "{} of {} squares were visited; the sheet is taken as placed by hand, to {} mm and {} "
+             "mrad{}\n",
+             read.grid.points.size(),
+             read.squares,
+             read.grid.sheet->shift_mm,
+             read.grid.sheet->rotation_mrad,
+             options.order ? "" : "; the order of the visits is not known");
+  return kDone;
+}
+
+void add_optical(CLI::App& import, Run& run) {
+  auto command = std::make_shared<OpticalCommand>();
+  CLI::App* verb = import.add_subcommand("optical",
+                                         "A scan by WebControl's or GroundControl's optical "
+                                         "calibration becomes a grid of commanded positions");
+  verb->add_option("file",
+                   command->input,
+                   "The scan: 15 lines of 31 errors in x, an empty line, the same in y")
+      ->required();
+  verb->add_option(
+          "--machine", command->machine, "The machine, with the controller in force at the scan")
+      ->required();
+  verb->add_option("--pitch-mm", command->pitch_mm, "From square to square")->capture_default_str();
+  verb->add_option(
+          "--order", command->order, "In which order the squares were visited, if you know it")
+      ->check(CLI::IsMember({"rows", "columns", "serpentine_rows", "serpentine_columns"}));
+  verb->add_option("-o,--output", command->output, "The grid file; - is standard output")
+      ->capture_default_str();
+  verb->footer(
+      "A scan made with a compensation switched on shows what that one left and cannot be imported "
+      "this way.\n\n"
+      "Example:\n"
+      "  build/chaintrue import optical fixtures/good/optical_scan.csv \\\n"
+      "    --machine fixtures/machines/groundcontrol.json -o grid.json");
+  verb->callback([command, &run] { run = [command] { return import_optical(*command); }; });
+}
+
+struct GroundcontrolCommand {
+  std::string input;
+  std::string output = "-";
+};
+
+int import_groundcontrol(const GroundcontrolCommand& command) {
+  const files::ReadMachine read = files::read_groundcontrol(command.input);
+  std::vector<std::string> comments;
+  for (const files::Warning& warning : read.warnings) comments.push_back(warning.sentence);
+  files::write_whole_file(command.output, files::write_machine(read.machine, comments));
+  print_warnings(read.warnings);
+  return kDone;
+}
+
+void add_groundcontrol(CLI::App& import, Run& run) {
+  auto command = std::make_shared<GroundcontrolCommand>();
+  CLI::App* verb = import.add_subcommand(
+      "groundcontrol", "GroundControl's settings become a machine and its controller");
+  verb->add_option("file", command->input, "groundcontrol.ini")->required();
+  verb->add_option("-o,--output", command->output, "The machine file; - is standard output")
+      ->capture_default_str();
+  verb->footer(
+      "What the settings do not say is assumed, and said so here and in the file.\n\n"
+      "Example:\n"
+      "  build/chaintrue import groundcontrol fixtures/good/groundcontrol.ini -o machine.json");
+  verb->callback([command, &run] { run = [command] { return import_groundcontrol(*command); }; });
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, Run& run) {
+  CLI::App* verb =
+      app.add_subcommand("import", "Turn files of other programs into machine and grid files");
+  verb->require_subcommand(1);
+  verb->footer(
+      "Example:\n"
+      "  build/chaintrue import groundcontrol fixtures/good/groundcontrol.ini -o machine.json");
+  add_optical(*verb, run);
+  add_groundcontrol(*verb, run);
+}
+
+}  // namespace chaintrue::cli
