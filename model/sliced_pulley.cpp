@@ -14,10 +14,14 @@ SlicedPulley::SlicedPulley(const Dimensions& d) : d_(d) {
                      d.centre_distance_mm > d.pulley_radius_mm + d.gear_radius_mm &&
                      std::isfinite(d.centre_distance_mm) && std::isfinite(d.arm_to_corner_rad);
   if (sound) return;
-  throw std::invalid_argument(fmt::format(
-      "pulley_radius_mm {}, gear_radius_mm {}, centre_distance_mm {}, arm_to_corner_rad {}: expected finite numbers, a "
-      "gear smaller than the pulley and axes farther apart than both radii",
-      d.pulley_radius_mm, d.gear_radius_mm, d.centre_distance_mm, d.arm_to_corner_rad));
+  throw std::invalid_argument(
+      fmt::format("pulley_radius_mm {}, gear_radius_mm {}, centre_distance_mm {}, "
+                  "arm_to_corner_rad {}: expected finite numbers, a "
+                  "gear smaller than the pulley and axes farther apart than both radii",
+                  d.pulley_radius_mm,
+                  d.gear_radius_mm,
+                  d.centre_distance_mm,
+                  d.arm_to_corner_rad));
 }
 
 double SlicedPulley::critical_angle_rad() const {
@@ -47,8 +51,11 @@ double SlicedPulley::travel_error_mm(double arm_angle_rad) const {
 
 LinearKink SlicedPulley::fit_line(double from_arm_rad, double to_arm_rad, int samples) const {
   if (samples < 2 || from_arm_rad == to_arm_rad) {
-    throw std::invalid_argument(fmt::format("a line through {} samples from {} to {} rad: expected two or more angles",
-                                            samples, from_arm_rad, to_arm_rad));
+    throw std::invalid_argument(
+        fmt::format("a line through {} samples from {} to {} rad: expected two or more angles",
+                    samples,
+                    from_arm_rad,
+                    to_arm_rad));
   }
   double angle_mean = 0.0, error_mean = 0.0;
   const auto raised = [&](int i) {

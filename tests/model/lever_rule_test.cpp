@@ -38,7 +38,8 @@ TEST(LeverRule, SettlesAtTheReferencePose) {
       passes_sum += static_cast<double>(result->passes.size());
     }
   }
-  // The figures of model/README.md, rounded there: before it iterates the two chains' ends miss each other by a foot.
+  // The figures of model/README.md, rounded there: before it iterates the two chains' ends miss
+  // each other by a foot.
   EXPECT_NEAR(worst_gap, 277.0, 1.0);
   EXPECT_NEAR(gap_sum / 234.0, 64.0, 1.0);
   EXPECT_NEAR(worst_position, 131.0, 1.0);
