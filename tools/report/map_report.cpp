@@ -42,7 +42,7 @@ std::string number(double value, int digits) {
 
 double width_mm(const Outline& outline) { return outline.x_max_mm - outline.x_min_mm; }
 
-/// The sheet and the points, with a margin of 3 % of the sheet's width.
+/// The sheet and the points, with a margin of 5 % of the sheet's width.
 Outline view_of(const MapReport& report) {
   const Outline& sheet = report.sheet;
   if (!(width_mm(sheet) > 0.0) || !(sheet.y_max_mm > sheet.y_min_mm)) {
@@ -60,7 +60,7 @@ Outline view_of(const MapReport& report) {
     view.y_min_mm = std::min(view.y_min_mm, point.y_mm);
     view.y_max_mm = std::max(view.y_max_mm, point.y_mm);
   }
-  const double margin_mm = 0.03 * width_mm(sheet);
+  const double margin_mm = 0.05 * width_mm(sheet);
   return {view.x_min_mm - margin_mm,
           view.x_max_mm + margin_mm,
           view.y_min_mm - margin_mm,
