@@ -42,22 +42,30 @@ struct CatenaryLoad {
   double length_mm = 0.0;
 };
 
-/// atanh(z)/z for |z| < 1: the series where it is exact to the last bit, else the function.
-inline double atanh_ratio(double z) {
+/// Where the series of atanh(z)/z is exact to the last bit: the first term left out, q^8/17, is
+/// below 6e-18.
+inline constexpr double kSeriesMost = 0.01;
+
+/// atanh(z)/z by its series, for z^2 < kSeriesMost.
+inline double atanh_ratio_series(double z) {
   const double q = z * z;
-  if (q < 0.01) {  // the first term left out, q^8/17, is below 6e-18
-    return 1.0 +
-           q * (1.0 / 3 +
-                q * (1.0 / 5 +
-                     q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11 + q * (1.0 / 13 + q / 15))))));
-  }
+  return 1.0 + q * (1.0 / 3 +
+                    q * (1.0 / 5 +
+                         q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11 + q * (1.0 / 13 + q / 15))))));
+}
+
+/// atanh(z)/z for |z| < 1. kSeriesOnly: the caller has seen to z^2 < kSeriesMost (a loop without
+/// branches).
+template <bool kSeriesOnly = false>
+inline double atanh_ratio(double z) {
+  if (kSeriesOnly || z * z < kSeriesMost) return atanh_ratio_series(z);
   return std::atanh(z) / z;
 }
 
 /// d(atanh(z)/z)/dz.
 inline double atanh_ratio_slope(double z) {
   const double q = z * z;
-  if (q < 0.01) {
+  if (q < kSeriesMost) {
     return z * (2.0 / 3 +
                 q * (4.0 / 5 +
                      q * (6.0 / 7 +
@@ -74,6 +82,7 @@ struct CatenaryExtent {
   double u_by_h = 0.0, u_by_v = 0.0, y_by_v = 0.0;  ///< mm/N; y_by_h = u_by_v
 };
 
+template <bool kSeriesOnly = false>
 inline CatenaryExtent catenary_extent(const CatenaryLoad& load, const ChainMaterial& material) {
   const double h = load.horizontal_n, v = load.vertical_n, s = load.length_mm;
   const double w = material.weight_n_per_mm, c = material.compliance_per_n;
@@ -84,7 +93,7 @@ inline CatenaryExtent catenary_extent(const CatenaryLoad& load, const ChainMater
   const double per_sum = 1.0 / (e.ta_n + e.tb_n);
   const double per_product = per_sum / (e.ta_n * e.tb_n);
   const double vm = v + 0.5 * w * s;
-  const double mean = 2.0 * per_sum * atanh_ratio(w * s * per_sum);
+  const double mean = 2.0 * per_sum * atanh_ratio<kSeriesOnly>(w * s * per_sum);
   const double bend = s * (h * h + e.ta_n * e.tb_n - v * e.vb_n) * per_product;
   e.u_mm = s * h * (mean + c);
   e.y_mm = s * vm * (2.0 * per_sum + c);

@@ -59,8 +59,9 @@ struct ChainTerms {
   double h = 0.0, v = 0.0, vb = 0.0, ta = 0.0, tb = 0.0;
 };
 
+template <bool kSeriesOnly = false>
 inline ChainTerms chain_terms(const EquilibriumConstants& m, double h, double v, double s) {
-  const CatenaryExtent e = catenary_extent({h, v, s}, m.chain);
+  const CatenaryExtent e = catenary_extent<kSeriesOnly>({h, v, s}, m.chain);
   const double w = m.chain.weight_n_per_mm;
   const double per_a = 1.0 / e.ta_n, per_b = 1.0 / e.tb_n;
   const double cos_a = h * per_a, sin_a = v * per_a, cos_b = h * per_b, sin_b = e.vb_n * per_b;
@@ -108,6 +109,11 @@ struct EquilibriumLoad {
   double side_n = 0.0;      ///< change of f
 };
 
+inline PerSide<ChainTerms> terms_of(const EquilibriumConstants& m, const EquilibriumState& q) {
+  return {chain_terms(m, q.h_left, q.v_left, q.s.left),
+          chain_terms(m, q.h_left - m.f, m.W - q.v_left, q.s.right)};
+}
+
 /// The answer of the unknowns.
 struct EquilibriumStep {
   double h_left = 0.0, v_left = 0.0, h_right = 0.0, v_right = 0.0;
@@ -133,34 +139,29 @@ inline double moment_by_psi(const EquilibriumConstants& m,
          a.right_x * t.right.h - m.W * m.cg * std::cos(psi);
 }
 
-/// Solves the linearised equations: terms * step + load = 0. Zero determinants end in infinities,
-/// which no convergence test passes.
+/// One chain's balance after its S (and what else only it knows) is eliminated: by its own H and V,
+/// by psi, and the load.
+struct SledRow {
+  double h = 0.0, v = 0.0, psi = 0.0, load = 0.0;
+};
+
+/// The sled's part of the linearised equations: rows * step + load = 0 with V_left + V_right and
+/// H_left - H_right given, and for brackets the moment (its derivative by psi in `moment_psi`).
+/// Fills all of `step` but s. Zero determinants end in infinities, which no convergence test
+/// passes.
 template <bool kRotates>
-EquilibriumStep solve_linearised(const EquilibriumConstants& m,
-                                 const PerSide<ChainTerms>& t,
-                                 const EquilibriumLoad& load,
-                                 double psi) {
-  // Row of a chain after elimination of its dS: by (H, V) of its own, by psi, and the load.
-  struct Row {
-    double h, v, psi, load;
-  };
-  const auto row = [](const ChainTerms& c, double u_psi, double y_psi, double u, double y) {
-    return Row{c.y_s * c.u_h - c.u_s * c.y_h,
-               c.y_s * c.u_v - c.u_s * c.y_v,
-               c.y_s * u_psi - c.u_s * y_psi,
-               c.y_s * u - c.u_s * y};
-  };
-  Attachments a;
-  if constexpr (kRotates) a = attachments(m, psi);
-  // dU/dpsi = -a_y on the left and +a_y on the right; dY/dpsi = -a_x on both; (1) holds -U and -Y.
-  const Row l = row(t.left, a.left_y, a.left_x, load.u.left, load.y.left);
-  const Row r = row(t.right, -a.right_y, a.right_x, load.u.right, load.y.right);
+EquilibriumStep solve_sled(const EquilibriumConstants& m,
+                           const SledRow& l,
+                           const SledRow& r,
+                           const EquilibriumLoad& load,
+                           const Attachments& a,
+                           double psi,
+                           double moment_psi) {
   const double b_left = -l.load;
   const double b_right = -r.load + r.h * load.side_n - r.v * load.vertical_n;
   EquilibriumStep step;
   if constexpr (kRotates) {
-    const double mh = a.left_y - a.right_y, mv = a.left_x - a.right_x;
-    const double mp = moment_by_psi(m, a, t, psi);
+    const double mh = a.left_y - a.right_y, mv = a.left_x - a.right_x, mp = moment_psi;
     const double b_moment = -load.moment - a.right_y * load.side_n -
                             (a.right_x - m.cg * std::sin(psi)) * load.vertical_n;
     // Rows (l.h, l.v, l.psi), (r.h, -r.v, r.psi), (mh, mv, mp) by Cramer's rule.
@@ -178,18 +179,48 @@ EquilibriumStep solve_linearised(const EquilibriumConstants& m,
   }
   step.h_right = step.h_left - load.side_n;
   step.v_right = load.vertical_n - step.v_left;
+  return step;
+}
+
+/// Solves the linearised equations: terms * step + load = 0.
+template <bool kRotates>
+EquilibriumStep solve_linearised(const EquilibriumConstants& m,
+                                 const PerSide<ChainTerms>& t,
+                                 const EquilibriumLoad& load,
+                                 double psi) {
+  const auto row = [](const ChainTerms& c, double u_psi, double y_psi, double u, double y) {
+    return SledRow{c.y_s * c.u_h - c.u_s * c.y_h,
+                   c.y_s * c.u_v - c.u_s * c.y_v,
+                   c.y_s * u_psi - c.u_s * y_psi,
+                   c.y_s * u - c.u_s * y};
+  };
+  Attachments a;
+  double moment_psi = 0.0;
+  if constexpr (kRotates) {
+    a = attachments(m, psi);
+    moment_psi = moment_by_psi(m, a, t, psi);
+  }
+  // dU/dpsi = -a_y on the left and +a_y on the right; dY/dpsi = -a_x on both; (1) holds -U and -Y.
+  EquilibriumStep step =
+      solve_sled<kRotates>(m,
+                           row(t.left, a.left_y, a.left_x, load.u.left, load.y.left),
+                           row(t.right, -a.right_y, a.right_x, load.u.right, load.y.right),
+                           load,
+                           a,
+                           psi,
+                           moment_psi);
   const auto s_step = [](const ChainTerms& c, double u, double y) {
     return -(c.u_s * u + c.y_s * y) / (c.u_s * c.u_s + c.y_s * c.y_s);
   };
-  step.s.left = s_step(
-      t.left,
-      load.u.left + t.left.u_h * step.h_left + t.left.u_v * step.v_left + a.left_y * step.psi,
-      load.y.left + t.left.y_h * step.h_left + t.left.y_v * step.v_left + a.left_x * step.psi);
-  step.s.right = s_step(
-      t.right,
-      load.u.right + t.right.u_h * step.h_right + t.right.u_v * step.v_right - a.right_y * step.psi,
-      load.y.right + t.right.y_h * step.h_right + t.right.y_v * step.v_right +
-          a.right_x * step.psi);
+  const ChainTerms &l = t.left, &r = t.right;
+  step.s.left =
+      s_step(l,
+             load.u.left + l.u_h * step.h_left + l.u_v * step.v_left + a.left_y * step.psi,
+             load.y.left + l.y_h * step.h_left + l.y_v * step.v_left + a.left_x * step.psi);
+  step.s.right =
+      s_step(r,
+             load.u.right + r.u_h * step.h_right + r.u_v * step.v_right - a.right_y * step.psi,
+             load.y.right + r.y_h * step.h_right + r.y_v * step.v_right + a.right_x * step.psi);
   return step;
 }
 

@@ -9,14 +9,22 @@
 
 namespace chaintrue::model {
 
+/// What a simpler model leaves out: zero in the parameters, and lengths that do not depend on it.
+struct NotModelled {
+  bool sprocket = false;
+  bool chain_weight = false;
+  bool compliance = false;
+};
+
 /// \tparam kRotates brackets: the sled's rotation is an unknown.
 /// Accuracy (inverse and forward, against 40-digit tables): 1e-11 mm over the default bed, 1e-9 mm
 /// down to 23 mm below the beam and 19 mm beside a sprocket's vertical.
 template <bool kRotates>
 class EquilibriumKinematics final : public Kinematics {
  public:
-  explicit EquilibriumKinematics(const EquilibriumParameters& parameters)
-      : m_(equilibrium_constants(parameters)) {}
+  explicit EquilibriumKinematics(const EquilibriumParameters& parameters,
+                                 const NotModelled& not_modelled = {})
+      : m_(equilibrium_constants(parameters)), not_modelled_(not_modelled) {}
   [[nodiscard]] PoseResult inverse(BedPoint point) const override;
   [[nodiscard]] PoseResult forward(ChainLengths lengths) const override;
   [[nodiscard]] Eigen::Matrix2d jacobian(const Pose& pose) const override;
@@ -24,6 +32,7 @@ class EquilibriumKinematics final : public Kinematics {
 
  private:
   EquilibriumConstants m_;
+  NotModelled not_modelled_;
 };
 
 extern template class EquilibriumKinematics<false>;

@@ -16,6 +16,7 @@ namespace chaintrue::model {
 struct CircleGuess {
   BedPoint point;
   bool circles_meet = false;
+  bool hopeless = false;  ///< no chain stretches that far (20 %)
 };
 [[nodiscard]] CircleGuess circle_guess(const DomainLimits& limits, ChainLengths lengths);
 

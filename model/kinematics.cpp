@@ -11,6 +11,7 @@
 #include "model/chain_formulas.hpp"
 #include "model/equilibrium_kinematics.hpp"
 #include "model/formula_kinematics.hpp"
+#include "model/spatial_kinematics.hpp"
 
 namespace chaintrue::model {
 namespace {
@@ -56,23 +57,25 @@ void require_sound(const EquilibriumParameters& p) {
   require("sag_correction", p.sag_correction, -kInfinity, kInfinity);
 }
 
-std::unique_ptr<const Kinematics> equilibrium(const EquilibriumParameters& p) {
+std::unique_ptr<const Kinematics> equilibrium(EquilibriumParameters p,
+                                              const NotModelled& not_modelled = {}) {
+  if (not_modelled.sprocket) p.sprocket_radius_mm = 0.0;
+  if (not_modelled.chain_weight) p.chain_weight_n_per_mm = 0.0;
+  if (not_modelled.compliance) p.chain_compliance_per_n = 0.0;
   if (std::holds_alternative<Ring>(p.attachment)) {
-    return std::make_unique<EquilibriumKinematics<false>>(p);
+    return std::make_unique<EquilibriumKinematics<false>>(p, not_modelled);
   }
-  return std::make_unique<EquilibriumKinematics<true>>(p);
+  return std::make_unique<EquilibriumKinematics<true>>(p, not_modelled);
 }
 
 /// The weightless limit: where the beam yields or the sled rotates there is no closed form, and the
 /// equilibrium itself is solved with weightless inextensible chains.
-std::unique_ptr<const Kinematics> weightless(EquilibriumParameters p, Formula formula) {
+std::unique_ptr<const Kinematics> weightless(const EquilibriumParameters& p, Formula formula) {
   const bool closed =
       std::holds_alternative<Ring>(p.attachment) && p.beam_flexibility_mm_per_n == 0.0;
   if (closed) return std::make_unique<FormulaKinematics>(p, formula);
-  p.chain_weight_n_per_mm = 0.0;
-  p.chain_compliance_per_n = 0.0;
-  if (formula == Formula::straight) p.sprocket_radius_mm = 0.0;
-  return equilibrium(p);
+  return equilibrium(
+      p, {.sprocket = formula == Formula::straight, .chain_weight = true, .compliance = true});
 }
 
 }  // namespace
@@ -145,17 +148,15 @@ std::unique_ptr<const Kinematics> make_kinematics(const EquilibriumParameters& p
       return std::make_unique<FormulaKinematics>(parameters, Formula::firmware);
     case Model::one_shot:
       return std::make_unique<FormulaKinematics>(parameters, Formula::one_shot);
-    case Model::inextensible: {
-      EquilibriumParameters inextensible = parameters;
-      inextensible.chain_compliance_per_n = 0.0;
-      return equilibrium(inextensible);
-    }
+    case Model::inextensible:
+      return equilibrium(parameters, {.compliance = true});
     case Model::elastic:
       return equilibrium(parameters);
     case Model::elastic_3d:
       break;
   }
-  throw std::invalid_argument("the three-dimensional sag is not available");
+  if (ring) return std::make_unique<SpatialKinematics<false>>(parameters);
+  return std::make_unique<SpatialKinematics<true>>(parameters);
 }
 
 }  // namespace chaintrue::model

@@ -71,9 +71,10 @@ enum class PoseFailure {
 /// One chain in equilibrium. s = 0 is the sled's end.
 struct ChainState {
   double horizontal_n = 0.0;  ///< H, the same all along
-  double vertical_at_sled_n =
-      0.0;  ///< V, upward pull on the sled; negative: the chain hangs below its end
-  double tension_at_sled_n = 0.0;      ///< T(0)
+  /// V, upward pull on the sled; negative: the chain hangs below its end.
+  double vertical_at_sled_n = 0.0;
+  double out_of_sheet_n = 0.0;     ///< N, pull off the sheet at the sled; Model::elastic_3d only
+  double tension_at_sled_n = 0.0;  ///< T(0)
   double tension_at_sprocket_n = 0.0;  ///< T(S)
   double angle_rad = 0.0;       ///< phi, below the horizontal where the chain leaves the sprocket
   double free_length_mm = 0.0;  ///< S, unstretched

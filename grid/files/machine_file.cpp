@@ -5,6 +5,7 @@
 
 #include "grid/files/machine_record.hpp"
 #include "grid/files/whole_file.hpp"
+#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -255,6 +256,11 @@ void check_machine(const Cursor& at, Machine& machine) {
     // A field that could not be read keeps its default, of which there is nothing to say.
     if (!at.problems().at_or_below(place))
       at.problems().add(place, problem.value, problem.expected);
+  }
+  // The sums of effects and machine are only looked at where the machine itself is sound.
+  if (!at.clean()) return;
+  for (const model::MachineProblem& problem : model::effects::problems_of_effects(machine)) {
+    at.problems().add(at.pointer() + problem.parameter, problem.value, problem.expected);
   }
 }
 

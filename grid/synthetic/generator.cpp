@@ -30,8 +30,21 @@ enum Stream : std::uint64_t {
   kSheet = 9,
 };
 
+// Digits that a number with noise still has: far below any noise, and far above what differs
+// between mathematical libraries, so that the bytes are the same everywhere.
+constexpr double kNoisyStep_mm = 1e-4;
+
 double rounded(double value, double step) {
-  return step > 0.0 ? std::round(value / step) * step : value;
+  if (step <= 0.0) return value;
+  // Dividing by a whole number of steps per mm gives the double nearest to the decimal number.
+  const double per_mm = std::round(1.0 / step);
+  const bool divides = std::abs(per_mm * step - 1.0) < 1e-12;
+  return divides ? std::round(value * per_mm) / per_mm : std::round(value / step) * step;
+}
+
+double step_of(double rounding_mm, double sigma_mm) {
+  if (rounding_mm > 0.0) return rounding_mm;
+  return sigma_mm > 0.0 ? kNoisyStep_mm : 0.0;
 }
 
 double draw(Random& random, const SyntheticNoise& noise, double sigma) {
@@ -136,6 +149,8 @@ std::vector<MeasuredPoint> written_down(const std::vector<BedPoint>& marks,
   shuffled.resize(std::min(shuffled.size(), static_cast<std::size_t>(spec.bad.count)));
   std::sort(shuffled.begin(), shuffled.end());
 
+  const double position_step = step_of(noise.position_rounding_mm, noise.position_mm);
+  const double length_step = step_of(noise.length_rounding_mm, noise.length_mm);
   std::vector<MeasuredPoint> points;
   for (std::size_t i = 0; i < marks.size(); ++i) {
     BedPoint mark = marks[i];
@@ -149,10 +164,8 @@ std::vector<MeasuredPoint> written_down(const std::vector<BedPoint>& marks,
     }
     const double left = lengths[i].left_mm + draw(length_noise, noise, noise.length_mm);
     const double right = lengths[i].right_mm + draw(length_noise, noise, noise.length_mm);
-    points.push_back({{rounded(mark.x_mm, noise.position_rounding_mm),
-                       rounded(mark.y_mm, noise.position_rounding_mm)},
-                      ChainLengths{rounded(left, noise.length_rounding_mm),
-                                   rounded(right, noise.length_rounding_mm)},
+    points.push_back({{rounded(mark.x_mm, position_step), rounded(mark.y_mm, position_step)},
+                      ChainLengths{rounded(left, length_step), rounded(right, length_step)},
                       std::nullopt,
                       static_cast<int>(i)});
   }

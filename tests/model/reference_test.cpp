@@ -125,6 +125,21 @@ TEST(Reference, Brackets) {
   }
 }
 
+TEST(Reference, ThreeDimensionalSag) {
+  for (const char* name : {"table_3d_over_top.json", "table_3d_off_bottom.json"}) {
+    const nlohmann::json table = reference_table(name);
+    const auto kinematics = make_kinematics(parameters_of(table["params"]), Model::elastic_3d);
+    ASSERT_EQ(table["bed"].size(), 117u);
+    for (const auto& r : table["bed"]) {
+      expect_round_trip(
+          *kinematics, r, {number(r["h_3d"][0]), number(r["h_3d"][1])}, kBedTolerance);
+      const PoseResult pose = kinematics->inverse(point_of(r));
+      EXPECT_NEAR(pose->chains.left.out_of_sheet_n, number(r["NL"]), 1e-12);
+      EXPECT_NEAR(pose->chains.right.out_of_sheet_n, number(r["NR"]), 1e-12);
+    }
+  }
+}
+
 TEST(Reference, StressMachines) {
   const nlohmann::json table = reference_table("table_stress.json");
   ASSERT_EQ(table["records"].size(), 200u);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue_answer files: what a simulated grid hides. Written apart from the grid, or not at all.
+///
+///   { "file_type": "chaintrue_answer", "format_version": "1.0", "seed": 1,
+///     "effects": [ as in a machine file ],                       // the hidden ones
+///     "settings": [ {"setting": "motor_left_x_mm", "offset": 1.7} ],   // truth less stated
+///     "sheet": {"x_mm": 0, "y_mm": 0, "rotation_rad": 0},
+///     "bad_points": [indices into points],
+///     "points": [ {"x_mm", "y_mm", "left_mm", "right_mm"} ],     // true places, readings without
+///     noise "machine": { the machine as it truly is } }
+#pragma once
+
+#include <string>
+
+#include "grid/synthetic/generator.hpp"
+
+namespace chaintrue::grid::files {
+
+[[nodiscard]] std::string write_answer(const synthetic::SyntheticAnswer& answer);
+
+}  // namespace chaintrue::grid::files

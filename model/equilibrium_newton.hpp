@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What the equilibrium's solvers share: where Newton starts, how far a step may go, when it has
+/// settled, and the walk that replaces a cold start near the rim of the domain. Internal to model/;
+/// notation in equilibrium.hpp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/equilibrium.hpp"
+#include "model/inverse_domain.hpp"
+
+namespace chaintrue::model {
+
+inline constexpr int kMaxIterations = 50;
+// Newton is quadratic: a step below these leaves less than rounding behind it.
+inline constexpr double kLengthStepMm = 1e-7;
+inline constexpr double kRelativeForceStep = 1e-7;
+inline constexpr double kAngleStepRad = 1e-9;
+
+/// A bracket reaches as far from the bit as its corner.
+inline DomainLimits limits_of(const EquilibriumConstants& m) {
+  return {m.motors,
+          m.r,
+          m.sg,
+          m.rho + std::sqrt(m.half_spacing * m.half_spacing + m.bracket_height * m.bracket_height)};
+}
+
+/// Straight tangents carry sled and chains: the start of every solution.
+inline EquilibriumState straight_start(const EquilibriumConstants& m, BedPoint p) {
+  const Attachments a = attachments(m, 0.0);
+  const double ul = p.x_mm + a.left_x - m.motors.left.x_mm;
+  const double yl = m.motors.left.y_mm - p.y_mm - a.left_y;
+  const double ur = m.motors.right.x_mm - p.x_mm - a.right_x;
+  const double yr = m.motors.right.y_mm - p.y_mm - a.right_y;
+  const double rr = m.r * m.r;
+  const double sl = std::sqrt(std::max(ul * ul + yl * yl - rr, 1.0));
+  const double sr = std::sqrt(std::max(ur * ur + yr * yr - rr, 1.0));
+  const double tan_l = (yl * sl + m.sg * m.r * ul) / (ul * sl - m.sg * m.r * yl);
+  const double tan_r = (yr * sr + m.sg * m.r * ur) / (ur * sr - m.sg * m.r * yr);
+  const double w = m.chain.weight_n_per_mm;
+  const double load = m.W + 0.5 * w * (sl + sr);
+  // Beside a bracket's vertical or at the beam the straight line has no equilibrium; Newton starts
+  // from a taut chain.
+  const double slopes = tan_l > 0.0 && tan_r > 0.0 ? tan_l + tan_r : std::max(tan_l + tan_r, 0.05);
+  EquilibriumState q;
+  const double least = 1e-3 * load + std::abs(m.f);
+  q.h_left = std::max((load + m.f * tan_r) / slopes, least + m.f);
+  q.v_left = q.h_left * tan_l - 0.5 * w * sl;
+  q.s = {std::max(sl - m.rho, 0.1 * sl), std::max(sr - m.rho, 0.1 * sr)};
+  return q;
+}
+
+/// Applies a Newton step, shortened where a tension or a length would fall below a tenth of itself.
+template <bool kRotates>
+bool advance(const EquilibriumConstants& m, const EquilibriumStep& step, EquilibriumState& q) {
+  const double h_right = q.h_left - m.f;
+  double share = 1.0;
+  const auto keep = [&share](double value, double change) {
+    if (value + share * change < 0.1 * value) share = -0.9 * value / change;
+  };
+  keep(q.h_left, step.h_left);
+  keep(h_right, step.h_right);
+  keep(q.s.left, step.s.left);
+  keep(q.s.right, step.s.right);
+  if constexpr (kRotates) {
+    constexpr double kMaxTurn = 0.3;  // rad: the bracket's moment is no longer nearly linear beyond
+    if (std::abs(share * step.psi) > kMaxTurn) share = kMaxTurn / std::abs(step.psi);
+    q.psi += share * step.psi;
+  }
+  q.h_left += share * step.h_left;
+  q.v_left += share * step.v_left;
+  q.s.left += share * step.s.left;
+  q.s.right += share * step.s.right;
+  const double least_h = std::min(q.h_left, q.h_left - m.f);
+  return share == 1.0 && std::abs(step.s.left) + std::abs(step.s.right) < kLengthStepMm &&
+         std::abs(step.h_left) < kRelativeForceStep * least_h &&
+         std::abs(step.v_left) < kRelativeForceStep * (m.W + std::abs(q.v_left)) &&
+         std::abs(step.psi) < kAngleStepRad;
+}
+
+/// Walks from below the beam's middle to the point in steps that Newton can follow: the branch of
+/// solutions that belongs to taut chains, where a cold start finds none.
+/// \param start  State(BedPoint): the cold start
+/// \param settle int(BedPoint, State&): iterations, or 0
+template <class State, class Start, class Settle>
+int settle_by_walking(
+    const EquilibriumConstants& m, BedPoint p, State& q, Start start, Settle settle) {
+  const MotorPosition &l = m.motors.left, &r = m.motors.right;
+  const BedPoint middle{0.5 * (l.x_mm + r.x_mm),
+                        std::min(p.y_mm, 0.5 * (l.y_mm + r.y_mm) - 0.2 * (r.x_mm - l.x_mm))};
+  q = start(middle);
+  int total = settle(middle, q);
+  if (total == 0) return 0;
+  double reached = 0.0, stride = 0.25;
+  while (reached < 1.0) {
+    const double next = std::min(1.0, reached + stride);
+    State trial = q;
+    const int n = settle(
+        {middle.x_mm + next * (p.x_mm - middle.x_mm), middle.y_mm + next * (p.y_mm - middle.y_mm)},
+        trial);
+    total += n;
+    if (n != 0) {
+      q = trial;
+      reached = next;
+      stride *= 1.5;
+    } else if ((stride *= 0.5) < 1e-4) {
+      return 0;
+    }
+  }
+  return total;
+}
+
+/// The likeliest reason for a point inside the domain where nothing settles.
+inline PoseFailure why_unsettled(const EquilibriumConstants& m, BedPoint p) {
+  const double u = std::min(p.x_mm - m.motors.left.x_mm, m.motors.right.x_mm - p.x_mm);
+  if (u - m.half_spacing <= m.sg * m.r) return PoseFailure::outside_verticals;
+  return m.f != 0.0 ? PoseFailure::slack : PoseFailure::not_converged;
+}
+
+}  // namespace chaintrue::model

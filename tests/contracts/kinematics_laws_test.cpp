@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laws that every kinematics obeys, whatever it knows of a chain. A new model is one line in
+// kinds().
+#include <gmock/gmock.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "model/kinematics.hpp"
+
+namespace chaintrue::model {
+namespace {
+
+struct Kind {
+  std::string name;
+  EquilibriumParameters parameters;
+  Model model;
+};
+
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+
+EquilibriumParameters classic(Feed feed, Attachment attachment = Ring{}) {
+  Machine machine;
+  machine.feed = feed;
+  machine.attachment = attachment;
+  return equilibrium_parameters(machine);
+}
+
+std::vector<Kind> kinds() {
+  std::vector<Kind> all;
+  const std::pair<Model, std::string> ring_models[] = {{Model::straight, "straight"},
+                                                       {Model::wrap, "wrap"},
+                                                       {Model::firmware, "firmware"},
+                                                       {Model::one_shot, "one_shot"},
+                                                       {Model::elastic, "elastic"},
+                                                       {Model::inextensible, "inextensible"},
+                                                       {Model::elastic_3d, "elastic_3d"}};
+  for (const Feed feed : {Feed::over_top, Feed::off_bottom}) {
+    const std::string way = feed == Feed::over_top ? "_over_top" : "_off_bottom";
+    for (const auto& [model, name] : ring_models) {
+      all.push_back({"ring_" + name + way, classic(feed), model});
+    }
+    for (const auto& [model, name] : ring_models) {
+      if (model == Model::one_shot) continue;  // needs a ring
+      all.push_back({"brackets_" + name + way, classic(feed, Brackets{}), model});
+    }
+    // A beam that rises to the right, yields under the chains, and a hose that pulls.
+    for (const auto& [attachment, sled] :
+         {std::pair<Attachment, std::string>{Ring{}, "ring"}, {Brackets{}, "brackets"}}) {
+      EquilibriumParameters leaning = classic(feed, attachment);
+      leaning.motors.right.y_mm += 60.0;
+      leaning.motors.left.x_mm -= 25.0;
+      leaning.beam_flexibility_mm_per_n = 0.01;
+      leaning.side_force_n = 4.0;
+      all.push_back({"leaning_" + sled + "_elastic" + way, leaning, Model::elastic});
+      all.push_back({"leaning_" + sled + "_elastic_3d" + way, leaning, Model::elastic_3d});
+    }
+    EquilibriumParameters yielding = classic(feed);
+    yielding.beam_flexibility_mm_per_n = 0.01;
+    all.push_back({"yielding_ring_wrap" + way, yielding, Model::wrap});
+  }
+  return all;
+}
+
+class KinematicsLaws : public testing::TestWithParam<Kind> {
+ protected:
+  [[nodiscard]] const EquilibriumParameters& parameters() const { return GetParam().parameters; }
+  [[nodiscard]] std::unique_ptr<const Kinematics> make(const EquilibriumParameters& p) const {
+    return make_kinematics(p, GetParam().model);
+  }
+  std::unique_ptr<const Kinematics> kinematics_ =
+      make_kinematics(GetParam().parameters, GetParam().model);
+};
+
+INSTANTIATE_TEST_SUITE_P(Every, KinematicsLaws, testing::ValuesIn(kinds()), [](const auto& kind) {
+  return kind.param.name;
+});
+
+/// Points of the classic bed, the same on every run.
+class BedPoints {
+ public:
+  explicit BedPoints(std::uint64_t seed) : engine_(seed) {}
+  double uniform(double from, double to) {
+    return from + (to - from) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+  }
+  BedPoint next() { return {uniform(-1219.2, 1219.2), uniform(-609.6, 609.6)}; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+constexpr std::uint64_t kSeed = 20260115;
+
+Eigen::Vector2d vector(ChainLengths l) { return {l.left_mm, l.right_mm}; }
+
+/// Central difference of order h^6: three central differences, their h^2 and h^4 terms removed.
+Eigen::Vector2d difference(const std::function<Eigen::Vector2d(double)>& f, double h) {
+  const auto central = [&f](double step) -> Eigen::Vector2d {
+    return (f(step) - f(-step)) / (2.0 * step);
+  };
+  const Eigen::Vector2d wide = (4.0 * central(0.5 * h) - central(h)) / 3.0;
+  const Eigen::Vector2d narrow = (4.0 * central(0.25 * h) - central(0.5 * h)) / 3.0;
+  return (16.0 * narrow - wide) / 15.0;
+}
+
+TEST_P(KinematicsLaws, ForwardUndoesInverse) {
+  BedPoints points(kSeed);
+  for (int n = 0; n < 60; ++n) {
+    const BedPoint p = points.next();
+    SCOPED_TRACE(testing::Message()
+                 << "seed " << kSeed << ", (" << p.x_mm << ", " << p.y_mm << ")");
+    const PoseResult pose = kinematics_->inverse(p);
+    ASSERT_TRUE(pose) << explain(pose.error());
+    EXPECT_EQ(pose->position.x_mm, p.x_mm);
+    const PoseResult back = kinematics_->forward(pose->lengths);
+    ASSERT_TRUE(back) << explain(back.error());
+    // Rounding of a length, 2e-13 mm, times the worst amplification of 2.4 and a few sums.
+    EXPECT_NEAR(back->position.x_mm, p.x_mm, 2e-11);
+    EXPECT_NEAR(back->position.y_mm, p.y_mm, 2e-11);
+    EXPECT_NEAR(back->sled_rotation_rad, pose->sled_rotation_rad, 1e-12);
+  }
+}
+
+TEST_P(KinematicsLaws, JacobianIsTheDerivativeOfTheLengths) {
+  BedPoints points(kSeed + 1);
+  for (int n = 0; n < 25; ++n) {
+    const BedPoint p = points.next();
+    SCOPED_TRACE(testing::Message()
+                 << "seed " << kSeed + 1 << ", (" << p.x_mm << ", " << p.y_mm << ")");
+    const auto at = [&](double dx, double dy) {
+      return vector(kinematics_->inverse({p.x_mm + dx, p.y_mm + dy}).value().lengths);
+    };
+    const Eigen::Matrix2d j = kinematics_->jacobian(kinematics_->inverse(p).value());
+    // 3e-12 mm of rounding over the narrowest step of 1.5 mm, magnified 1.4 times by the
+    // extrapolation.
+    constexpr double kTolerance = 4e-12;
+    const Eigen::Vector2d by_x = difference([&](double h) { return at(h, 0.0); }, 6.0);
+    const Eigen::Vector2d by_y = difference([&](double h) { return at(0.0, h); }, 6.0);
+    EXPECT_LE((j.col(0) - by_x).cwiseAbs().maxCoeff(), kTolerance);
+    EXPECT_LE((j.col(1) - by_y).cwiseAbs().maxCoeff(), kTolerance);
+  }
+}
+
+struct Knob {
+  Parameter parameter;
+  const char* name;
+  double step;  // of the difference, in the parameter's unit
+  std::function<double&(EquilibriumParameters&)> of;
+};
+
+std::vector<Knob> knobs() {
+  using P = EquilibriumParameters;
+  return {
+      {Parameter::motor_left_x_mm,
+       "motor_left_x_mm",
+       4.0,
+       [](P& p) -> double& { return p.motors.left.x_mm; }},
+      {Parameter::motor_left_y_mm,
+       "motor_left_y_mm",
+       4.0,
+       [](P& p) -> double& { return p.motors.left.y_mm; }},
+      {Parameter::motor_right_x_mm,
+       "motor_right_x_mm",
+       4.0,
+       [](P& p) -> double& { return p.motors.right.x_mm; }},
+      {Parameter::motor_right_y_mm,
+       "motor_right_y_mm",
+       4.0,
+       [](P& p) -> double& { return p.motors.right.y_mm; }},
+      {Parameter::ring_radius_mm,
+       "ring_radius_mm",
+       4.0,
+       [](P& p) -> double& { return std::get<Ring>(p.attachment).radius_mm; }},
+      {Parameter::sprocket_radius_mm,
+       "sprocket_radius_mm",
+       1.0,
+       [](P& p) -> double& { return p.sprocket_radius_mm; }},
+      {Parameter::sled_weight_n,
+       "sled_weight_n",
+       1.0,
+       [](P& p) -> double& { return p.sled_weight_n; }},
+      {Parameter::chain_weight_n_per_mm,
+       "chain_weight_n_per_mm",
+       1e-4,
+       [](P& p) -> double& { return p.chain_weight_n_per_mm; }},
+      {Parameter::chain_compliance_per_n,
+       "chain_compliance_per_n",
+       1e-6,
+       [](P& p) -> double& { return p.chain_compliance_per_n; }},
+      {Parameter::beam_flexibility_mm_per_n,
+       "beam_flexibility_mm_per_n",
+       0.002,
+       [](P& p) -> double& { return p.beam_flexibility_mm_per_n; }},
+      {Parameter::side_force_n,
+       "side_force_n",
+       1.0,
+       [](P& p) -> double& { return p.side_force_n; }},
+  };
+}
+
+TEST_P(KinematicsLaws, SensitivityIsTheDerivativeByEachParameter) {
+  // A range begins at zero: the difference is taken about a parameter that is inside.
+  EquilibriumParameters base = parameters();
+  const bool closed = GetParam().model == Model::straight || GetParam().model == Model::wrap ||
+                      GetParam().model == Model::firmware || GetParam().model == Model::one_shot;
+  if (!closed) base.beam_flexibility_mm_per_n = std::max(base.beam_flexibility_mm_per_n, 0.004);
+  const auto kinematics = make(base);
+  const bool ring = std::holds_alternative<Ring>(base.attachment);
+  for (const Knob& knob : knobs()) {
+    if (knob.parameter == Parameter::ring_radius_mm && !ring) continue;
+    // A weightless closed formula has no beam that yields; make_kinematics leaves the formula
+    // there.
+    if (knob.parameter == Parameter::beam_flexibility_mm_per_n && closed &&
+        base.beam_flexibility_mm_per_n == 0.0) {
+      continue;
+    }
+    BedPoints points(kSeed + 2);
+    for (int n = 0; n < 12; ++n) {
+      const BedPoint p = points.next();
+      SCOPED_TRACE(testing::Message() << knob.name << ", seed " << kSeed + 2 << ", (" << p.x_mm
+                                      << ", " << p.y_mm << ")");
+      const auto at = [&](double change) {
+        EquilibriumParameters changed = base;
+        knob.of(changed) += change;
+        return vector(make(changed)->inverse(p).value().lengths);
+      };
+      const Eigen::Vector2d expected = difference(at, knob.step);
+      const Eigen::Vector2d found =
+          kinematics->sensitivity(kinematics->inverse(p).value(), knob.parameter);
+      // Rounding of 3e-12 mm over the narrowest step; h^6 of the curve, small against the change
+      // itself.
+      const double tolerance = 1.5e-11 / knob.step + 1e-7 * expected.cwiseAbs().maxCoeff();
+      EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), tolerance)
+          << "found " << found.transpose() << ", difference " << expected.transpose();
+    }
+  }
+}
+
+TEST_P(KinematicsLaws, MirroredMachineSwapsTheChains) {
+  EquilibriumParameters mirrored = parameters();
+  mirrored.motors.left = {-parameters().motors.right.x_mm, parameters().motors.right.y_mm};
+  mirrored.motors.right = {-parameters().motors.left.x_mm, parameters().motors.left.y_mm};
+  mirrored.side_force_n = -parameters().side_force_n;
+  const auto mirror = make(mirrored);
+  BedPoints points(kSeed + 3);
+  for (int n = 0; n < 60; ++n) {
+    const BedPoint p = points.next();
+    SCOPED_TRACE(testing::Message()
+                 << "seed " << kSeed + 3 << ", (" << p.x_mm << ", " << p.y_mm << ")");
+    const Pose a = kinematics_->inverse(p).value(), b = mirror->inverse({-p.x_mm, p.y_mm}).value();
+    constexpr double kTolerance = 5e-12;  // ten units in the last place of a length
+    EXPECT_NEAR(a.lengths.left_mm, b.lengths.right_mm, kTolerance);
+    EXPECT_NEAR(a.lengths.right_mm, b.lengths.left_mm, kTolerance);
+    EXPECT_NEAR(a.sled_rotation_rad, -b.sled_rotation_rad, 1e-13);
+    EXPECT_NEAR(a.chains.left.horizontal_n,
+                b.chains.right.horizontal_n,
+                1e-12 * parameters().sled_weight_n);
+  }
+}
+
+TEST_P(KinematicsLaws, ForcesScaledTogetherLeaveTheLengths) {
+  BedPoints points(kSeed + 4);
+  for (const double factor : {0.25, 7.0}) {
+    EquilibriumParameters scaled = parameters();
+    scaled.sled_weight_n *= factor;
+    scaled.chain_weight_n_per_mm *= factor;
+    scaled.side_force_n *= factor;
+    scaled.chain_compliance_per_n /= factor;
+    scaled.beam_flexibility_mm_per_n /= factor;
+    const auto other = make(scaled);
+    for (int n = 0; n < 30; ++n) {
+      const BedPoint p = points.next();
+      SCOPED_TRACE(testing::Message()
+                   << "seed " << kSeed + 4 << ", (" << p.x_mm << ", " << p.y_mm << ")");
+      const Pose a = kinematics_->inverse(p).value(), b = other->inverse(p).value();
+      EXPECT_LE((vector(a.lengths) - vector(b.lengths)).norm(), 1e-11);  // rounding of the solution
+      EXPECT_NEAR(b.chains.left.tension_at_sprocket_n,
+                  factor * a.chains.left.tension_at_sprocket_n,
+                  1e-11 * b.chains.left.tension_at_sprocket_n);
+    }
+  }
+}
+
+TEST_P(KinematicsLaws, LengthsScaledTogetherScaleTheChains) {
+  BedPoints points(kSeed + 5);
+  for (const double factor : {0.5, 3.0}) {
+    EquilibriumParameters scaled = parameters();
+    for (const Side side : kSides) {
+      scaled.motors[side].x_mm *= factor;
+      scaled.motors[side].y_mm *= factor;
+    }
+    scaled.sprocket_radius_mm *= factor;
+    if (auto* ring = std::get_if<Ring>(&scaled.attachment)) ring->radius_mm *= factor;
+    if (auto* b = std::get_if<Brackets>(&scaled.attachment)) {
+      *b = {factor * b->spacing_mm, factor * b->height_mm, factor * b->cg_below_bit_mm};
+    }
+    scaled.chain_weight_n_per_mm /= factor;
+    scaled.beam_flexibility_mm_per_n *= factor;
+    scaled.sag_correction /= factor * factor;
+    const auto other = make(scaled);
+    for (int n = 0; n < 30; ++n) {
+      const BedPoint p = points.next();
+      SCOPED_TRACE(testing::Message()
+                   << "seed " << kSeed + 5 << ", (" << p.x_mm << ", " << p.y_mm << ")");
+      const Pose a = kinematics_->inverse(p).value();
+      const Pose b = other->inverse({factor * p.x_mm, factor * p.y_mm}).value();
+      EXPECT_LE((factor * vector(a.lengths) - vector(b.lengths)).norm(), 1e-11 * factor + 1e-11);
+      EXPECT_NEAR(a.sled_rotation_rad, b.sled_rotation_rad, 1e-12);
+    }
+  }
+}
+
+// Newton on inverse from anywhere on the bed ends at the one point that has these lengths.
+TEST_P(KinematicsLaws, AnyStartLeadsToTheSamePoint) {
+  BedPoints points(kSeed + 6);
+  for (int n = 0; n < 20; ++n) {
+    const BedPoint target = points.next();
+    const Eigen::Vector2d wanted = vector(kinematics_->inverse(target).value().lengths);
+    BedPoint p = points.next();
+    SCOPED_TRACE(testing::Message()
+                 << "seed " << kSeed + 6 << ", target (" << target.x_mm << ", " << target.y_mm
+                 << ") from (" << p.x_mm << ", " << p.y_mm << ")");
+    for (int step = 0; step < 60; ++step) {
+      const Pose pose = kinematics_->inverse(p).value();
+      const Eigen::Vector2d d =
+          kinematics_->jacobian(pose).inverse() * (wanted - vector(pose.lengths));
+      // A short stride cannot leave the domain between the sprockets.
+      const double share = std::min(1.0, 150.0 / d.norm());
+      p = {p.x_mm + share * d.x(), p.y_mm + share * d.y()};
+    }
+    EXPECT_NEAR(p.x_mm, target.x_mm, 2e-11);  // as in ForwardUndoesInverse
+    EXPECT_NEAR(p.y_mm, target.y_mm, 2e-11);
+  }
+}
+
+// Along a straight path no length jumps: the second difference is the path's step squared times the
+// curvature of the lengths, at most 1 / (distance to a sprocket).
+TEST_P(KinematicsLaws, LengthsAreContinuousAlongPaths) {
+  const bool brackets = std::holds_alternative<Brackets>(parameters().attachment);
+  const BedPoint corners[] = {{-1219.2, -609.6},
+                              {1219.2, 609.6},
+                              {-1219.2, 609.6},
+                              {1219.2, -609.6},
+                              {0.0, -609.6},
+                              {0.0, 609.6}};
+  for (std::size_t path = 0; path + 1 < std::size(corners); ++path) {
+    const BedPoint a = corners[path], b = corners[path + 1];
+    const int steps = 400;
+    const double stride = std::hypot(b.x_mm - a.x_mm, b.y_mm - a.y_mm) / steps;
+    const double most =
+        (brackets ? 3.0 : 1.0) * stride * stride / 300.0;  // brackets sit 210 mm nearer, and rotate
+    Eigen::Vector2d before2, before;
+    for (int i = 0; i <= steps; ++i) {
+      const double t = static_cast<double>(i) / steps;
+      const BedPoint p{a.x_mm + t * (b.x_mm - a.x_mm), a.y_mm + t * (b.y_mm - a.y_mm)};
+      const Eigen::Vector2d now = vector(kinematics_->inverse(p).value().lengths);
+      if (i >= 2) {
+        ASSERT_LE((now - 2.0 * before + before2).norm(), most) << "path " << path << " step " << i;
+      }
+      before2 = before;
+      before = now;
+    }
+  }
+}
+
+TEST_P(KinematicsLaws, WhatIsNoPoseIsNamed) {
+  const double y = std::max(parameters().motors.left.y_mm, parameters().motors.right.y_mm);
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
+  const auto failure = [&](BedPoint p) {
+    const PoseResult pose = kinematics_->inverse(p);
+    return pose ? std::string("a pose") : std::string(name(pose.error()));
+  };
+  EXPECT_EQ(failure({parameters().motors.right.x_mm + 30.0, 0.0}), "outside_verticals");
+  EXPECT_EQ(failure({-1e9, 0.0}), "outside_verticals");
+  EXPECT_EQ(failure({0.0, y + 1.0}), "above_sprockets");
+  EXPECT_EQ(failure({0.0, 1e9}), "above_sprockets");
+  EXPECT_EQ(failure({parameters().motors.left.x_mm + 40.0, parameters().motors.left.y_mm - 40.0}),
+            "link_does_not_fit");
+  EXPECT_EQ(failure({nan, 0.0}), "outside_verticals");
+  EXPECT_EQ(failure({0.0, nan}), "above_sprockets");
+  EXPECT_EQ(failure({infinity, infinity}), "outside_verticals");
+  for (const ChainLengths lengths :
+       {ChainLengths{nan, 1500.0}, {1500.0, infinity}, {-5.0, 1500.0}, {10.0, 20.0}}) {
+    const PoseResult pose = kinematics_->forward(lengths);
+    EXPECT_FALSE(pose) << lengths.left_mm << " " << lengths.right_mm;
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue::model

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/effect_argument.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+constexpr std::string_view kForm = "id:side:key=value,key=value, with - for no side";
+
+// Cuts `text` at its first `mark`; the rest is empty where there is none.
+std::string_view take_until(std::string_view& text, char mark) {
+  const std::size_t end = text.find(mark);
+  const std::string_view taken = text.substr(0, end);
+  text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+  return taken;
+}
+
+std::optional<model::AppliedEffect> parse_form(const std::string& argument,
+                                               OptionProblems& problems) {
+  std::string_view rest = argument;
+  model::AppliedEffect effect;
+  effect.effect = take_until(rest, ':');
+  effect.side = take_until(rest, ':');
+  if (effect.side == "-") effect.side.clear();
+  if (rest.empty()) {
+    problems.add("--effect", argument, std::string(kForm));
+    return std::nullopt;
+  }
+  while (!rest.empty()) {
+    std::string_view value = take_until(rest, ',');
+    const std::string key(take_until(value, '='));
+    double number = 0.0;
+    if (!parse_number(value, number)) {
+      problems.add("--effect", argument, fmt::format("a number after {}=, as in {}", key, kForm));
+      return std::nullopt;
+    }
+    if (!effect.parameters.emplace(key, number).second) {
+      problems.add("--effect", argument, fmt::format("{} once", key));
+      return std::nullopt;
+    }
+  }
+  return effect;
+}
+
+}  // namespace
+
+void OptionProblems::add(std::string_view option, std::string value, std::string expected) {
+  problems_.push_back({"command line", std::string(option), std::move(value), std::move(expected)});
+}
+
+void OptionProblems::require(std::string_view option, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  add(option, fmt::format("{}", value), fmt::format("a number from {} to {}", least, most));
+}
+
+void OptionProblems::throw_if_any() const {
+  if (!problems_.empty()) throw grid::files::InputError(problems_);
+}
+
+std::vector<model::AppliedEffect> parse_effects(const std::vector<std::string>& arguments,
+                                                const model::Machine& machine,
+                                                OptionProblems& problems) {
+  std::vector<model::AppliedEffect> effects;
+  model::Machine with = machine;
+  std::vector<const std::string*> origin(machine.effects.size(), nullptr);
+  for (const std::string& argument : arguments) {
+    const auto effect = parse_form(argument, problems);
+    if (!effect) continue;
+    effects.push_back(*effect);
+    with.effects.push_back(*effect);
+    origin.push_back(&argument);
+  }
+  for (const model::MachineProblem& problem : model::effects::problems_of_effects(with)) {
+    // "/effects/3/side": the third number names the argument.
+    std::string_view place =
+        std::string_view(problem.parameter).substr(std::string_view("/effects/").size());
+    const std::string_view index_text = take_until(place, '/');
+    std::size_t index = 0;
+    std::from_chars(index_text.data(), index_text.data() + index_text.size(), index);
+    if (index < origin.size() && origin[index] != nullptr) {
+      const std::string what = place.empty() ? "" : fmt::format(" ({})", place);
+      problems.add("--effect",
+                   problem.value.empty() ? *origin[index]
+                                         : fmt::format("{} in {}", problem.value, *origin[index]),
+                   problem.expected + what);
+    }
+  }
+  return effects;
+}
+
+bool parse_number(std::string_view text, double& value) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+}
+
+}  // namespace chaintrue::cli

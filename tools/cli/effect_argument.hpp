@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Effects on the command line: `id:side:key=value,key=value`, `-` for no side.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/files/input_error.hpp"
+#include "model/machine.hpp"
+
+namespace chaintrue::cli {
+
+/// Gathers what is wrong with a command's values and throws it whole.
+class OptionProblems {
+ public:
+  void add(std::string_view option, std::string value, std::string expected);
+  /// `value` is finite and within [least, most].
+  void require(std::string_view option, double value, double least, double most);
+  void throw_if_any() const;
+
+ private:
+  std::vector<grid::files::InputProblem> problems_;
+};
+
+/// The effects that `--effect` named, checked against the catalogue as effects of `machine` beside
+/// its own.
+[[nodiscard]] std::vector<model::AppliedEffect> parse_effects(
+    const std::vector<std::string>& arguments,
+    const model::Machine& machine,
+    OptionProblems& problems);
+
+/// A number without the locale; empty where the text is none.
+[[nodiscard]] bool parse_number(std::string_view text, double& value);
+
+}  // namespace chaintrue::cli

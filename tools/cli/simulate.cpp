@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue simulate: a grid as a person would measure it on a machine with hidden effects, or the
+/// bare readings at given places.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grid/files/answer_file.hpp"
+#include "grid/files/grid_file.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/points_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "grid/synthetic/generator.hpp"
+#include "model/calibration/setting.hpp"
+#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+namespace synthetic = grid::synthetic;
+
+struct SimulateOptions {
+  std::string machine;
+  std::string grid;
+  std::string spacing = "regular";
+  int random_points = 0;
+  std::string marks;
+  std::string points;
+  std::string model = "elastic";
+  std::optional<double> margin_mm;
+  bool without_corners = false;
+  std::string region = "whole";
+  std::string order = "rows";
+  int repeats = 0;
+  double jitter_mm = 0.0;
+  synthetic::SyntheticNoise noise;
+  std::optional<double> stated_length_mm;
+  std::optional<double> stated_position_mm;
+  std::optional<double> stated_dof;
+  synthetic::BadPoints bad;
+  std::vector<std::string> effects;
+  std::vector<std::string> offsets;
+  bool draw_settings = false;
+  std::optional<double> sheet_shift_mm;
+  std::optional<double> sheet_rotation_mrad;
+  std::uint64_t seed = 1;
+  std::string name;
+  std::string output = "-";
+  std::string answer;
+};
+
+constexpr std::pair<std::string_view, model::Model> kModels[] = {
+    {"straight", model::Model::straight},
+    {"wrap", model::Model::wrap},
+    {"firmware", model::Model::firmware},
+    {"one_shot", model::Model::one_shot},
+    {"inextensible", model::Model::inextensible},
+    {"elastic", model::Model::elastic},
+    {"elastic_3d", model::Model::elastic_3d},
+};
+
+model::Model parse_model(const std::string& word, OptionProblems& problems) {
+  std::string known;
+  for (const auto& [name, value] : kModels) {
+    if (name == word) return value;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
+  }
+  problems.add("--model", word, "one of " + known);
+  return model::Model::elastic;
+}
+
+template <class Enum>
+Enum parse_word(std::string_view option,
+                const std::string& word,
+                const std::optional<Enum>& value,
+                std::string expected,
+                OptionProblems& problems) {
+  if (!value) problems.add(option, word, std::move(expected));
+  return value.value_or(Enum{});
+}
+
+void parse_grid_size(const std::string& text, synthetic::Design& design, OptionProblems& problems) {
+  constexpr double kMost = 1000.0;
+  const std::size_t times = text.find('x');
+  double columns = 0.0;
+  double rows = 0.0;
+  const bool numbers = times != std::string::npos && parse_number(text.substr(0, times), columns) &&
+                       parse_number(text.substr(times + 1), rows);
+  const auto whole = [](double n) { return n == static_cast<int>(n); };
+  if (!numbers || columns < 2.0 || rows < 2.0 || columns > kMost || rows > kMost ||
+      !whole(columns) || !whole(rows)) {
+    problems.add("--grid", text, "columns x rows, each 2 to 1000, as in 7x4");
+    return;
+  }
+  design.columns = static_cast<int>(columns);
+  design.rows = static_cast<int>(rows);
+}
+
+std::vector<synthetic::SettingOffset> parse_offsets(const std::vector<std::string>& arguments,
+                                                    OptionProblems& problems) {
+  std::vector<synthetic::SettingOffset> offsets;
+  for (const std::string& argument : arguments) {
+    const std::size_t equals = argument.find('=');
+    const auto setting = model::setting_from_name(argument.substr(0, equals));
+    double offset = 0.0;
+    if (!setting || equals == std::string::npos ||
+        !parse_number(argument.substr(equals + 1), offset)) {
+      problems.add("--offset", argument, "setting=number, as in motor_left_x_mm=1.5");
+      continue;
+    }
+    offsets.push_back({*setting, offset});
+  }
+  return offsets;
+}
+
+synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& problems) {
+  synthetic::Design design;
+  design.margin_mm = options.margin_mm;
+  design.without_corners = options.without_corners;
+  design.region = parse_word("--region",
+                             options.region,
+                             synthetic::region(options.region),
+                             "whole, left, right, top or bottom",
+                             problems);
+  if (!options.marks.empty()) {
+    design.kind = synthetic::DesignKind::given;
+    design.given = files::read_points(options.marks);
+  } else if (options.random_points != 0) {
+    constexpr double kMostPoints = 1e6;
+    problems.require("--random", options.random_points, 1.0, kMostPoints);
+    design.kind = synthetic::DesignKind::random;
+    design.points = options.random_points;
+  } else {
+    parse_grid_size(options.grid, design, problems);
+    const auto kind = synthetic::design_kind(options.spacing);
+    const bool lattice =
+        kind == synthetic::DesignKind::regular || kind == synthetic::DesignKind::chebyshev;
+    if (!lattice) problems.add("--spacing", options.spacing, "regular or chebyshev");
+    design.kind = lattice ? *kind : synthetic::DesignKind::regular;
+  }
+  return design;
+}
+
+std::optional<grid::StatedNoise> parse_stated(const SimulateOptions& options,
+                                              OptionProblems& problems) {
+  constexpr double kMost_mm = 100.0;
+  if (!options.stated_length_mm && !options.stated_position_mm && !options.stated_dof)
+    return std::nullopt;
+  grid::StatedNoise stated;
+  stated.length_mm = options.stated_length_mm.value_or(options.noise.length_mm);
+  stated.position_mm = options.stated_position_mm.value_or(options.noise.position_mm);
+  stated.dof = options.stated_dof.value_or(stated.dof);
+  problems.require("--stated-length-noise-mm", stated.length_mm, 0.0, kMost_mm);
+  problems.require("--stated-position-noise-mm", stated.position_mm, 0.0, kMost_mm);
+  problems.require("--stated-dof", stated.dof, 1.0, 1e9);
+  return stated;
+}
+
+void check_ranges(const SimulateOptions& options,
+                  const model::Machine& machine,
+                  OptionProblems& problems) {
+  constexpr double kMostNoise_mm = 100.0;
+  constexpr double kMostRepeats = 1e6;
+  problems.require("--jitter-mm", options.jitter_mm, 0.0, 1000.0);
+  problems.require("--length-noise-mm", options.noise.length_mm, 0.0, kMostNoise_mm);
+  problems.require("--position-noise-mm", options.noise.position_mm, 0.0, kMostNoise_mm);
+  problems.require("--length-rounding-mm", options.noise.length_rounding_mm, 0.0, kMostNoise_mm);
+  problems.require(
+      "--position-rounding-mm", options.noise.position_rounding_mm, 0.0, kMostNoise_mm);
+  problems.require("--repeats", options.repeats, 0.0, kMostRepeats);
+  problems.require("--bad-points", options.bad.count, 0.0, kMostRepeats);
+  problems.require("--bad-size-mm", options.bad.size_mm, 0.0, 10000.0);
+  if (options.margin_mm) {
+    const double half = 0.49 * std::min(machine.bed.width_mm, machine.bed.height_mm);
+    problems.require("--margin-mm", *options.margin_mm, 0.0, half);
+  }
+  if (options.sheet_shift_mm)
+    problems.require("--sheet-shift-mm", *options.sheet_shift_mm, 0.0, 1000.0);
+  if (options.sheet_rotation_mrad) {
+    problems.require("--sheet-rotation-mrad", *options.sheet_rotation_mrad, 0.0, 500.0);
+  }
+}
+
+synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model::Machine& machine) {
+  OptionProblems problems;
+  synthetic::SyntheticSpec spec;
+  spec.design = parse_design(options, problems);
+  spec.order = parse_word("--order",
+                          options.order,
+                          synthetic::visiting_order(options.order),
+                          "rows, columns, serpentine_rows, serpentine_columns or random",
+                          problems);
+  spec.repeats = options.repeats;
+  spec.jitter_mm = options.jitter_mm;
+  spec.noise = options.noise;
+  spec.stated = parse_stated(options, problems);
+  spec.bad = options.bad;
+  spec.hidden = parse_effects(options.effects, machine, problems);
+  spec.offsets = parse_offsets(options.offsets, problems);
+  spec.draw_settings = options.draw_settings;
+  if (options.sheet_shift_mm || options.sheet_rotation_mrad) {
+    grid::SheetUncertainty sheet;
+    sheet.shift_mm = options.sheet_shift_mm.value_or(sheet.shift_mm);
+    sheet.rotation_mrad = options.sheet_rotation_mrad.value_or(sheet.rotation_mrad);
+    spec.sheet = sheet;
+  }
+  spec.model = parse_model(options.model, problems);
+  spec.seed = options.seed;
+  check_ranges(options, machine, problems);
+  problems.throw_if_any();
+  return spec;
+}
+
+int simulate_session(const SimulateOptions& options, const model::Machine& machine) {
+  const synthetic::SyntheticSpec spec = parse_spec(options, machine);
+  auto session = synthetic::generate(machine, spec);
+  if (!session) {
+    fmt::print(stderr,
+               "chaintrue simulate: the mark at ({:.1f}, {:.1f}) mm cannot be reached: {}\n",
+               session.error().place.x_mm,
+               session.error().place.y_mm,
+               model::explain(session.error().reason));
+    return kNotSupportedOrOutside;
+  }
+  session->grid.name =
+      options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;
+  const std::string text = files::write_grid(session->grid);
+  if (!options.answer.empty()) {
+    files::write_whole_file(options.answer, files::write_answer(session->answer));
+  }
+  files::write_whole_file(options.output, text);
+  return kDone;
+}
+
+int simulate_places(const SimulateOptions& options, const model::Machine& machine) {
+  OptionProblems problems;
+  const std::vector<model::AppliedEffect> hidden =
+      parse_effects(options.effects, machine, problems);
+  const model::Model model = parse_model(options.model, problems);
+  problems.throw_if_any();
+  std::vector<model::Visit> visits;
+  for (const model::BedPoint& place : files::read_points(options.points)) {
+    visits.push_back({place, static_cast<int>(visits.size())});
+  }
+  synthetic::PlacesRead read = synthetic::read_places(machine, hidden, visits, model);
+  read.grid.name = options.name.empty() ? "readings at given places" : options.name;
+  for (const auto& [index, reason] : read.unreachable) {
+    fmt::print(
+        stderr,
+        "chaintrue simulate: {}: point {} at ({:.1f}, {:.1f}) mm cannot be reached and is left "
+        "out: {}\n",
+        options.points,
+        index,
+        visits[index].position.x_mm,
+        visits[index].position.y_mm,
+        model::explain(reason));
+  }
+  files::write_whole_file(options.output, files::write_grid(read.grid));
+  return read.unreachable.empty() ? kDone : kNotSupportedOrOutside;
+}
+
+int run_simulate(const SimulateOptions& options) {
+  const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
+  for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+  return options.points.empty() ? simulate_session(options, read.machine)
+                                : simulate_places(options, read.machine);
+}
+
+void add_design_options(CLI::App& verb, SimulateOptions& o) {
+  auto* where = verb.add_option_group("where");
+  where->add_option("--grid", o.grid, "Columns x rows of marks, as in 7x4");
+  where->add_option("--random", o.random_points, "So many marks anywhere");
+  where->add_option("--marks", o.marks, "CSV of marks (x_mm, y_mm), such as a plan's");
+  where->add_option(
+      "--points", o.points, "CSV of true places: readings there without noise, all digits");
+  where->require_option(1);
+  verb.add_option("--spacing", o.spacing, "Of --grid: regular or chebyshev (denser at the edges)")
+      ->capture_default_str();
+  verb.add_option(
+      "--margin-mm",
+      o.margin_mm,
+      "From the bed's edge to the outermost marks; default: bed rounded down to 100 mm");
+  verb.add_flag("--without-corners", o.without_corners, "Leave the four corners out");
+  verb.add_option("--region", o.region, "Marks on this part only: whole, left, right, top, bottom")
+      ->capture_default_str();
+  verb.add_option("--order",
+                  o.order,
+                  "Of visits: rows, columns, serpentine_rows, serpentine_columns, random")
+      ->capture_default_str();
+  verb.add_option(
+          "--repeats", o.repeats, "Second visits of measured marks, spread over the session")
+      ->capture_default_str();
+  verb.add_option("--jitter-mm", o.jitter_mm, "The sled is put down up to this far beside a mark")
+      ->capture_default_str();
+}
+
+void add_noise_options(CLI::App& verb, SimulateOptions& o) {
+  verb.add_option("--length-noise-mm", o.noise.length_mm, "One sigma of each chain's reading")
+      ->capture_default_str();
+  verb.add_option("--position-noise-mm", o.noise.position_mm, "One sigma of each coordinate")
+      ->capture_default_str();
+  verb.add_flag(
+      "--heavy-tails", o.noise.heavy_tails, "Student's t (4 degrees of freedom) of the same sigma");
+  verb.add_option(
+          "--length-rounding-mm", o.noise.length_rounding_mm, "Round readings to whole multiples")
+      ->capture_default_str();
+  verb.add_option("--position-rounding-mm",
+                  o.noise.position_rounding_mm,
+                  "Round marks to whole multiples, 0.5 for a tape")
+      ->capture_default_str();
+  verb.add_option("--stated-length-noise-mm",
+                  o.stated_length_mm,
+                  "What the person believes; default: the truth");
+  verb.add_option("--stated-position-noise-mm",
+                  o.stated_position_mm,
+                  "What the person believes; default: the truth");
+  verb.add_option("--stated-dof", o.stated_dof, "How well it is believed (degrees of freedom)");
+  verb.add_option("--bad-points", o.bad.count, "So many marks written down wrong")
+      ->capture_default_str();
+  verb.add_option("--bad-size-mm", o.bad.size_mm, "How far off those are")->capture_default_str();
+}
+
+void add_truth_options(CLI::App& verb, SimulateOptions& o) {
+  verb.add_option("--effect",
+                  o.effects,
+                  "Hidden effect id:side:key=value,... (- for no side; `chaintrue effects`)");
+  verb.add_option(
+      "--offset", o.offsets, "Hidden offset of a setting, truth less stated: motor_left_x_mm=1.5");
+  verb.add_flag(
+      "--draw-settings", o.draw_settings, "Draw motors and zeros from the machine's uncertainty");
+  verb.add_option("--sheet-shift-mm", o.sheet_shift_mm, "The sheet was placed by hand, this well");
+  verb.add_option(
+      "--sheet-rotation-mrad", o.sheet_rotation_mrad, "The sheet was placed by hand, this well");
+  verb.add_option("--model",
+                  o.model,
+                  "straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d")
+      ->capture_default_str();
+  verb.add_option("--seed", o.seed, "Same seed, same bytes")->capture_default_str();
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, Run& run) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "simulate", "Make a grid as a person would measure it on a machine with hidden effects");
+  verb->add_option("--machine", options->machine, "chaintrue_machine file, as its owner states it")
+      ->required();
+  add_design_options(*verb, *options);
+  add_noise_options(*verb, *options);
+  add_truth_options(*verb, *options);
+  verb->add_option("--name", options->name, "Name of the grid");
+  verb->add_option("-o,--output", options->output, "chaintrue_grid file; - is standard output")
+      ->capture_default_str();
+  verb->add_option("--answer", options->answer, "Write what was hidden to this file");
+  verb->footer(
+      "Examples:\n"
+      "  chaintrue simulate --machine fixtures/machines/classic.json --grid 7x4 --jitter-mm 8 "
+      "--length-noise-mm 0.2 --position-noise-mm 0.3 --repeats 6 --effect "
+      "chain_pitch_error:left:elongation=0.0012 --seed 1 -o /tmp/grid.json --answer "
+      "/tmp/answer.json\n"
+      "  printf 'x_mm,y_mm\\n0,0\\n' | chaintrue simulate --machine fixtures/machines/classic.json "
+      "--points -");
+  verb->callback([options, &run] { run = [options] { return run_simulate(*options); }; });
+}
+
+}  // namespace chaintrue::cli
