@@ -59,6 +59,7 @@ class Program::Runner {
     std::size_t at = 0;
     if (peek(at) == '/') {
       if (interpreter_.dialect().skip_deletable_blocks) return {};
+      block_.deletable = true;
       ++at;
     }
     if (peek(at) == 'n') CHAINTRUE_GCODE_TRY(line_number(at));
