@@ -114,22 +114,26 @@ const model::Machine* CompensationMap::machine() const {
   return surface == nullptr ? nullptr : &surface->machine;
 }
 
-BedPoint CompensationMap::to_mark(BedPoint point, Frame frame) const {
+BedPoint CompensationMap::to_mark(BedPoint bed) const { return field_->to_mark(bed); }
+
+BedPoint CompensationMap::to_bed(BedPoint mark) const { return field_->to_bed(mark); }
+
+BedPoint CompensationMap::mark_of(BedPoint point, Frame frame) const {
   return frame == Frame::bed ? field_->to_mark(point) : point;
 }
 
 MapStatus CompensationMap::status(BedPoint point, Frame frame) const {
-  return area_.status(to_mark(point, frame));
+  return area_.status(mark_of(point, frame));
 }
 
 tl::expected<CompensationMap::Lengths, MapFailure> CompensationMap::lengths(BedPoint point, Frame frame) const {
-  const BedPoint mark = to_mark(point, frame);
+  const BedPoint mark = mark_of(point, frame);
   if (!contents_.domain.contains(mark.x_mm, mark.y_mm)) return tl::unexpected(MapFailure::outside_map);
   return field_->at(mark);
 }
 
 tl::expected<MapAnswer, MapFailure> CompensationMap::query(BedPoint point, Frame frame) const {
-  const BedPoint mark = to_mark(point, frame);
+  const BedPoint mark = mark_of(point, frame);
   const auto here = lengths(mark);
   if (!here) return tl::unexpected(here.error());
   MapAnswer answer;

@@ -86,7 +86,8 @@ struct MapPoint {
   Eigen::Vector2d left_out_mm = Eigen::Vector2d::Zero();
 };
 
-/// seeds/001's claim that R is L mirrored, held against the points: R measured at (x, y) minus the map's L at (-x, y).
+/// seeds/001's claim that R is L mirrored, held against the points: R measured at (x, y)
+/// minus the map's L at (-x, y), mirrored about the middle of the bed.
 struct MirrorTest {
   std::size_t points = 0;  ///< whose mirror image lies on the map
   ErrorSummary difference;
@@ -175,6 +176,9 @@ class CompensationMap {
   [[nodiscard]] tl::expected<model::BedPoint, MapFailure> inverse(model::ChainLengths lengths,
                                                                   Frame frame = Frame::marks) const;
   [[nodiscard]] MapStatus status(model::BedPoint point, Frame frame = Frame::marks) const;
+  /// The same place in the other frame; a direct map knows only one.
+  [[nodiscard]] model::BedPoint to_mark(model::BedPoint bed) const;
+  [[nodiscard]] model::BedPoint to_bed(model::BedPoint mark) const;
   /// Null for a direct map.
   [[nodiscard]] const model::Machine* machine() const;
 
@@ -182,7 +186,7 @@ class CompensationMap {
   class Field;
   class ModelField;
   class DirectField;
-  [[nodiscard]] model::BedPoint to_mark(model::BedPoint point, Frame frame) const;
+  [[nodiscard]] model::BedPoint mark_of(model::BedPoint point, Frame frame) const;
 
   MapContents contents_;
   MeasuredArea area_;

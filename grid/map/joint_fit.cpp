@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -66,7 +67,7 @@ class Unknowns {
 struct WhitePoint {
   Eigen::MatrixXd design;     // 2 x total
   Eigen::Vector2d response;   // whitened, for all unknowns
-  Eigen::Matrix2d whitening;  // W with W C W' = I
+  Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  // W with W C W' = I
 };
 
 JointFitFailure unreachable(const LengthPoint& point, model::PoseFailure failure) {

@@ -73,7 +73,8 @@ MirrorTest test_mirror(const CompensationMap& map) {
   Tally tally;
   double sum = 0.0;
   for (const MapPoint& point : map.contents().points) {
-    const model::BedPoint mirrored{-point.mark.x_mm, point.mark.y_mm};
+    const model::BedPoint bed = map.to_bed(point.mark);
+    const model::BedPoint mirrored = map.to_mark({-bed.x_mm, bed.y_mm});
     const MapStatus status = map.status(mirrored);
     if (point.bad || (status != MapStatus::inside && status != MapStatus::edge)) continue;
     const auto here = map.query(point.mark);

@@ -1,0 +1,29 @@
+# Installs chaintrue into a new folder and builds, from there alone, a project that uses it. Called by ctest with
+# BUILD_DIR (of chaintrue), SOURCE_DIR (of the consumer), WORK_DIR, CXX, CXX_FLAGS.
+function(run what)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${what} failed (${result}):\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK_DIR})
+run("installing" ${CMAKE_COMMAND} --install ${BUILD_DIR} --component library --prefix ${WORK_DIR}/prefix)
+run("configuring" ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/build -G Ninja
+  -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
+run("building" ${CMAKE_COMMAND} --build ${WORK_DIR}/build)
+run("running" ${WORK_DIR}/build/consumer)
+message("${output}")
+
+# Every installed header must stand on its own feet: nothing may reach for a file that was not installed.
+file(GLOB_RECURSE headers RELATIVE ${WORK_DIR}/prefix/include/chaintrue ${WORK_DIR}/prefix/include/chaintrue/*.hpp)
+foreach(header ${headers})
+  file(STRINGS ${WORK_DIR}/prefix/include/chaintrue/${header} includes REGEX "^#include \"")
+  foreach(line ${includes})
+    string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" included "${line}")
+    if(NOT EXISTS ${WORK_DIR}/prefix/include/chaintrue/${included})
+      message(FATAL_ERROR "${header} includes \"${included}\", which is not installed")
+    endif()
+  endforeach()
+endforeach()

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Runs a program and keeps all its events, for tests.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/gcode/program.hpp"
+
+namespace chaintrue::gcode {
+
+struct ProgramEvents final : Sink {
+  Result<void> move(const Move& move) override {
+    moves.push_back(move);
+    return {};
+  }
+  Result<void> word(const PassedWord& word) override {
+    words.push_back(word);
+    return {};
+  }
+  Result<void> comment(const Comment& comment) override {
+    comments.push_back(comment);
+    return {};
+  }
+  void note(const Note& note) override { notes.push_back(note); }
+  Result<void> end(std::size_t /*line*/, std::string_view word) override {
+    end_word = word;
+    ended = true;
+    return {};
+  }
+
+  std::vector<Move> moves;
+  std::vector<PassedWord> words;
+  std::vector<Comment> comments;
+  std::vector<Note> notes;
+  std::string end_word;
+  bool ended = false;
+};
+
+inline Result<ProgramSummary> run_text(const std::string& text,
+                                       Sink& sink,
+                                       const Dialect& dialect = {}) {
+  auto source = LineSource::from_text(text);
+  return run_program(source, dialect, sink);
+}
+
+}  // namespace chaintrue::gcode

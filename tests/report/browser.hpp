@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Opens a page in a real browser and tells what went wrong there.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace chaintrue::report::testing {
+
+struct Window {
+  int width_px = 1280;
+  int height_px = 1000;
+};
+
+struct Visit {
+  int exit_code = 0;
+  /// The document after its scripts have run.
+  std::string dom;
+  /// Everything that the page wrote to the console; a good page writes nothing.
+  std::vector<std::string> console;
+};
+
+[[nodiscard]] bool has_browser();
+
+/// Opens the page without network in a new profile. `probe` is a script that runs after the charts
+/// are drawn.
+[[nodiscard]] Visit visit(const std::string& html, std::string_view probe = {}, Window window = {});
+
+/// Why the visited page is not good: console lines, charts that failed, charts with fewer marks
+/// than the rows of their largest table, marks at no place. Empty for a good page.
+[[nodiscard]] std::vector<std::string> problems_of(const Visit& visit);
+
+/// How many items the marks of that name have in the chart with that specification (all charts
+/// together).
+[[nodiscard]] int count_marks(const Visit& visit,
+                              std::string_view specification,
+                              std::string_view mark);
+
+}  // namespace chaintrue::report::testing

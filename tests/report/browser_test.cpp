@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Reports in a real browser: nothing on the console, no empty chart, values on hovering, phone
+/// width; and the proof that the check itself fails on broken pages.
+#include "tests/report/browser.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/report/sample_report.hpp"
+
+namespace chaintrue::report::testing {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class InBrowser : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
+  }
+  const std::string html_ = render(page_of(sample_report()));
+};
+
+std::string with(std::string text, std::string_view from, std::string_view to) {
+  const std::size_t at = text.find(from);
+  if (at == text.npos) throw std::logic_error("the page does not hold the text to break");
+  return text.replace(at, from.size(), to);
+}
+
+TEST_F(InBrowser, EveryChartIsDrawnWithEveryRowAndNothingIsLogged) {
+  const Visit visited = visit(html_);
+  EXPECT_THAT(problems_of(visited), IsEmpty());
+  // Before, after, and after under the magnifying glass.
+  EXPECT_EQ(count_marks(visited, "bed_arrows", "point_marks"), 3 * kSamplePoints);
+  EXPECT_EQ(count_marks(visited, "bed_arrows", "shafts"), 3 * kSamplePoints);
+  EXPECT_EQ(count_marks(visited, "error_map", "cell_marks"), kSampleCells);
+  EXPECT_EQ(count_marks(visited, "error_map", "point_marks"), kSamplePoints);
+  EXPECT_EQ(count_marks(visited, "held_out_target", "hit_marks"), kSamplePoints);
+  EXPECT_EQ(count_marks(visited, "held_out_points", "point_marks"), kSamplePoints);
+  EXPECT_EQ(count_marks(visited, "error_steps", "bars"), 4);
+}
+
+TEST_F(InBrowser, HoveringShowsTheValuesInMillimetres) {
+  // The middle of the first arrow's target in the first chart.
+  const Visit visited = visit(html_, R"(
+    const mark = document.querySelector("#chart-1 .targets path");
+    const box = mark.getBoundingClientRect();
+    mark.dispatchEvent(new PointerEvent("pointermove", {bubbles: true, clientX: box.x + box.width / 2, clientY: box.y + box.height / 2}));
+    mark.dispatchEvent(new MouseEvent("mousemove", {bubbles: true, clientX: box.x + box.width / 2, clientY: box.y + box.height / 2}));
+    document.documentElement.dataset.tip = getComputedStyle(document.getElementById("tip")).display + ": " + document.getElementById("tip").innerText.replace(/\n/g, " ");
+  )");
+  EXPECT_THAT(visited.console, IsEmpty());
+  EXPECT_THAT(visited.dom, HasSubstr("data-tip=\"block: point 1 "));
+  const std::size_t at = visited.dom.find("data-tip=");
+  ASSERT_NE(at, std::string::npos);
+  const std::string tip = visited.dom.substr(at, 200);
+  EXPECT_THAT(tip, HasSubstr("off by"));
+  EXPECT_THAT(tip, HasSubstr(" mm"));
+}
+
+TEST_F(InBrowser, NothingStandsOutOfAPhoneScreen) {
+  const Visit visited =
+      visit(html_,
+            "document.documentElement.dataset.overflow = "
+            "document.documentElement.scrollWidth - document.documentElement.clientWidth;",
+            {390, 844});
+  EXPECT_THAT(problems_of(visited), IsEmpty());
+  EXPECT_THAT(visited.dom, HasSubstr("data-overflow=\"0\""));
+}
+
+// The check must be able to fail: each of these pages is broken in one way.
+
+TEST_F(InBrowser, ABrokenSpecificationIsFound) {
+  const auto problems = problems_of(visit(with(html_, "\"type\":\"rule\"", "\"type\":\"ruler\"")));
+  EXPECT_THAT(problems, Contains(HasSubstr("console: ")));
+}
+
+TEST_F(InBrowser, AnEmptyChartIsFound) {
+  MapReport report = sample_report();
+  report.error_map->cells.clear();
+  report.points.clear();
+  EXPECT_THAT(problems_of(visit(render(page_of(report)))),
+              Contains(HasSubstr("error_map is empty: ")));
+}
+
+TEST_F(InBrowser, AChartWithoutMarksIsFound) {
+  const auto problems = problems_of(
+      visit(with(html_, "\"from\":{\"data\":\"cells\"}", "\"from\":{\"data\":\"beyond\"}")));
+  EXPECT_THAT(problems, Contains(HasSubstr("error_map is empty: ")));
+}
+
+TEST_F(InBrowser, AConsoleMessageIsFound) {
+  EXPECT_THAT(problems_of(visit(html_, "console.error('the needle');")),
+              Contains(HasSubstr("the needle")));
+}
+
+}  // namespace
+}  // namespace chaintrue::report::testing

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a page promises without a browser: same input same bytes, no network, escaped text, sound
+/// numbers only.
+#include "tools/report/page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "tests/report/sample_report.hpp"
+#include "tools/report/embedded.hpp"
+
+namespace chaintrue::report::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+Page page_with_table(std::vector<std::string> cells) {
+  Page page{.title = "t"};
+  page.sections.push_back({"s", {Table{{{"a"}, {"b", true}}, {{std::move(cells), false}}, ""}}});
+  return page;
+}
+
+Page page_with_value(double value) {
+  Page page{.title = "t"};
+  page.sections.push_back(
+      {"s", {Chart{.specification = "error_steps", .data = {{"steps", {"rms_mm"}, {{value}}}}}}});
+  return page;
+}
+
+template <class Call>
+std::string message_of(Call call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Page, SameInputGivesTheSameBytes) {
+  EXPECT_EQ(render(page_of(sample_report())), render(page_of(sample_report())));
+}
+
+TEST(Page, AsksForNothingFromTheNetwork) {
+  std::string html = render(page_of(sample_report()));
+  // The embedded programs are looked at in the browser test, which has no network.
+  html.resize(html.find("<script"));
+  for (const char* const loader :
+       {"<link rel=\"stylesheet", "<script src", "<img", "@import", "url("}) {
+    EXPECT_THAT(html, Not(HasSubstr(loader)));
+  }
+}
+
+TEST(Page, TextCannotBecomeMarkup) {
+  MapReport report = sample_report();
+  report.name = "<b>&\"grid\"";
+  report.points[0].name = "</script><script>alert(1)</script>";
+  const std::string html = render(page_of(report));
+  EXPECT_THAT(html, HasSubstr("&lt;b&gt;&amp;&quot;grid&quot;"));
+  EXPECT_THAT(html, Not(HasSubstr("<script>alert(1)")));
+  EXPECT_THAT(html, HasSubstr("\\u003c/script>"));
+}
+
+TEST(Page, EmbeddedScriptsCannotEndTheirElement) {
+  for (const char* const kind : {"vega", "asset", "chart"}) {
+    ASSERT_FALSE(embedded_files(kind).empty()) << kind;
+    for (const EmbeddedFile& file : embedded_files(kind)) {
+      EXPECT_EQ(file.text.find("</script"), std::string_view::npos) << file.name;
+      EXPECT_FALSE(file.text.empty()) << file.name;
+    }
+  }
+}
+
+TEST(Page, EverySpecificationIsJsonForVegaFive) {
+  for (const EmbeddedFile& chart : embedded_files("chart")) {
+    const auto json = nlohmann::json::parse(chart.text);
+    EXPECT_EQ(json.at("$schema"), "https://vega.github.io/schema/vega/v5.json") << chart.name;
+    EXPECT_FALSE(json.at("description").get<std::string>().empty()) << chart.name;
+  }
+}
+
+/// Names that stand in a specification after `key`: {"field": "x_mm"}; or as datum.NAME inside an
+/// expression.
+void collect_fields(const nlohmann::json& spec, std::set<std::string>& fields) {
+  static const std::regex in_expression("datum\\.([A-Za-z_]+)");
+  for (const auto& [key, value] : spec.items()) {
+    if (key == "field" && value.is_string()) fields.insert(value.get<std::string>());
+    if (value.is_string()) {
+      const std::string text = value.get<std::string>();
+      for (std::sregex_iterator at(text.begin(), text.end(), in_expression), end; at != end; ++at)
+        fields.insert((*at)[1]);
+    } else if (value.is_structured()) {
+      collect_fields(value, fields);
+    }
+  }
+}
+
+/// Fields that a chart reads but nobody gives: neither its data tables nor its own formulas.
+std::set<std::string> missing_fields(const nlohmann::json& spec, const Chart& chart) {
+  std::set<std::string> fields;
+  collect_fields(spec, fields);
+  for (const DataTable& table : chart.data) {
+    for (const std::string& field : table.fields) fields.erase(field);
+  }
+  for (const auto& data : spec.at("data")) {
+    for (const auto& transform : data.value("transform", nlohmann::json::array()))
+      fields.erase(transform.value("as", ""));
+  }
+  return fields;
+}
+
+std::vector<Chart> charts_of(const Page& page) {
+  std::vector<Chart> charts;
+  for (const Section& section : page.sections) {
+    for (const Block& block : section.blocks) {
+      if (const auto* chart = std::get_if<Chart>(&block)) charts.push_back(*chart);
+      if (const auto* row = std::get_if<ChartRow>(&block))
+        charts.insert(charts.end(), row->charts.begin(), row->charts.end());
+    }
+  }
+  return charts;
+}
+
+// Vega draws a missing field at 0 without a word, so no browser could tell.
+TEST(Page, EveryFieldThatAChartReadsIsGiven) {
+  const std::vector<Chart> charts = charts_of(page_of(sample_report()));
+  ASSERT_EQ(charts.size(), 7u);
+  for (const Chart& chart : charts) {
+    const auto spec = nlohmann::json::parse(embedded_text("chart", chart.specification));
+    EXPECT_THAT(missing_fields(spec, chart), IsEmpty()) << chart.specification;
+  }
+  Chart broken = charts.front();
+  broken.data[0].fields[1] = "x_inch";
+  EXPECT_THAT(
+      missing_fields(nlohmann::json::parse(embedded_text("chart", broken.specification)), broken),
+      ElementsAre("x_mm"));
+}
+
+TEST(Page, CarriesTheNoticesOfWhatItEmbeds) {
+  const std::string html = render(page_of(sample_report()));
+  EXPECT_THAT(html, HasSubstr("UW Interactive Data Lab"));
+  EXPECT_THAT(html,
+              HasSubstr("THIS SOFTWARE IS PROVIDED BY THE COPYRIGHT HOLDERS AND CONTRIBUTORS"));
+}
+
+TEST(Page, AFlaggedSettingStandsOut) {
+  const std::string html = render(page_of(sample_report()));
+  EXPECT_THAT(html, HasSubstr("<tr class=\"flagged\"><td>right motor, y</td>"));
+  EXPECT_THAT(html, HasSubstr("<tr><td>left motor, x</td><td class=\"number\">\u22121489.20</td>"));
+}
+
+TEST(Page, WithoutChartsThereIsNoScript) {
+  const std::string html = render(page_with_table({"1", "2"}));
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+}
+
+TEST(Page, RefusesNumbersThatAreNone) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THAT(message_of([bad] { (void)render(page_with_value(bad)); }), HasSubstr("rms_mm is"));
+  }
+}
+
+TEST(Page, RefusesRowsOfTheWrongLength) {
+  EXPECT_EQ(message_of([] { (void)render(page_with_table({"1"})); }),
+            "a table row has 1 cells for 2 columns");
+  Page page = page_with_value(1.0);
+  std::get<Chart>(page.sections[0].blocks[0]).data[0].rows[0].clear();
+  EXPECT_EQ(message_of([&page] { (void)render(page); }),
+            "data table \"steps\": a row has 0 values for 1 fields");
+}
+
+TEST(Page, RefusesAChartThatDoesNotExist) {
+  Page page = page_with_value(1.0);
+  std::get<Chart>(page.sections[0].blocks[0]).specification = "pie";
+  EXPECT_EQ(message_of([&page] { (void)render(page); }),
+            "no chart named \"pie\" is embedded in the report library");
+}
+
+TEST(MapReportPage, RefusesABedWithoutExtent) {
+  MapReport report = sample_report();
+  report.bed_width_mm = 0.0;
+  EXPECT_THAT(message_of([&report] { (void)page_of(report); }), HasSubstr("a bed with an extent"));
+}
+
+TEST(MapReportPage, LeavesOutWhatIsNotKnown) {
+  MapReport report;
+  report.name = "only a verdict";
+  report.bed_width_mm = report.bed_height_mm = 1000.0;
+  EXPECT_TRUE(page_of(report).sections.empty());
+}
+
+}  // namespace
+}  // namespace chaintrue::report::testing

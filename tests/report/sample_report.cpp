@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/report/sample_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace chaintrue::report::testing {
+namespace {
+
+constexpr double kBedWidthMm = 2438.4;
+constexpr double kBedHeightMm = 1219.2;
+constexpr double kNoiseMm = 0.15;
+
+/// Normal numbers that are the same on every platform (Box and Muller 1958), unlike
+/// std::normal_distribution.
+class Normal {
+ public:
+  double operator()() {
+    const double u = (static_cast<double>(engine_() >> 11) + 0.5) * 0x1p-53;
+    const double v = static_cast<double>(engine_() >> 11) * 0x1p-53;
+    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
+  }
+
+ private:
+  std::mt19937_64 engine_{20240607};
+};
+
+std::vector<ReportPoint> sample_points() {
+  Normal normal;
+  std::vector<ReportPoint> points;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 7; ++column) {
+      ReportPoint point;
+      point.name = fmt::format("point {}", points.size() + 1);
+      point.x_mm = -1100.0 + 2200.0 * column / 6 + 4.0 * normal();
+      point.y_mm = -500.0 + 1000.0 * row / 3 + 4.0 * normal();
+      const double u = point.x_mm / kBedWidthMm, v = point.y_mm / kBedHeightMm;
+      point.after = {kNoiseMm * normal(), kNoiseMm * normal()};
+      point.before = {6.0 * u - 2.0 * u * v + point.after.x_mm,
+                      1.5 + 9.0 * u * u - 4.0 * v + point.after.y_mm};
+      point.held_out = ToolVector{1.5 * point.after.x_mm + 0.05 * normal(),
+                                  1.5 * point.after.y_mm + 0.05 * normal()};
+      point.held_out_sigma_mm = 0.2 + 0.2 * (u * u + v * v);
+      points.push_back(point);
+    }
+  }
+  points[9].is_bad = true;
+  points[9].held_out = ToolVector{1.2, -0.7};
+  points[9].after = {0.9, -0.6};
+  return points;
+}
+
+ErrorMap sample_error_map() {
+  ErrorMap map{kBedWidthMm / 33, kBedHeightMm / 17, {}};
+  for (int row = 0; row < 17; ++row) {
+    for (int column = 0; column < 33; ++column) {
+      const double x_mm = -kBedWidthMm / 2 + (column + 0.5) * map.cell_width_mm;
+      const double y_mm = -kBedHeightMm / 2 + (row + 0.5) * map.cell_height_mm;
+      const double u = x_mm / kBedWidthMm, v = y_mm / kBedHeightMm;
+      const bool is_inside = std::abs(x_mm) < 1100.0 && std::abs(y_mm) < 500.0;
+      map.cells.push_back({x_mm,
+                           y_mm,
+                           0.08 + 0.5 * u * u * u * u * 16 * 0.3 + 0.35 * v * v,
+                           is_inside ? "inside" : "extrapolated"});
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+MapReport sample_report() {
+  MapReport report;
+  report.name = "workshop grid";
+  report.machine_name = "classic Maslow, 28 points, sheet as placed";
+  report.bed_width_mm = kBedWidthMm;
+  report.bed_height_mm = kBedHeightMm;
+  report.verdict =
+      "Inside the measured points the tool will land within 0.25 mm (rms) of where the drawing "
+      "says; as the machine was "
+      "stated it was 3.9 mm off.";
+  report.advice = {"Use this map for the whole sheet; near its lower corners expect up to 0.6 mm.",
+                   "Measure point 10 again: it disagrees with its neighbours by 1.4 mm."};
+  report.not_proved = "This says how well new points are predicted, not why the machine erred.";
+  report.figures = {{"0.25 mm", "error to expect at the tool, rms, held out"},
+                    {"0.52 mm", "worst point, held out"},
+                    {"3.9 mm", "as the machine was stated, rms"},
+                    {"0.21 mm", "noise of the readings"}};
+  report.steps = {
+      {"machine as stated", 3.91, 6.2, 2.8, 3.1, "all 28 points"},
+      {"machine calibrated", 0.44, 0.93, 0.31, 0.33, "leave-one-out"},
+      {"with the surface", 0.25, 0.52, 0.19, 0.18, "leave-one-out"},
+      {"noise of the readings", 0.21, {}, 0.15, 0.15, "as stated: 0.2 mm a chain, 0.3 mm a mark"}};
+  report.points = sample_points();
+  report.error_map = sample_error_map();
+  report.noise_floor_mm = 0.21;
+  report.settings = {{"left motor, x", "mm", -1489.2, -1492.31, 0.62, 3.0, false},
+                     {"left motor, y", "mm", 1072.6, 1073.1, 0.41, 3.0, false},
+                     {"right motor, x", "mm", 1489.2, 1488.8, 0.6, 3.0, false},
+                     {"right motor, y", "mm", 1072.6, 1061.2, 0.4, 3.0, true},
+                     {"left chain, zero", "mm", 0.0, -0.31, 0.52, 1.0, false},
+                     {"right chain, zero", "mm", 0.0, 0.12, 0.5, 1.0, false},
+                     {"sheet, turned", "mrad", 0.0, 1.204, 0.22, 10.0, false}};
+  report.findings = {
+      "The right chain is not the left one mirrored: at mirrored points they differ by 4.2 mm "
+      "(rms)."};
+  report.provenance = "chaintrue, from grid.json.";
+  return report;
+}
+
+}  // namespace chaintrue::report::testing

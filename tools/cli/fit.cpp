@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue fit: measured points become a compensation map, and the fit is told in words.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "grid/files/input_error.hpp"
+#include "grid/files/map_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "grid/map/fit.hpp"
+#include "tools/cli/grid_input.hpp"
+#include "tools/cli/map_words.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+struct FitCommand {
+  GridInput input;
+  std::string output;
+  std::string surface = "residual";
+  std::string ends = "not_a_knot";
+};
+
+const std::map<std::string, interp::EndCondition>& end_conditions() {
+  static const std::map<std::string, interp::EndCondition> kByName = {
+      {"not_a_knot", interp::EndCondition::kNotAKnot},
+      {"natural", interp::EndCondition::kNatural},
+      {"parabolic", interp::EndCondition::kParabolic},
+      {"clamped", interp::EndCondition::kClamped}};
+  return kByName;
+}
+
+int run_fit(const FitCommand& command) {
+  const grid::MeasuredGrid measured = read_grid_input(command.input);
+  grid::FitOptions options;
+  options.surface = command.surface == "direct" ? grid::SurfaceKind::direct : grid::SurfaceKind::residual;
+  const interp::EndCondition end = end_conditions().at(command.ends);
+  options.ends = {{end, end}, {end, end}};
+  const auto map = grid::fit(measured, options);
+  if (!map) {
+    throw grid::files::InputError(std::vector<grid::files::InputProblem>{{command.input.grid, "", "", map.error().sentence}});
+  }
+  grid::files::write_whole_file(command.output, grid::files::write_map(*map));
+  fmt::print(stderr, "{}", fit_in_words(*map));
+  return kDone;
+}
+
+}  // namespace
+
+void add_fit(CLI::App& app, Run& run) {
+  auto command = std::make_shared<FitCommand>();
+  CLI::App* verb = app.add_subcommand("fit", "Measured points become a compensation map");
+  add_grid_options(*verb, command->input);
+  verb->add_option("-o,--output", command->output, "The map file; - is standard output")->required();
+  verb->add_option("--surface", command->surface,
+                   "residual: a smooth correction on the calibrated machine; direct: splines through the lengths "
+                   "themselves, no machine needed")
+      ->check(CLI::IsMember({"residual", "direct"}))
+      ->capture_default_str();
+  verb->add_option("--ends", command->ends, "How direct splines end at the edges")
+      ->check(CLI::IsMember({"not_a_knot", "natural", "parabolic", "clamped"}))
+      ->capture_default_str();
+  verb->footer(
+      "The fit is told on standard error.\n\nExample:\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json");
+  verb->callback([command, &run] { run = [command] { return run_fit(*command); }; });
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/map_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using model::Setting;
+
+struct SettingWords {
+  Setting setting;
+  std::string_view words;
+  std::string_view unit;
+  double factor;
+};
+
+constexpr SettingWords kSettingWords[] = {
+    {Setting::motor_left_x_mm, "left motor, x", "mm", 1.0},
+    {Setting::motor_left_y_mm, "left motor, y", "mm", 1.0},
+    {Setting::motor_right_x_mm, "right motor, x", "mm", 1.0},
+    {Setting::motor_right_y_mm, "right motor, y", "mm", 1.0},
+    {Setting::chain_zero_left_mm, "left chain's zero", "mm", 1.0},
+    {Setting::chain_zero_right_mm, "right chain's zero", "mm", 1.0},
+    {Setting::sheet_x_mm, "sheet laid right by", "mm", 1.0},
+    {Setting::sheet_y_mm, "sheet laid up by", "mm", 1.0},
+    {Setting::sheet_rotation_rad, "sheet turned left by", "mrad", 1000.0},
+};
+
+const SettingWords& words_of(Setting setting) {
+  for (const SettingWords& words : kSettingWords) {
+    if (words.setting == setting) return words;
+  }
+  throw std::logic_error(fmt::format("setting {} has no words", static_cast<int>(setting)));
+}
+
+double rms(const grid::CompensationMap& map, Eigen::Vector2d grid::MapPoint::*residual) {
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (const grid::MapPoint& point : map.contents().points) {
+    if (point.bad) continue;
+    squares += (point.*residual).squaredNorm();
+    ++count;
+  }
+  return count == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(count));
+}
+
+void print_held_out(std::string& text, std::string_view name, const grid::HeldOutError& error) {
+  fmt::format_to(std::back_inserter(text), "  {:<28}{:>8.2f}{:>8.2f}{:>10.2f}{:>8.2f}\n", name, error.chain.rms_mm,
+                 error.chain.maximum_mm, error.tool.rms_mm, error.tool.maximum_mm);
+}
+
+void print_settings(std::string& text, const grid::MapContents& map) {
+  if (map.settings.empty()) return;
+  text += "\nSettings                           stated  calibrated   +- sigma\n";
+  for (const grid::SettingResult& result : map.settings) {
+    fmt::format_to(std::back_inserter(text), "  {:<26}{:>14.2f}{:>12.2f}{:>11.2f} {}{}\n", setting_in_words(result.setting),
+                   in_unit(result.setting, result.stated), in_unit(result.setting, result.calibrated),
+                   in_unit(result.setting, result.sigma), unit_of(result.setting),
+                   result.off ? "  off: further than its stated uncertainty allows" : "");
+  }
+}
+
+}  // namespace
+
+std::string_view setting_in_words(Setting setting) { return words_of(setting).words; }
+std::string_view unit_of(Setting setting) { return words_of(setting).unit; }
+double in_unit(Setting setting, double value) { return words_of(setting).factor * value; }
+
+std::string fit_sentence(const grid::CompensationMap& map) {
+  const grid::MapContents& contents = map.contents();
+  const auto bad = std::count_if(contents.points.begin(), contents.points.end(), [](const auto& p) { return p.bad; });
+  const std::size_t points = contents.points.size();
+  if (map.machine() == nullptr) {
+    return fmt::format("Splines through the lengths of {} points: left out a line at a time, points come back {:.2f} mm rms "
+                       "({:.2f} mm at worst) beside where they were measured.",
+                       points, contents.accuracy.leave_one_out.tool.rms_mm,
+                       contents.accuracy.leave_one_out.tool.maximum_mm);
+  }
+  const bool sheet = contents.settings.size() > std::size(model::kMachineSettings);
+  return fmt::format(
+      "With the settings as stated{} the tool was {:.2f} mm rms beside its {} points; the map leaves {:.2f} mm, and "
+      "points that it has not seen come out within {:.2f} mm rms{}.",
+      sheet ? " and the sheet laid as well as it can be" : "", rms(map, &grid::MapPoint::sheet_placed_mm), points,
+      rms(map, &grid::MapPoint::mapped_mm), contents.accuracy.leave_one_out.tool.rms_mm,
+      bad == 0 ? "" : fmt::format(" ({} set aside as bad)", bad));
+}
+
+std::string fit_in_words(const grid::CompensationMap& map) {
+  const grid::MapContents& contents = map.contents();
+  std::string text = fit_sentence(map) + "\n";
+  print_settings(text, contents);
+  text += "\nError of points left out, mm       chain rms     max  tool rms     max\n";
+  print_held_out(text, "one at a time", contents.accuracy.leave_one_out);
+  print_held_out(text, "a block of the bed at a time", contents.accuracy.blocked);
+  fmt::format_to(std::back_inserter(text),
+                 "\nExpected error of the tool over the measured part (one sigma): {:.2f} mm rms, {:.2f} mm at worst, at "
+                 "({:.0f}, {:.0f}).\n",
+                 contents.accuracy.expected_tool.rms_mm, contents.accuracy.expected_tool.maximum_mm,
+                 contents.accuracy.expected_worst_at.x_mm, contents.accuracy.expected_worst_at.y_mm);
+  if (contents.mirror) text += contents.mirror->sentence + "\n";
+  for (const std::string& note : contents.notes) text += note + "\n";
+  return text;
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A compensation map in the words of a workshop.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "grid/map/compensation_map.hpp"
+
+namespace chaintrue::cli {
+
+/// One sentence: how far the tool was off before, and what is left.
+[[nodiscard]] std::string fit_sentence(const grid::CompensationMap& map);
+/// The whole story, some twenty lines: sentence, settings, errors, mirror claim, notes.
+[[nodiscard]] std::string fit_in_words(const grid::CompensationMap& map);
+/// "left motor, x" for motor_left_x_mm, and its unit.
+[[nodiscard]] std::string_view setting_in_words(model::Setting setting);
+[[nodiscard]] std::string_view unit_of(model::Setting setting);
+/// A setting's value in that unit: rotations in mrad.
+[[nodiscard]] double in_unit(model::Setting setting, double value);
+
+}  // namespace chaintrue::cli

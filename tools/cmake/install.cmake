@@ -1,0 +1,28 @@
+# What `cmake --install` puts where: the command, the libraries with their headers, and the files that let another
+# project say find_package(chaintrue).
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/chaintrue)
+set(libraries chaintrue_interp chaintrue_model chaintrue_grid)
+foreach(library ${libraries})
+  string(REPLACE chaintrue_ "" exported ${library})
+  set_target_properties(${library} PROPERTIES EXPORT_NAME ${exported})
+endforeach()
+
+install(TARGETS chaintrue RUNTIME COMPONENT command)
+install(TARGETS ${libraries} EXPORT chaintrueTargets ARCHIVE COMPONENT library LIBRARY COMPONENT library)
+# Headers keep their folders: #include "model/machine.hpp" here and there alike.
+install(DIRECTORY interp model grid
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/chaintrue COMPONENT library
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN "json_*.hpp" EXCLUDE PATTERN "machine_record.hpp" EXCLUDE)
+install(EXPORT chaintrueTargets NAMESPACE chaintrue:: DESTINATION ${package_dir} COMPONENT library)
+
+configure_package_config_file(tools/cmake/chaintrueConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/chaintrueConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/chaintrueConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+# The libraries are static, so whoever links them links ALGLIB too, by the same imported target as here.
+install(FILES
+  ${PROJECT_BINARY_DIR}/chaintrueConfig.cmake
+  ${PROJECT_BINARY_DIR}/chaintrueConfigVersion.cmake
+  tools/cmake/alglib.cmake
+  DESTINATION ${package_dir} COMPONENT library)

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Centre form, radius form, and what rounding of the words allows.
+#include "tools/gcode/arc_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace chaintrue::gcode {
+namespace {
+
+// LinuxCNC src/emc/rs274ngc/interp_internal.hh.
+constexpr double kInch_mm = 25.4;
+constexpr double kRadiusTolerance_mm = 0.00127;
+constexpr double kRadiusTolerance_inch = 0.00005;
+constexpr double kSpiralTolerance_mm = 0.02 * std::numbers::sqrt2;
+constexpr double kSpiralTolerance_inch = 0.002 * std::numbers::sqrt2;
+constexpr double kSpiralRelativeTolerance = 0.001;
+/// A half circle by radius: half the chord is the radius but for rounding.
+constexpr double kTiny = 1e-12;
+constexpr double kWholeTurn_rad = 5e-7;
+
+double distance(PlanePoint a, PlanePoint b) {
+  return std::hypot(a.first_mm - b.first_mm, a.second_mm - b.second_mm);
+}
+
+char upper(char letter) { return static_cast<char>(letter - 'a' + 'A'); }
+
+/// I belongs to X, J to Y, K to Z.
+char centre_word(char axis) { return static_cast<char>(axis - 'x' + 'i'); }
+
+Result<PlanePoint> by_radius(const ArcRequest& request, const Block& block) {
+  const double radius = block.value('r') * request.mm_per_unit;
+  const bool inches = request.mm_per_unit != 1.0;
+  const double tolerance = inches ? kRadiusTolerance_inch * kInch_mm : kRadiusTolerance_mm;
+  const double dx = request.end.first_mm - request.start.first_mm;
+  const double dy = request.end.second_mm - request.start.second_mm;
+  const double half_chord = 0.5 * std::hypot(dx, dy);
+  if (half_chord == 0.0) {
+    return refuse(ProblemName::bad_arc,
+                  block.place('r'),
+                  "the arc ends where it starts, which a radius cannot describe; a full circle "
+                  "needs its centre");
+  }
+  double magnitude = std::fabs(radius);
+  if (half_chord - magnitude > tolerance) {
+    return refuse(
+        ProblemName::bad_arc,
+        block.place('r'),
+        fmt::format("the radius {:.4f} mm is too small: the arc's ends are {:.4f} mm apart",
+                    magnitude,
+                    2.0 * half_chord));
+  }
+  magnitude = half_chord / magnitude > 1.0 - kTiny ? half_chord : magnitude;
+  const double to_centre =
+      std::sqrt(std::max(0.0, (magnitude - half_chord) * (magnitude + half_chord)));
+  // The short arc turns the centre to the right of a clockwise chord; a negative radius takes the
+  // long arc.
+  const bool right = request.clockwise == (radius > 0.0);
+  const double side = right ? -1.0 : 1.0;
+  const double length = 2.0 * half_chord;
+  return PlanePoint{
+      0.5 * (request.start.first_mm + request.end.first_mm) - side * to_centre * dy / length,
+      0.5 * (request.start.second_mm + request.end.second_mm) + side * to_centre * dx / length};
+}
+
+Result<PlanePoint> by_centre(const ArcRequest& request, const Block& block) {
+  const char first = centre_word(request.first_axis);
+  const char second = centre_word(request.second_axis);
+  if (request.absolute_centre && !(block.has(first) && block.has(second))) {
+    return refuse(
+        ProblemName::bad_arc,
+        block.start(),
+        fmt::format("absolute centres (G90.1) need both {} and {}", upper(first), upper(second)));
+  }
+  const PlanePoint base = request.absolute_centre ? PlanePoint{} : request.start;
+  const PlanePoint centre{base.first_mm + block.find(first).value_or(0.0) * request.mm_per_unit,
+                          base.second_mm + block.find(second).value_or(0.0) * request.mm_per_unit};
+  const bool inches = request.mm_per_unit != 1.0;
+  const double radius_tolerance = inches ? kRadiusTolerance_inch * kInch_mm : kRadiusTolerance_mm;
+  const double spiral_tolerance = inches ? kSpiralTolerance_inch * kInch_mm : kSpiralTolerance_mm;
+  const double from_start = distance(centre, request.start);
+  const double from_end = distance(centre, request.end);
+  if (from_start < radius_tolerance || from_end < radius_tolerance) {
+    return refuse(ProblemName::bad_arc,
+                  block.start(),
+                  "the arc's radius is zero: its centre lies at its start or end");
+  }
+  const double difference = std::fabs(from_start - from_end);
+  const double relative = difference / std::max(from_start, from_end);
+  if (difference > 100.0 * spiral_tolerance ||
+      (relative > kSpiralRelativeTolerance && difference > spiral_tolerance)) {
+    return refuse(ProblemName::bad_arc,
+                  block.start(),
+                  fmt::format("the arc's end does not lie on its circle: the radius is {:.4f} mm "
+                              "at the start and {:.4f} mm at the end",
+                              from_start,
+                              from_end));
+  }
+  return centre;
+}
+
+}  // namespace
+
+Result<PlanePoint> arc_centre(const ArcRequest& request, const Block& block) {
+  const bool has_centre = block.has('i') || block.has('j') || block.has('k');
+  if (block.has('r') && has_centre) {
+    return refuse(ProblemName::bad_arc,
+                  block.start(),
+                  "the arc has a radius and a centre: only one of them can hold");
+  }
+  if (!block.has('r') && !has_centre) {
+    return refuse(ProblemName::bad_arc,
+                  block.start(),
+                  "the arc has neither a centre (I, J, K) nor a radius (R)");
+  }
+  const char across = centre_word(request.normal_axis);
+  if (block.has(across)) {
+    return refuse(ProblemName::bad_arc,
+                  block.place(across),
+                  fmt::format("{} has no meaning for an arc of this plane", upper(across)));
+  }
+  if (!block.has(request.first_axis) && !block.has(request.second_axis) && block.has('r')) {
+    return refuse(ProblemName::bad_arc, block.start(), "an arc by radius needs an end point");
+  }
+  return block.has('r') ? by_radius(request, block) : by_centre(request, block);
+}
+
+double arc_sweep(PlanePoint start, PlanePoint end, PlanePoint centre, int turns) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double from =
+      std::atan2(start.second_mm - centre.second_mm, start.first_mm - centre.first_mm);
+  const double to = std::atan2(end.second_mm - centre.second_mm, end.first_mm - centre.first_mm);
+  const double direction = turns > 0 ? 1.0 : -1.0;
+  double sweep = direction * (to - from);
+  while (sweep <= kWholeTurn_rad) sweep += kTurn;
+  while (sweep > kTurn + kWholeTurn_rad) sweep -= kTurn;
+  return direction * (sweep + (std::abs(turns) - 1) * kTurn);
+}
+
+}  // namespace chaintrue::gcode

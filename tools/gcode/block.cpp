@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Words of a block: letters, values, modal groups.
+#include "tools/gcode/block.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+namespace chaintrue::gcode {
+namespace {
+
+constexpr std::string_view kAxes = "xyzabc@^";
+/// N stands only at the beginning of a line, O is no word of a block; E, U, V and W are refused
+/// with a reason.
+constexpr std::string_view kPlainLetters = "abcdefhijklpqrstxyz@^uvw";
+
+char upper(char letter) {
+  return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+}
+
+Result<void> read_g(ValueReader& reader, Block& block, bool tools_have_no_diameter) {
+  const Place place = reader.place();
+  const auto value = reader.real();
+  if (!value) return tl::unexpected(value.error());
+  // 91.1 is ten times 91.1 only to rounding; more decimals are no code.
+  const double tenths = 10.0 * *value;
+  const double rounded = std::round(tenths);
+  if (*value < 0.0 || std::fabs(tenths - rounded) > 0.001 || rounded > 9999.0) {
+    return refuse(ProblemName::unknown_code, place, fmt::format("G{} is not a code", *value));
+  }
+  const GCode* code = find_g(static_cast<int>(rounded));
+  if (code == nullptr) {
+    return refuse(ProblemName::unknown_code,
+                  place,
+                  fmt::format("{} is not known", g_name(static_cast<int>(rounded))));
+  }
+  const bool harmless = tools_have_no_diameter && (code->tenths == 410 || code->tenths == 420);
+  if (code->refusal != nullptr && !harmless) {
+    return refuse(ProblemName::unsupported_code,
+                  place,
+                  fmt::format("{}: {}", g_name(code->tenths), code->refusal));
+  }
+  const GCode*& slot = block.g[static_cast<std::size_t>(code->group)];
+  if (slot != nullptr) {
+    return refuse(ProblemName::modal_conflict,
+                  place,
+                  fmt::format("{} and {} exclude each other within a line",
+                              g_name(slot->tenths),
+                              g_name(code->tenths)));
+  }
+  slot = code;
+  return {};
+}
+
+Result<void> read_m(ValueReader& reader, Block& block) {
+  const Place place = reader.place();
+  const auto number = reader.integer();
+  if (!number) return tl::unexpected(number.error());
+  const MCode* code = *number < 0 || *number > 9999 ? nullptr : find_m(static_cast<int>(*number));
+  if (code == nullptr)
+    return refuse(ProblemName::unknown_code, place, fmt::format("M{} is not known", *number));
+  if (code->refusal != nullptr) {
+    return refuse(
+        ProblemName::unsupported_code, place, fmt::format("M{}: {}", code->number, code->refusal));
+  }
+  const MCode*& slot = block.m[static_cast<std::size_t>(code->group)];
+  if (slot != nullptr) {
+    return refuse(
+        ProblemName::modal_conflict,
+        place,
+        fmt::format("M{} and M{} exclude each other within a line", slot->number, code->number));
+  }
+  slot = code;
+  return {};
+}
+
+Result<void> read_assignment(ValueReader& reader, Block& block) {
+  Assignment assignment;
+  assignment.place = reader.place();
+  if (reader.peek() == '<') {
+    auto name = reader.angle_name();
+    if (!name) return tl::unexpected(name.error());
+    assignment.name = std::move(*name);
+  } else {
+    const auto index = reader.integer();
+    if (!index) return tl::unexpected(index.error());
+    if (*index < 1 || *index >= parameter::kCount) {
+      return refuse(
+          ProblemName::bad_parameter, assignment.place, fmt::format("#{} does not exist", *index));
+    }
+    assignment.index = static_cast<int>(*index);
+  }
+  if (!reader.accept("=")) {
+    return refuse(ProblemName::bad_parameter,
+                  reader.place(),
+                  "'=' was expected: a parameter that is no word's value is set");
+  }
+  const auto value = reader.real();
+  if (!value) return tl::unexpected(value.error());
+  assignment.value = *value;
+  block.assignments.push_back(std::move(assignment));
+  return {};
+}
+
+Result<void> read_word(char letter, Place place, ValueReader& reader, Block& block) {
+  if (kPlainLetters.find(letter) == std::string_view::npos) {
+    return refuse(
+        ProblemName::bad_character, place, fmt::format("'{}' begins no word here", upper(letter)));
+  }
+  if (block.has(letter)) {
+    return refuse(ProblemName::repeated_word,
+                  place,
+                  fmt::format("a second {} word on the line", upper(letter)));
+  }
+  const auto value = reader.real();
+  if (!value) return tl::unexpected(value.error());
+  if (std::fabs(*value) > 1e9) {
+    return refuse(ProblemName::number_out_of_range,
+                  place,
+                  fmt::format("{}{} is out of range", upper(letter), *value));
+  }
+  block.put(letter, *value, place);
+  return {};
+}
+
+}  // namespace
+
+bool Block::has_axes() const {
+  for (const char axis : kAxes) {
+    if (has(axis)) return true;
+  }
+  return false;
+}
+
+void Block::clear(std::size_t line_number) {
+  g.fill(nullptr);
+  m.fill(nullptr);
+  assignments.clear();
+  deletable = false;
+  line = line_number;
+  present_ = 0;
+}
+
+void Block::put(char letter, double value, Place place) {
+  present_ |= 1U << slot(letter);
+  values_[slot(letter)] = value;
+  columns_[slot(letter)] = place.column;
+}
+
+Result<void> read_words(ValueReader reader, Block& block, bool tools_have_no_diameter) {
+  while (!reader.done()) {
+    const char letter = reader.peek();
+    const Place place = reader.place();
+    reader.skip(1);
+    if (letter == 'g') {
+      CHAINTRUE_GCODE_TRY(read_g(reader, block, tools_have_no_diameter));
+    } else if (letter == 'm') {
+      CHAINTRUE_GCODE_TRY(read_m(reader, block));
+    } else if (letter == '#') {
+      CHAINTRUE_GCODE_TRY(read_assignment(reader, block));
+    } else {
+      CHAINTRUE_GCODE_TRY(read_word(letter, place, reader, block));
+    }
+  }
+  return {};
+}
+
+}  // namespace chaintrue::gcode

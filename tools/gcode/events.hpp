@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a program makes the machine do, in order: moves in mm in the machine frame, words that pass
+/// through, comments.
+///
+/// The machine frame is the one that G53 speaks of: work offsets, G92 and rotation are applied.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tools/gcode/problem.hpp"
+
+namespace chaintrue::gcode {
+
+struct Point {
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+  double z_mm = 0.0;
+  friend bool operator==(const Point&, const Point&) = default;
+};
+
+enum class MoveKind { rapid, feed, arc, probe };
+[[nodiscard]] std::string_view name(MoveKind kind);
+
+/// An arc or helix about an axis of a plane:
+///   p(t) = centre + r(t) (cos(a(t)) first + sin(a(t)) second) + h(t) (first x second),   t = 0 ..
+///   1
+/// with r, a and h linear in t. r changes within the tolerance that controllers grant to rounded
+/// words.
+struct Arc {
+  Point centre;
+  /// Unit vectors of the plane; XY unless G18 or G19.
+  Point first{1.0, 0.0, 0.0};
+  Point second{0.0, 1.0, 0.0};
+  double start_radius_mm = 0.0;
+  double end_radius_mm = 0.0;
+  double start_angle_rad = 0.0;
+  /// Positive counter-clockwise seen against first x second; whole turns included.
+  double sweep_rad = 0.0;
+  double start_height_mm = 0.0;
+  double end_height_mm = 0.0;
+  /// Signed count of started turns, as in the G-code: G2 -1, G3 P2 +2.
+  int turns = 0;
+};
+
+enum class FeedMode { per_minute, inverse_time };
+
+struct FeedRate {
+  FeedMode mode = FeedMode::per_minute;
+  /// mm/min, or 1/min: the whole move takes 1/value minutes.
+  double value = 0.0;
+};
+
+struct Move {
+  MoveKind kind = MoveKind::rapid;
+  std::size_t line = 0;
+  Point from;
+  Point to;
+  std::optional<Arc> arc;  ///< for MoveKind::arc
+  FeedRate feed;           ///< meaningless for rapids
+  /// Degrees that A, B and C turn by; such axes do not exist on a two-chain router.
+  std::array<double, 3> turn_deg{};
+};
+
+/// A word that says nothing of the path and goes through unchanged (S, T, M, G4, G43, G61 ...).
+struct PassedWord {
+  std::size_t line = 0;
+  std::string text;  ///< `M3`, `S1000`, `G4 P0.5`
+};
+
+struct Comment {
+  std::size_t line = 0;
+  std::string text;  ///< parameters of (debug, ...) and (print, ...) are written out
+  bool message =
+      false;  ///< (msg, ...), (debug, ...), (print, ...): text is what the person is told
+};
+
+/// Something a person should know that is no reason to refuse.
+struct Note {
+  std::size_t line = 0;
+  std::string_view name;  ///< stable, such as "no_program_end"
+  std::string sentence;
+};
+
+/// Where the program's events go. Moves may be refused; then the interpreter stops with that
+/// problem.
+class Sink {
+ public:
+  virtual ~Sink() = default;
+  virtual Result<void> move(const Move& move) = 0;
+  virtual Result<void> word(const PassedWord&) { return {}; }
+  virtual Result<void> comment(const Comment&) { return {}; }
+  virtual void note(const Note&) {}
+  /// The program has ended at this line, by this word (`M2`, `M30`, `%`), or by the end of the file
+  /// (empty).
+  virtual Result<void> end(std::size_t /*line*/, std::string_view /*word*/) { return {}; }
+};
+
+}  // namespace chaintrue::gcode

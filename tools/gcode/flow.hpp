@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// O-words: conditions, loops and subroutines, as LinuxCNC has them, and Fanuc's M98/M99.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/gcode/interpreter.hpp"
+#include "tools/gcode/line_source.hpp"
+
+namespace chaintrue::gcode {
+
+/// The program's place in the file and the blocks that are open there.
+class Flow {
+ public:
+  /// Keeps references.
+  Flow(LineSource& source, Interpreter& interpreter) : source_(source), interpreter_(interpreter) {}
+
+  /// The next line to execute; false at the end of the file. Charges the budget for lines that were
+  /// read before.
+  [[nodiscard]] Result<bool> next(SourceLine& line);
+
+  /// Executes an O-line (line.text begins with o, or has it behind `at`).
+  [[nodiscard]] Result<void> control(const CleanLine& line, std::size_t at);
+  /// M98.
+  [[nodiscard]] Result<void> call_program(long number, long repeats, Place place);
+  /// M99. True where the main program ends by it.
+  [[nodiscard]] Result<bool> leave_program(Place place);
+  /// At the end of the program: what is still open.
+  [[nodiscard]] Result<void> finish(Place place) const;
+
+ private:
+  enum class Keyword {
+    sub,
+    endsub,
+    call,
+    return_,
+    while_,
+    endwhile,
+    do_,
+    if_,
+    elseif,
+    else_,
+    endif,
+    break_,
+    continue_,
+    repeat,
+    endrepeat,
+    program,
+  };
+  struct ControlLine {
+    std::string label;
+    Keyword keyword = Keyword::program;
+    std::size_t rest = 0;  // where the arguments begin
+  };
+  struct OpenBlock {
+    std::string label;
+    Keyword kind = Keyword::if_;  // if_, while_, do_ or repeat
+    LineSource::Position start;   // of the line that a loop comes back to
+    long remaining = 0;           // repeat only
+    std::size_t line = 0;
+  };
+  struct OpenCall {
+    std::string label;
+    LineSource::Position return_to;
+    LineSource::Position body;
+    long remaining = 1;
+    bool program = false;    // M98, without arguments of its own
+    std::size_t blocks = 0;  // open when it was called
+  };
+
+  Result<ControlLine> parse(const CleanLine& line, std::size_t at) const;
+  Result<void> execute(const CleanLine& line, const ControlLine& control);
+  Result<void> begin_sub(const CleanLine& line, const ControlLine& control);
+  Result<void> call(const CleanLine& line, const ControlLine& control);
+  Result<void> return_from(const CleanLine& line, const ControlLine& control);
+  Result<void> begin_loop(const CleanLine& line, const ControlLine& control);
+  Result<void> end_loop(const CleanLine& line, const ControlLine& control);
+  Result<void> condition(const CleanLine& line, const ControlLine& control);
+  Result<void> jump_out(const CleanLine& line, const ControlLine& control);
+
+  Result<double> value(const CleanLine& line, std::size_t at) const;
+  Result<std::optional<double>> optional_value(const CleanLine& line, std::size_t at) const;
+  Result<LineSource::Position> find_body(const std::string& label, Place place);
+  /// Reads on to the next O-line of that label with one of the keywords, leaving blocks of the same
+  /// label aside.
+  struct Found {
+    ControlLine control;
+    LineSource::Position before;
+  };
+  Result<Found> skip_to(const std::string& label,
+                        std::initializer_list<Keyword> keywords,
+                        Place from);
+  Result<bool> read(SourceLine& line);
+  Result<void> push_call(OpenCall call, Place place);
+  void pop_call();
+  OpenBlock* innermost(const std::string& label);
+  std::size_t floor() const { return calls_.empty() ? 0 : calls_.back().blocks; }
+
+  LineSource& source_;
+  Interpreter& interpreter_;
+  std::vector<OpenBlock> blocks_;
+  std::vector<OpenCall> calls_;
+  std::map<std::string, LineSource::Position, std::less<>> bodies_;  // behind `sub` or `O100`
+  std::map<std::string, std::size_t, std::less<>> defined_at_;
+  std::uint64_t furthest_ = 0;
+  LineSource::Position line_start_;
+  CleanLine found_line_;
+};
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The order in which a block's words take effect, and everything that is not motion.
+#include "tools/gcode/interpreter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+namespace chaintrue::gcode {
+namespace {
+
+char upper(char letter) { return static_cast<char>(letter - 'a' + 'A'); }
+
+bool is_cycle(int motion) { return motion == 730 || (motion >= 810 && motion <= 890); }
+bool is_arc(int motion) { return motion == 20 || motion == 30; }
+bool has_motion_digits(int motion) { return motion >= 382 && motion <= 385; }
+
+bool one_of(int value, std::initializer_list<int> list) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+int tenths(const GCode* code) { return code == nullptr ? -1 : code->tenths; }
+int number(const MCode* code) { return code == nullptr ? -1 : code->number; }
+
+/// Whether a word has something in its block that uses it.
+struct WordUse {
+  char letter;
+  bool (*used)(const Block&, int motion);
+  const char* users;
+};
+
+constexpr WordUse kWordUses[] = {
+    {'d',
+     [](const Block& b, int) {
+       return one_of(tenths(b.code(GGroup::cutter)), {410, 420});
+     },
+     "G41 or G42"},
+    {'e',
+     [](const Block& b, int) {
+       return one_of(number(b.code(MGroup::output)), {67, 68});
+     },
+     "M67 or M68"},
+    {'h', [](const Block& b, int) { return b.is(GGroup::tool_length, 430); }, "G43"},
+    {'i', [](const Block&, int m) { return is_arc(m) || m == 870; }, "G2, G3 or G87"},
+    {'j', [](const Block&, int m) { return is_arc(m) || m == 870; }, "G2, G3 or G87"},
+    {'k', [](const Block&, int m) { return is_arc(m) || m == 870; }, "G2, G3 or G87"},
+    {'l',
+     [](const Block& b, int m) {
+       return is_cycle(m) || b.is(GGroup::once, 100) || number(b.code(MGroup::flow)) == 98;
+     },
+     "G10, M98 or a canned cycle"},
+    {'p',
+     [](const Block& b, int m) {
+       return is_arc(m) || one_of(m, {820, 840, 860, 880, 890}) ||
+              one_of(tenths(b.code(GGroup::once)), {40, 100}) || b.is(GGroup::path_control, 640) ||
+              b.code(MGroup::output) != nullptr ||
+              one_of(number(b.code(MGroup::override)), {50, 51, 52, 53}) ||
+              number(b.code(MGroup::flow)) == 98;
+     },
+     "G2, G3, G4, G10, G64, G82, G84, G86, G88, G89, M50-M53, M62-M68 or M98"},
+    {'q',
+     [](const Block& b, int m) {
+       return one_of(m, {730, 830}) || b.is(GGroup::path_control, 640) ||
+              number(b.code(MGroup::tool)) == 61 ||
+              one_of(number(b.code(MGroup::output)), {67, 68});
+     },
+     "G64, G73, G83, M61, M67 or M68"},
+    {'r',
+     [](const Block& b, int m) { return is_arc(m) || is_cycle(m) || b.is(GGroup::once, 100); },
+     "G2, G3, G10 or a canned cycle"},
+};
+
+std::string with_value(std::string_view word, double value) {
+  return fmt::format("{}{}", word, value == 0.0 ? 0.0 : value);
+}
+
+}  // namespace
+
+Interpreter::Interpreter(const Dialect& dialect, Sink& sink) : dialect_(dialect), sink_(sink) {
+  parameters_.follow([this](int index) { return state_by_number(index); },
+                     [this](std::string_view name) { return state_by_name(name); });
+}
+
+Result<void> Interpreter::step(Place place) {
+  if (++steps_ <= dialect_.step_budget) return {};
+  return refuse(ProblemName::step_budget,
+                place,
+                fmt::format("the program has taken {} steps in loops, subroutines and cycles "
+                            "without coming to its end",
+                            dialect_.step_budget));
+}
+
+Result<AfterBlock> Interpreter::execute(const Block& block, const std::vector<CommentText>& texts) {
+  const auto motion = motion_to_be(block);
+  if (!motion) return tl::unexpected(motion.error());
+  CHAINTRUE_GCODE_TRY(check_assignments(block));
+  CHAINTRUE_GCODE_TRY(check_words(block, *motion));
+  assign(block);
+  CHAINTRUE_GCODE_TRY(comments(block, texts));
+  CHAINTRUE_GCODE_TRY(set_feed(block, *motion));
+  CHAINTRUE_GCODE_TRY(pass_words(block));
+  CHAINTRUE_GCODE_TRY(dwell(block));
+  set_modes(block);
+  CHAINTRUE_GCODE_TRY(tool_length(block));
+  CHAINTRUE_GCODE_TRY(once(block));
+  if (*motion >= 0) CHAINTRUE_GCODE_TRY(move(block, *motion));
+  return after(block);
+}
+
+/// The motion that this block asks for, or -1.
+Result<int> Interpreter::motion_to_be(const Block& block) const {
+  const GCode* motion = block.code(GGroup::motion);
+  const GCode* once_code = block.code(GGroup::once);
+  const bool once_takes_axes = once_code != nullptr && once_code->takes_axes;
+  const bool length_takes_axes = block.is(GGroup::tool_length, 431);
+  const bool centre = block.has('i') || block.has('j') || block.has('k');
+  if (once_takes_axes && length_takes_axes) {
+    return refuse(
+        ProblemName::modal_conflict, block.start(), "two codes of the line claim its axis words");
+  }
+  if (motion != nullptr && motion->takes_axes) {
+    if (once_takes_axes || length_takes_axes) {
+      return refuse(
+          ProblemName::modal_conflict, block.start(), "two codes of the line claim its axis words");
+    }
+    return motion->tenths;
+  }
+  if (once_takes_axes || length_takes_axes) return -1;
+  if (!block.has_axes() && !(centre && is_arc(modes_.motion))) return -1;
+  if (motion != nullptr || modes_.motion == 800) {
+    return refuse(ProblemName::no_motion_mode,
+                  block.start(),
+                  "axis words stand here, but no motion (G0, G1, G2, G3 ...) is in force that "
+                  "could use them");
+  }
+  return modes_.motion;
+}
+
+Result<void> Interpreter::check_words(const Block& block, int motion) const {
+  for (const char letter : {'u', 'v', 'w'}) {
+    if (block.has(letter)) {
+      return refuse(ProblemName::unsupported_axis,
+                    block.place(letter),
+                    fmt::format("the axis {} is not supported", upper(letter)));
+    }
+  }
+  for (const WordUse& use : kWordUses) {
+    if (!block.has(use.letter) || use.used(block, motion)) continue;
+    if (use.letter == 'e') {
+      return refuse(ProblemName::unsupported_axis,
+                    block.place('e'),
+                    "an E word (the extruder of a 3D printer) has no meaning on a router");
+    }
+    return refuse(ProblemName::unused_word,
+                  block.place(use.letter),
+                  fmt::format("nothing on the line uses the {} word; it belongs to {}",
+                              upper(use.letter),
+                              use.users));
+  }
+  if (block.is(GGroup::once, 530)) {
+    if (motion != 0 && motion != 10) {
+      return refuse(
+          ProblemName::bad_word_value, block.start(), "G53 needs G0 or G1 and axis words");
+    }
+    const bool incremental =
+        block.code(GGroup::distance) ? block.is(GGroup::distance, 910) : modes_.incremental;
+    if (incremental)
+      return refuse(ProblemName::modal_conflict, block.start(), "G53 cannot be used in G91");
+  }
+  for (const char letter : {'s', 't', 'f'}) {
+    if (block.has(letter) && block.value(letter) < 0.0) {
+      return refuse(ProblemName::bad_word_value,
+                    block.place(letter),
+                    fmt::format("{} is negative", upper(letter)));
+    }
+  }
+  if (block.has('t') && std::round(block.value('t')) != block.value('t')) {
+    return refuse(ProblemName::bad_word_value, block.place('t'), "a tool has a whole number");
+  }
+  return {};
+}
+
+Result<void> Interpreter::check_assignments(const Block& block) const {
+  for (const Assignment& assignment : block.assignments) {
+    const bool fixed = assignment.index != 0 ? !parameters_.writable(assignment.index)
+                                             : state_by_name(assignment.name).has_value();
+    if (fixed)
+      return refuse(
+          ProblemName::bad_parameter, assignment.place, "this parameter can only be read");
+  }
+  return {};
+}
+
+void Interpreter::assign(const Block& block) {
+  for (const Assignment& assignment : block.assignments) {
+    if (assignment.index != 0) {
+      parameters_.set(assignment.index, assignment.value);
+    } else {
+      static_cast<void>(parameters_.set(assignment.name, assignment.value));
+    }
+  }
+}
+
+std::string Interpreter::written_out(std::string_view text) const {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    if (text[at] != '#') {
+      result.push_back(text[at++]);
+      continue;
+    }
+    const auto end_of = [&](std::size_t from) {
+      if (from < text.size() && text[from] == '<') {
+        const std::size_t close = text.find('>', from);
+        return close == std::string_view::npos ? text.size() : close + 1;
+      }
+      while (from < text.size() && text[from] >= '0' && text[from] <= '9') ++from;
+      return from;
+    };
+    const std::size_t end = end_of(at + 1);
+    CleanLine line;
+    if (!clean(text.substr(at, end - at), 1, line)) {
+      result.append(text.substr(at, end - at));
+    } else {
+      const auto value = ValueReader(line, parameters_).real();
+      // Half a unit of the last place keeps a rounding error from reading as minus zero.
+      const bool zero = value && std::fabs(*value) < 5e-7;
+      result += value ? fmt::format("{:.6f}", zero ? 0.0 : *value) : std::string("######");
+    }
+    at = end;
+  }
+  return result;
+}
+
+Result<void> Interpreter::comments(const Block& block, const std::vector<CommentText>& texts) {
+  for (const CommentText& text : texts) {
+    Comment comment{block.line, text.text, false};
+    std::string_view body = text.text;
+    body.remove_prefix(std::min(body.find_first_not_of(" \t"), body.size()));
+    const std::size_t comma = body.find(',');
+    if (!text.semicolon && comma != std::string_view::npos) {
+      std::string head(body.substr(0, comma));
+      for (char& c : head) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      const bool expands = head == "debug" || head == "print";
+      if (expands || head == "msg") {
+        comment.message = true;
+        comment.text =
+            expands ? written_out(body.substr(comma + 1)) : std::string(body.substr(comma + 1));
+      }
+    }
+    CHAINTRUE_GCODE_TRY(sink_.comment(comment));
+  }
+  return {};
+}
+
+Result<void> Interpreter::set_feed(const Block& block, int motion) {
+  if (const GCode* mode = block.code(GGroup::feed_mode)) {
+    const FeedMode next = mode->tenths == 930 ? FeedMode::inverse_time : FeedMode::per_minute;
+    // A feed rate of the other mode means nothing; LinuxCNC forgets it with every G94 that follows
+    // G93.
+    if (next != modes_.feed_mode) modes_.feed = 0.0;
+    modes_.feed_mode = next;
+  }
+  const bool inverse = modes_.feed_mode == FeedMode::inverse_time;
+  if (block.has('f')) {
+    if (block.code(GGroup::units) != nullptr && block.is(GGroup::units, 200) != modes_.inches &&
+        !inverse) {
+      sink_.note({block.line,
+                  "feed_before_units",
+                  "F and a change of units share a line: F counts in the old unit here, other "
+                  "controllers take the new one"});
+    }
+    modes_.feed = inverse ? block.value('f') : length(block, 'f');
+  }
+  const bool feeds =
+      motion == 10 || is_arc(motion) || is_cycle(motion) || has_motion_digits(motion);
+  if (!feeds) return {};
+  if (inverse && is_cycle(motion)) {
+    return refuse(ProblemName::bad_cycle,
+                  block.start(),
+                  "a canned cycle cannot run with inverse time feed (G93)");
+  }
+  if (inverse && !block.has('f')) {
+    return refuse(ProblemName::no_feed_rate,
+                  block.start(),
+                  "with inverse time feed (G93) every feed move needs its own F");
+  }
+  if (!(modes_.feed > 0.0)) {
+    return refuse(ProblemName::no_feed_rate,
+                  block.start(),
+                  "no feed rate (F) is set for this move, or it is zero");
+  }
+  return {};
+}
+
+Result<void> Interpreter::pass(const Block& block, std::string text) {
+  return sink_.word({block.line, std::move(text)});
+}
+
+Result<void> Interpreter::output_word(const Block& block) {
+  const MCode* output = block.code(MGroup::output);
+  if (output == nullptr) return {};
+  std::string text = fmt::format("M{}", output->number);
+  const bool analog = output->number >= 67;
+  for (const char letter : analog ? std::string_view("eq") : std::string_view("p")) {
+    if (!block.has(letter)) {
+      return refuse(ProblemName::missing_word,
+                    block.start(),
+                    fmt::format("{} needs {}", text, upper(letter)));
+    }
+    text += with_value(fmt::format(" {}", upper(letter)), block.value(letter));
+  }
+  return pass(block, std::move(text));
+}
+
+Result<void> Interpreter::pass_words(const Block& block) {
+  if (block.has('s')) {
+    modes_.spindle_rpm = block.value('s');
+    CHAINTRUE_GCODE_TRY(pass(block, with_value("S", block.value('s'))));
+  }
+  if (block.has('t')) {
+    modes_.selected_tool = static_cast<long>(block.value('t'));
+    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("T{}", modes_.selected_tool)));
+  }
+  CHAINTRUE_GCODE_TRY(output_word(block));
+  if (const MCode* tool = block.code(MGroup::tool)) {
+    std::string text = fmt::format("M{}", tool->number);
+    if (tool->number == 61) {
+      if (!block.has('q') || block.value('q') < 0.0) {
+        return refuse(ProblemName::missing_word, block.start(), "M61 needs the tool's number as Q");
+      }
+      text += with_value(" Q", block.value('q'));
+      modes_.tool = static_cast<long>(block.value('q'));
+    } else {
+      modes_.tool = modes_.selected_tool;
+    }
+    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+  }
+  if (const MCode* spindle = block.code(MGroup::spindle)) {
+    modes_.spindle = spindle->number == 5 ? 0 : spindle->number;
+    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("M{}", spindle->number)));
+  }
+  if (const MCode* coolant = block.code(MGroup::coolant)) {
+    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("M{}", coolant->number)));
+  }
+  if (const MCode* override_code = block.code(MGroup::override)) {
+    std::string text = fmt::format("M{}", override_code->number);
+    if (block.has('p') && override_code->number >= 50) text += with_value(" P", block.value('p'));
+    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+  }
+  return {};
+}
+
+Result<void> Interpreter::dwell(const Block& block) {
+  if (!block.is(GGroup::once, 40)) return {};
+  if (!block.has('p') || block.value('p') < 0.0) {
+    return refuse(
+        ProblemName::missing_word, block.start(), "G4 needs its time as P, not below zero");
+  }
+  return pass(block, with_value("G4 P", block.value('p')));
+}
+
+void Interpreter::set_modes(const Block& block) {
+  if (const GCode* plane = block.code(GGroup::plane)) modes_.plane = plane->tenths;
+  if (const GCode* units = block.code(GGroup::units)) modes_.inches = units->tenths == 200;
+  if (const GCode* system = block.code(GGroup::system)) {
+    select_system(system->tenths <= 590 ? (system->tenths - 530) / 10 : system->tenths - 590 + 6);
+  }
+  if (const GCode* distance = block.code(GGroup::distance))
+    modes_.incremental = distance->tenths == 910;
+  if (const GCode* centres = block.code(GGroup::arc_distance))
+    modes_.absolute_centres = centres->tenths == 901;
+  if (block.is(GGroup::motion, 800)) modes_.motion = 800;
+  if (const GCode* retract = block.code(GGroup::retract))
+    modes_.retract_to_r = retract->tenths == 990;
+}
+
+Result<void> Interpreter::tool_length(const Block& block) {
+  if (const GCode* cutter = block.code(GGroup::cutter)) {
+    // G41 and G42 come this far only where tools have no diameter.
+    if (cutter->tenths == 400) CHAINTRUE_GCODE_TRY(pass(block, "G40"));
+  }
+  if (const GCode* code = block.code(GGroup::tool_length)) {
+    std::string text = g_name(code->tenths);
+    if (block.has('h')) text += with_value(" H", block.value('h'));
+    if (code->tenths == 431) {
+      if (block.has('x') || block.has('y') || block.has('a') || block.has('b') || block.has('c')) {
+        return refuse(ProblemName::unsupported_code,
+                      block.start(),
+                      "a tool offset (G43.1) in any axis but Z moves the path");
+      }
+      if (block.has('z')) text += with_value(" Z", length(block, 'z'));
+    }
+    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+  }
+  if (const GCode* control = block.code(GGroup::path_control)) {
+    modes_.path_control = control->tenths;
+    std::string text = g_name(control->tenths);
+    if (control->tenths == 640 && block.has('p') && !is_arc(modes_.motion)) {
+      text += with_value(" P", length(block, 'p'));
+      if (block.has('q')) text += with_value(" Q", length(block, 'q'));
+    }
+    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+  }
+  return {};
+}
+
+Result<AfterBlock> Interpreter::after(const Block& block) const {
+  AfterBlock result;
+  if (const MCode* flow = block.code(MGroup::flow)) {
+    if (flow->number == 99) {
+      result.flow = AfterBlock::Flow::leave_program;
+      return result;
+    }
+    const double program = block.find('p').value_or(-1.0);
+    const double repeats = block.find('l').value_or(1.0);
+    if (program < 0.0 || std::round(program) != program || repeats < 0.0) {
+      return refuse(
+          ProblemName::missing_word, block.start(), "M98 needs the number of a program as P");
+    }
+    result.flow = AfterBlock::Flow::call_program;
+    result.program = static_cast<long>(program);
+    result.repeats = static_cast<long>(repeats);
+    return result;
+  }
+  const MCode* stop = block.code(MGroup::stop);
+  if (stop == nullptr) return result;
+  if (stop->number == 2 || stop->number == 30) {
+    result.flow = AfterBlock::Flow::end;
+    result.end_word = stop->number == 2 ? "M2" : "M30";
+    return result;
+  }
+  CHAINTRUE_GCODE_TRY(sink_.word({block.line, fmt::format("M{}", stop->number)}));
+  return result;
+}
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The modal interpreter: one block after the other becomes moves in the machine frame.
+///
+/// RS274/NGC as LinuxCNC 2.9 executes it: within a block by a fixed order, not from left to right
+/// (comments, feed mode, F, S, T, M6, spindle, coolant, dwell, plane, units, tool length,
+/// coordinate system, distance mode, retract mode, offsets, motion, stop). docs/gcode.md lists
+/// where it differs from LinuxCNC, and why.
+///
+/// Not thread safe; one interpreter runs one program. Program (program.hpp) feeds it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tools/gcode/arc_words.hpp"
+#include "tools/gcode/block.hpp"
+#include "tools/gcode/events.hpp"
+#include "tools/gcode/parameters.hpp"
+
+namespace chaintrue::gcode {
+
+/// What a person may say about a file that the file itself does not.
+struct Dialect {
+  /// Lines that begin with a slash are left out, as with the controller's block delete switch on.
+  bool skip_deletable_blocks = false;
+  /// The tool table holds zeros, so that G41 and G42 change nothing. Otherwise they are refused.
+  bool tools_have_no_diameter = false;
+  /// Lines read again in loops and subroutines, and moves of canned cycles, until the program is
+  /// refused as endless.
+  std::uint64_t step_budget = 10'000'000;
+};
+
+/// X, Y, Z in mm, A, B, C in degrees.
+using Axes = std::array<double, 6>;
+
+/// What the program does after a block.
+struct AfterBlock {
+  enum class Flow { next, end, call_program, leave_program };
+  Flow flow = Flow::next;
+  std::string_view end_word;  ///< of Flow::end
+  long program = 0;           ///< of M98
+  long repeats = 1;
+};
+
+class Interpreter {
+ public:
+  /// Keeps a reference to the sink.
+  Interpreter(const Dialect& dialect, Sink& sink);
+  Interpreter(const Interpreter&) = delete;
+  Interpreter& operator=(const Interpreter&) = delete;
+
+  [[nodiscard]] Result<AfterBlock> execute(const Block& block,
+                                           const std::vector<CommentText>& comments);
+
+  [[nodiscard]] Parameters& parameters() { return parameters_; }
+  [[nodiscard]] const Dialect& dialect() const { return dialect_; }
+  /// Charges the budget of steps.
+  [[nodiscard]] Result<void> step(Place place);
+  /// The nesting of subroutines, for #<_call_level>.
+  void set_call_level(std::size_t level) { call_level_ = level; }
+
+  /// For `explain`: the modal state in words, one line each.
+  [[nodiscard]] std::vector<std::string> describe() const;
+
+ private:
+  struct Modes {
+    int motion = 800;  ///< tenths, as in the tables of codes
+    int plane = 170;
+    int path_control = 640;
+    int system = 1;  ///< 1 is G54, 9 is G59.3
+    bool inches = false;
+    bool incremental = false;
+    bool absolute_centres = false;
+    bool retract_to_r = false;
+    FeedMode feed_mode = FeedMode::per_minute;
+    double feed = 0.0;  ///< mm/min, or 1/min for the block at hand
+    double spindle_rpm = 0.0;
+    int spindle = 0;  ///< 3, 4 or 0
+    long tool = 0;
+    long selected_tool = 0;
+  };
+  /// machine = origin + rotation (program + offset)
+  struct Frame {
+    Axes origin{};
+    Axes offset{};
+    double rotation_deg = 0.0;
+    double cosine = 1.0;
+    double sine = 0.0;
+  };
+  struct Sticky {
+    double start = 0.0;  ///< height where the row of cycles began
+    double r = 0.0;      ///< as written, in mm
+    double depth = 0.0;
+    double p = 0.0;
+    double q = 0.0;
+  };
+  struct Cycle;
+
+  // interpreter.cpp: the order of execution.
+  Result<void> comments(const Block& block, const std::vector<CommentText>& texts);
+  Result<int> motion_to_be(const Block& block) const;
+  Result<void> check_words(const Block& block, int motion) const;
+  Result<void> set_feed(const Block& block, int motion);
+  Result<void> pass_words(const Block& block);
+  Result<void> output_word(const Block& block);
+  Result<void> dwell(const Block& block);
+  void set_modes(const Block& block);
+  Result<void> tool_length(const Block& block);
+  Result<void> pass(const Block& block, std::string text);
+  Result<AfterBlock> after(const Block& block) const;
+  void assign(const Block& block);
+  [[nodiscard]] Result<void> check_assignments(const Block& block) const;
+  [[nodiscard]] std::string written_out(std::string_view text) const;
+
+  // interpreter_offsets.cpp: coordinate systems, G10, G28, G30, G52, G92.
+  void select_system(int system);
+  void read_system(int system, Axes& origin, double& rotation_deg) const;
+  Result<void> once(const Block& block);
+  Result<void> set_system(const Block& block);
+  Result<void> set_offset(const Block& block);
+  void cancel_offset(bool forget);
+  void restore_offset();
+  Result<void> go_home(const Block& block, int first_parameter);
+  void store_home(int first_parameter);
+  Result<void> needs_known_z(const Block& block) const;
+  void refresh_frame();
+  [[nodiscard]] Axes to_machine(const Axes& program) const;
+  [[nodiscard]] Axes to_program(const Axes& machine) const;
+
+  // interpreter_motion.cpp
+  Result<void> move(const Block& block, int motion);
+  Result<Axes> target(const Block& block) const;
+  Result<Axes> machine_target(const Block& block) const;
+  Result<void> polar(const Block& block, Axes& program) const;
+  Result<void> straight(const Block& block, MoveKind kind, const Axes& machine);
+  Result<void> arc(const Block& block, bool clockwise);
+  Result<void> probe(const Block& block);
+  [[nodiscard]] double length(const Block& block, char letter) const {
+    return block.value(letter) * mm_per_unit();
+  }
+  [[nodiscard]] double mm_per_unit() const { return modes_.inches ? 25.4 : 1.0; }
+  [[nodiscard]] Move basic_move(std::size_t line, MoveKind kind, const Axes& to) const;
+
+  // interpreter_cycles.cpp
+  Result<void> cycle(const Block& block, int motion);
+  Result<void> drill(const Block& block, const Cycle& cycle, double first, double second);
+  Result<void> peck(const Block& block, const Cycle& cycle, double first, double second);
+  Result<void> tap_or_bore(const Block& block, const Cycle& cycle, double first, double second);
+  Result<void> back_bore(const Block& block, const Cycle& cycle, double first, double second);
+  Result<void> cycle_move(const Block& block,
+                          const Cycle& cycle,
+                          MoveKind kind,
+                          const std::array<double, 3>& to);
+
+  // interpreter_state.cpp
+  [[nodiscard]] std::optional<double> state_by_number(int index) const;
+  [[nodiscard]] std::optional<double> state_by_name(std::string_view name) const;
+
+  Dialect dialect_;
+  Sink& sink_;
+  Parameters parameters_;
+  Modes modes_;
+  Frame frame_;
+  Sticky sticky_;
+  Axes machine_{};  ///< where the machine stands
+  std::uint64_t steps_ = 0;
+  std::size_t call_level_ = 0;
+  bool home_known_[2] = {false, false};
+  bool z_unknown_ = false;  ///< after probing
+};
+
+}  // namespace chaintrue::gcode

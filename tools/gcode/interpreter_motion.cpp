@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// G0, G1, G2, G3 and probing: from words to moves in the machine frame.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "tools/gcode/interpreter.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+constexpr std::string_view kLetters = "xyzabc";
+constexpr double kDegree = std::numbers::pi / 180.0;
+/// More turns than this are a slip of the pen.
+constexpr double kMostTurns = 1000.0;
+
+Point point(const Axes& axes) { return {axes[0], axes[1], axes[2]}; }
+
+/// The indices of a plane's axes, in the order that makes first x second = normal.
+struct PlaneAxes {
+  std::size_t first;
+  std::size_t second;
+  std::size_t normal;
+};
+
+PlaneAxes plane_axes(int plane) {
+  if (plane == 180) return {2, 0, 1};
+  if (plane == 190) return {1, 2, 0};
+  return {0, 1, 2};
+}
+
+}  // namespace
+
+Move Interpreter::basic_move(std::size_t line, MoveKind kind, const Axes& to) const {
+  Move move;
+  move.kind = kind;
+  move.line = line;
+  move.from = point(machine_);
+  move.to = point(to);
+  move.feed = {modes_.feed_mode, modes_.feed};
+  for (std::size_t i = 0; i < move.turn_deg.size(); ++i)
+    move.turn_deg[i] = to[i + 3] - machine_[i + 3];
+  return move;
+}
+
+Result<void> Interpreter::move(const Block& block, int motion) {
+  switch (motion) {
+    case 0:
+    case 10: {
+      modes_.motion = motion;
+      const auto machine = target(block);
+      if (!machine) return tl::unexpected(machine.error());
+      return straight(block, motion == 0 ? MoveKind::rapid : MoveKind::feed, *machine);
+    }
+    case 20:
+    case 30:
+      modes_.motion = motion;
+      return arc(block, motion == 20);
+    case 382:
+    case 383:
+    case 384:
+    case 385:
+      modes_.motion = motion;
+      return probe(block);
+    default:
+      return cycle(block, motion);
+  }
+}
+
+/// Where the block's axis words lead, in the machine frame.
+Result<Axes> Interpreter::target(const Block& block) const {
+  if (block.is(GGroup::once, 530)) return machine_target(block);
+  Axes program = to_program(machine_);
+  if (block.has('@') || block.has('^')) {
+    CHAINTRUE_GCODE_TRY(polar(block, program));
+  }
+  for (std::size_t i = 0; i < program.size(); ++i) {
+    if (!block.has(kLetters[i])) continue;
+    const double value = i < 3 ? length(block, kLetters[i]) : block.value(kLetters[i]);
+    program[i] = modes_.incremental ? program[i] + value : value;
+  }
+  return to_machine(program);
+}
+
+Result<Axes> Interpreter::machine_target(const Block& block) const {
+  if (block.has('@') || block.has('^')) {
+    return refuse(ProblemName::bad_word_value, block.start(), "G53 takes no polar coordinates");
+  }
+  Axes machine = machine_;
+  for (std::size_t i = 0; i < machine.size(); ++i) {
+    if (block.has(kLetters[i]))
+      machine[i] = i < 3 ? length(block, kLetters[i]) : block.value(kLetters[i]);
+  }
+  return machine;
+}
+
+/// @ is the distance from the program's zero in XY, ^ the angle in degrees.
+Result<void> Interpreter::polar(const Block& block, Axes& program) const {
+  if (block.has('x') || block.has('y')) {
+    return refuse(ProblemName::modal_conflict,
+                  block.start(),
+                  "a point has X and Y or polar coordinates (@, ^), not both");
+  }
+  double radius = std::hypot(program[0], program[1]);
+  double angle_deg = std::atan2(program[1], program[0]) / kDegree;
+  if ((modes_.incremental || !block.has('^')) && radius == 0.0) {
+    return refuse(ProblemName::bad_word_value,
+                  block.start(),
+                  "at the program's zero a polar step has no direction");
+  }
+  if (block.has('@')) radius = (modes_.incremental ? radius : 0.0) + length(block, '@');
+  if (block.has('^')) angle_deg = (modes_.incremental ? angle_deg : 0.0) + block.value('^');
+  program[0] = radius * std::cos(angle_deg * kDegree);
+  program[1] = radius * std::sin(angle_deg * kDegree);
+  return {};
+}
+
+Result<void> Interpreter::straight(const Block& block, MoveKind kind, const Axes& machine) {
+  if (z_unknown_ && modes_.incremental && block.has('z')) {
+    return refuse(
+        ProblemName::unsupported_code,
+        block.place('z'),
+        "after probing only the machine knows its height, so Z cannot step from it (G91) here");
+  }
+  if (block.has('z')) z_unknown_ = false;
+  CHAINTRUE_GCODE_TRY(sink_.move(basic_move(block.line, kind, machine)));
+  machine_ = machine;
+  return {};
+}
+
+Result<void> Interpreter::probe(const Block& block) {
+  if (!block.has('x') && !block.has('y') && !block.has('z')) {
+    return refuse(ProblemName::missing_word, block.start(), "probing needs an axis word");
+  }
+  const auto machine = target(block);
+  if (!machine) return tl::unexpected(machine.error());
+  if ((*machine)[0] != machine_[0] || (*machine)[1] != machine_[1]) {
+    return refuse(ProblemName::unsupported_code,
+                  block.start(),
+                  "probing sideways (X, Y) ends at a place that only the machine knows");
+  }
+  if (std::fabs((*machine)[2] - machine_[2]) < 0.254) {
+    return refuse(ProblemName::bad_word_value,
+                  block.start(),
+                  "the probe starts too close to its end (LinuxCNC asks for 0.254 mm)");
+  }
+  CHAINTRUE_GCODE_TRY(straight(block, MoveKind::probe, *machine));
+  z_unknown_ = true;
+  for (int i = 0; i < 3; ++i)
+    parameters_.set(parameter::kProbe + i, machine_[static_cast<std::size_t>(i)]);
+  return {};
+}
+
+Result<void> Interpreter::arc(const Block& block, bool clockwise) {
+  double count = 1.0;
+  if (block.has('p')) {
+    count = block.value('p');
+    if (count < 1.0 || count > kMostTurns || std::round(count) != count) {
+      return refuse(
+          ProblemName::bad_arc,
+          block.place('p'),
+          fmt::format("P, the number of turns, is a whole number from 1 to {}", kMostTurns));
+    }
+  }
+  if (block.is(GGroup::once, 530)) {
+    return refuse(ProblemName::bad_word_value, block.start(), "G53 needs G0 or G1");
+  }
+  const auto machine = target(block);
+  if (!machine) return tl::unexpected(machine.error());
+  const Axes start = to_program(machine_);
+  const Axes end = to_program(*machine);
+  const PlaneAxes plane = plane_axes(modes_.plane);
+  ArcRequest request;
+  request.start = {start[plane.first], start[plane.second]};
+  request.end = {end[plane.first], end[plane.second]};
+  request.first_axis = kLetters[plane.first];
+  request.second_axis = kLetters[plane.second];
+  request.normal_axis = kLetters[plane.normal];
+  request.clockwise = clockwise;
+  request.absolute_centre = modes_.absolute_centres;
+  request.mm_per_unit = mm_per_unit();
+  // LinuxCNC reckons absolute centres in the program's frame, offsets included.
+  const auto found = arc_centre(request, block);
+  if (!found) return tl::unexpected(found.error());
+
+  const auto direction = [&](std::size_t axis) {
+    if (axis == 0) return Point{frame_.cosine, frame_.sine, 0.0};
+    if (axis == 1) return Point{-frame_.sine, frame_.cosine, 0.0};
+    return Point{0.0, 0.0, 1.0};
+  };
+  Axes centre = start;
+  centre[plane.first] = found->first_mm;
+  centre[plane.second] = found->second_mm;
+  const PlanePoint middle = *found;
+  Arc arc;
+  arc.centre = point(to_machine(centre));
+  arc.first = direction(plane.first);
+  arc.second = direction(plane.second);
+  arc.start_radius_mm = std::hypot(request.start.first_mm - middle.first_mm,
+                                   request.start.second_mm - middle.second_mm);
+  arc.end_radius_mm =
+      std::hypot(request.end.first_mm - middle.first_mm, request.end.second_mm - middle.second_mm);
+  arc.start_angle_rad = std::atan2(request.start.second_mm - middle.second_mm,
+                                   request.start.first_mm - middle.first_mm);
+  arc.turns = static_cast<int>(clockwise ? -count : count);
+  arc.sweep_rad = arc_sweep(request.start, request.end, middle, arc.turns);
+  arc.end_height_mm = end[plane.normal] - start[plane.normal];
+  Move move = basic_move(block.line, MoveKind::arc, *machine);
+  move.arc = arc;
+  if (block.has('z')) z_unknown_ = false;
+  CHAINTRUE_GCODE_TRY(sink_.move(move));
+  machine_ = *machine;
+  return {};
+}
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Where the program's zero lies: work coordinate systems, G10, G52, G92, and the homes of G28 and
+/// G30.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "tools/gcode/interpreter.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+constexpr std::string_view kLetters = "xyzabc";
+constexpr int kLinear = 3;  // the first three axes are lengths
+
+/// Of coordinate system 1 .. 9.
+int first_parameter(int system) { return parameter::kFirstSystem + 20 * (system - 1); }
+int rotation_parameter(int system) { return first_parameter(system) + 9; }
+
+struct Turn {
+  double cosine;
+  double sine;
+};
+
+Turn turn(double degrees) {
+  if (degrees == 0.0) return {1.0, 0.0};
+  const double angle = degrees * std::numbers::pi / 180.0;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+void rotate(Axes& axes, Turn by) {
+  const double x = axes[0];
+  const double y = axes[1];
+  axes[0] = x * by.cosine - y * by.sine;
+  axes[1] = x * by.sine + y * by.cosine;
+}
+
+}  // namespace
+
+Axes Interpreter::to_machine(const Axes& program) const {
+  Axes result;
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = program[i] + frame_.offset[i];
+  rotate(result, {frame_.cosine, frame_.sine});
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] += frame_.origin[i];
+  return result;
+}
+
+Axes Interpreter::to_program(const Axes& machine) const {
+  Axes result;
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = machine[i] - frame_.origin[i];
+  rotate(result, {frame_.cosine, -frame_.sine});
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] -= frame_.offset[i];
+  return result;
+}
+
+void Interpreter::read_system(int system, Axes& origin, double& rotation_deg) const {
+  for (std::size_t i = 0; i < origin.size(); ++i) {
+    origin[i] = parameters_.stored(first_parameter(system) + static_cast<int>(i));
+  }
+  rotation_deg = parameters_.stored(rotation_parameter(system));
+}
+
+void Interpreter::refresh_frame() {
+  read_system(modes_.system, frame_.origin, frame_.rotation_deg);
+  const Turn by = turn(frame_.rotation_deg);
+  frame_.cosine = by.cosine;
+  frame_.sine = by.sine;
+}
+
+void Interpreter::select_system(int system) {
+  modes_.system = system;
+  parameters_.set(parameter::kSystem, system);
+  refresh_frame();
+}
+
+/// The codes that act once: offsets and homes. G4 and G53 are done elsewhere.
+Result<void> Interpreter::once(const Block& block) {
+  const GCode* code = block.code(GGroup::once);
+  if (code == nullptr) return {};
+  switch (code->tenths) {
+    case 100:
+      return set_system(block);
+    case 280:
+      return go_home(block, parameter::kHome);
+    case 281:
+      store_home(parameter::kHome);
+      return {};
+    case 300:
+      return go_home(block, parameter::kSecondHome);
+    case 301:
+      store_home(parameter::kSecondHome);
+      return {};
+    case 520:
+    case 920:
+      return set_offset(block);
+    case 921:
+      cancel_offset(true);
+      return {};
+    case 922:
+      cancel_offset(false);
+      return {};
+    case 923:
+      restore_offset();
+      return {};
+    default:
+      return {};
+  }
+}
+
+Result<void> Interpreter::needs_known_z(const Block& block) const {
+  if (!z_unknown_ || !block.has('z')) return {};
+  return refuse(ProblemName::unsupported_code,
+                block.place('z'),
+                "after probing only the machine knows its height, so Z cannot be set from it here");
+}
+
+Result<void> Interpreter::set_system(const Block& block) {
+  const double mode = block.find('l').value_or(-1.0);
+  if (mode != 2.0 && mode != 20.0) {
+    return refuse(ProblemName::unsupported_code,
+                  block.start(),
+                  "of G10 only L2 and L20 (work offsets) are supported; tool tables are not");
+  }
+  const double number = block.find('p').value_or(-1.0);
+  if (number < 0.0 || number > 9.0 || std::round(number) != number) {
+    return refuse(
+        ProblemName::bad_word_value, block.start(), "G10 needs P0 (the system in force) to P9");
+  }
+  const int system = number == 0.0 ? modes_.system : static_cast<int>(number);
+  const bool from_here = mode == 20.0;
+  if (from_here) {
+    CHAINTRUE_GCODE_TRY(needs_known_z(block));
+    if (block.has('r')) {
+      return refuse(ProblemName::bad_word_value,
+                    block.place('r'),
+                    "R (a rotation) belongs to G10 L2, not to L20");
+    }
+  }
+  if (block.has('@') || block.has('^')) {
+    return refuse(ProblemName::bad_word_value, block.start(), "G10 takes no polar coordinates");
+  }
+  if (block.has('r')) parameters_.set(rotation_parameter(system), block.value('r'));
+
+  Axes origin;
+  double rotation_deg = 0.0;
+  read_system(system, origin, rotation_deg);
+  // Where the machine stands, seen from that system.
+  Axes here{};
+  for (std::size_t i = 0; i < here.size(); ++i) here[i] = machine_[i] - origin[i];
+  const Turn by = turn(rotation_deg);
+  rotate(here, {by.cosine, -by.sine});
+  // What must be added to the origin, in the system's directions, so that the machine's place reads
+  // as written.
+  Axes shift{};
+  const bool offset_on = parameters_.stored(parameter::kOffsetOn) != 0.0;
+  for (std::size_t i = 0; i < origin.size(); ++i) {
+    if (!block.has(kLetters[i])) continue;
+    const double value = i < kLinear ? length(block, kLetters[i]) : block.value(kLetters[i]);
+    if (from_here) {
+      shift[i] = here[i] - (offset_on ? frame_.offset[i] : 0.0) - value;
+    } else {
+      origin[i] = value;
+    }
+  }
+  rotate(shift, by);
+  for (std::size_t i = 0; i < origin.size(); ++i) {
+    parameters_.set(first_parameter(system) + static_cast<int>(i), origin[i] + shift[i]);
+  }
+  if (system == modes_.system) refresh_frame();
+  return {};
+}
+
+/// G92 makes the place where the machine stands read as written; G52 states the offset itself. They
+/// share it.
+Result<void> Interpreter::set_offset(const Block& block) {
+  if (!block.has_axes()) {
+    return refuse(ProblemName::missing_word, block.start(), "G52 and G92 need an axis word");
+  }
+  if (block.has('@') || block.has('^')) {
+    return refuse(
+        ProblemName::bad_word_value, block.start(), "G52 and G92 take no polar coordinates");
+  }
+  const bool from_here = block.is(GGroup::once, 920);
+  if (from_here) CHAINTRUE_GCODE_TRY(needs_known_z(block));
+  const Axes program = to_program(machine_);
+  for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
+    if (!block.has(kLetters[i])) continue;
+    const double value = i < kLinear ? length(block, kLetters[i]) : block.value(kLetters[i]);
+    frame_.offset[i] = from_here ? program[i] + frame_.offset[i] - value : value;
+  }
+  parameters_.set(parameter::kOffsetOn, 1.0);
+  for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
+    parameters_.set(parameter::kOffset + static_cast<int>(i), frame_.offset[i]);
+  }
+  return {};
+}
+
+void Interpreter::cancel_offset(bool forget) {
+  frame_.offset = {};
+  parameters_.set(parameter::kOffsetOn, 0.0);
+  if (!forget) return;
+  for (int i = 0; i < 9; ++i) parameters_.set(parameter::kOffset + i, 0.0);
+}
+
+void Interpreter::restore_offset() {
+  parameters_.set(parameter::kOffsetOn, 1.0);
+  for (std::size_t i = 0; i < frame_.offset.size(); ++i) {
+    frame_.offset[i] = parameters_.stored(parameter::kOffset + static_cast<int>(i));
+  }
+}
+
+void Interpreter::store_home(int first) {
+  for (std::size_t i = 0; i < machine_.size(); ++i)
+    parameters_.set(first + static_cast<int>(i), machine_[i]);
+  home_known_[first == parameter::kHome ? 0 : 1] = true;
+}
+
+/// Through the point that the axis words name, then home with those axes; with all where none is
+/// named.
+Result<void> Interpreter::go_home(const Block& block, int first) {
+  if (!home_known_[first == parameter::kHome ? 0 : 1]) {
+    sink_.note({block.line,
+                "home_assumed",
+                "the place that G28 or G30 goes to is stored in the machine; it is taken to be the "
+                "machine's zero"});
+  }
+  const auto through = target(block);
+  if (!through) return tl::unexpected(through.error());
+  CHAINTRUE_GCODE_TRY(straight(block, MoveKind::rapid, *through));
+  Axes home = machine_;
+  for (std::size_t i = 0; i < home.size(); ++i) {
+    if (block.has_axes() && !block.has(kLetters[i])) continue;
+    home[i] = parameters_.stored(first + static_cast<int>(i));
+  }
+  return straight(block, MoveKind::rapid, home);
+}
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The lines of a program, read as a stream: constant memory, whatever the file's length, and a way
+/// back for loops.
+///
+/// LF, CRLF and CR end a line. A UTF-8 byte order mark is skipped. NUL bytes and UTF-16 are refused
+/// as not text.
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "tools/gcode/problem.hpp"
+
+namespace chaintrue::gcode {
+
+/// A longer line is no G-code: the controllers' own limits lie between 60 and 256 characters.
+inline constexpr std::size_t kMaxLineLength = 4096;
+
+struct SourceLine {
+  /// Without its end of line; valid until the next call.
+  std::string_view text;
+  std::size_t number = 0;
+};
+
+class LineSource {
+ public:
+  /// A place to come back to: the start of the line after `lines_before` lines.
+  struct Position {
+    std::uint64_t offset = 0;
+    std::size_t lines_before = 0;
+  };
+
+  /// \param stream seekable and opened in binary mode.
+  explicit LineSource(std::unique_ptr<std::istream> stream);
+
+  [[nodiscard]] static Result<LineSource> from_file(const std::string& path);
+  [[nodiscard]] static LineSource from_text(std::string text);
+
+  /// False at the end of the file.
+  [[nodiscard]] Result<bool> next(SourceLine& line);
+  /// Of the line that next() would give.
+  [[nodiscard]] Position position() const;
+  void seek(Position position);
+
+ private:
+  bool refill();
+
+  std::unique_ptr<std::istream> stream_;
+  std::string buffer_;
+  std::size_t begin_ = 0;            // of the unread part of buffer_
+  std::uint64_t buffer_offset_ = 0;  // of buffer_[0] in the file
+  std::size_t lines_before_ = 0;
+  bool exhausted_ = false;
+};
+
+}  // namespace chaintrue::gcode

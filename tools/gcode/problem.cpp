@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The table of problems.
+#include "tools/gcode/problem.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace chaintrue::gcode {
+namespace {
+
+struct Row {
+  std::string_view name;
+  ProblemKind kind;
+};
+
+constexpr Row kRows[] = {
+#define CHAINTRUE_GCODE_PROBLEM(name, kind) {#name, ProblemKind::kind},
+#include "tools/gcode/problems.def"
+#undef CHAINTRUE_GCODE_PROBLEM
+};
+
+const Row& row(ProblemName problem) { return kRows[static_cast<std::size_t>(problem)]; }
+
+}  // namespace
+
+std::string_view name(ProblemName problem) { return row(problem).name; }
+
+ProblemKind kind(ProblemName problem) { return row(problem).kind; }
+
+std::string Problem::message() const {
+  std::string text;
+  auto out = std::back_inserter(text);
+  if (place.line != 0) fmt::format_to(out, "line {}", place.line);
+  if (place.line != 0 && place.column != 0) fmt::format_to(out, ", column {}", place.column);
+  if (place.line != 0) text += ": ";
+  fmt::format_to(out, "{} ({})", sentence, gcode::name(name));
+  return text;
+}
+
+}  // namespace chaintrue::gcode

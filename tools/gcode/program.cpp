@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// From lines to executed blocks.
+#include "tools/gcode/program.hpp"
+
+#include <fmt/format.h>
+
+#include "tools/gcode/flow.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+class Runner {
+ public:
+  Runner(LineSource& source, const Dialect& dialect, Sink& sink, const BeforeLine& before_line)
+      : interpreter_(dialect, sink),
+        flow_(source, interpreter_),
+        sink_(sink),
+        before_line_(before_line) {}
+
+  Result<ProgramSummary> run() {
+    SourceLine raw;
+    while (!ended_) {
+      const auto more = flow_.next(raw);
+      if (!more) return tl::unexpected(more.error());
+      if (!*more) break;
+      summary_.lines = raw.number;
+      if (before_line_ && !before_line_(raw.number, interpreter_)) return summary_;
+      CHAINTRUE_GCODE_TRY(line(raw));
+    }
+    if (!ended_) {
+      CHAINTRUE_GCODE_TRY(flow_.finish({summary_.lines, 0}));
+      if (opened_by_percent_) {
+        sink_.note({summary_.lines,
+                    "no_closing_percent",
+                    "the file begins with % but does not end with it"});
+      } else {
+        sink_.note({summary_.lines,
+                    "no_program_end",
+                    "the program has neither M2, M30 nor %; LinuxCNC would refuse it"});
+      }
+      CHAINTRUE_GCODE_TRY(sink_.end(summary_.lines, ""));
+    }
+    return summary_;
+  }
+
+ private:
+  Result<void> line(const SourceLine& raw) {
+    const std::size_t first = raw.text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) return {};
+    if (raw.text[first] == '%') return percent(raw);
+    // A DOS end-of-file mark.
+    if (raw.text.substr(first) == "\x1A") return end(raw.number, "");
+    begun_ = true;
+    CHAINTRUE_GCODE_TRY(clean(raw.text, raw.number, line_));
+    block_.clear(raw.number);
+    std::size_t at = 0;
+    if (peek(at) == '/') {
+      if (interpreter_.dialect().skip_deletable_blocks) return {};
+      ++at;
+    }
+    if (peek(at) == 'n') CHAINTRUE_GCODE_TRY(line_number(at));
+    if (peek(at) == 'o') return flow_.control(line_, at);
+    ++summary_.blocks;
+    CHAINTRUE_GCODE_TRY(read_words(ValueReader(line_, interpreter_.parameters(), at),
+                                   block_,
+                                   interpreter_.dialect().tools_have_no_diameter));
+    const auto after = interpreter_.execute(block_, line_.comments);
+    if (!after) return tl::unexpected(after.error());
+    return follow(*after);
+  }
+
+  char peek(std::size_t at) const { return at < line_.text.size() ? line_.text[at] : '\0'; }
+
+  Result<void> line_number(std::size_t& at) {
+    const std::size_t start = ++at;
+    while (peek(at) >= '0' && peek(at) <= '9') ++at;
+    if (at == start)
+      return refuse(
+          ProblemName::bad_line_number, line_.place(start), "N needs a whole number, not negative");
+    if (peek(at) == '.') {
+      ++at;
+      while (peek(at) >= '0' && peek(at) <= '9') ++at;
+    }
+    return {};
+  }
+
+  Result<void> percent(const SourceLine& raw) {
+    if (!begun_ && !opened_by_percent_) {
+      opened_by_percent_ = true;
+      return {};
+    }
+    if (!opened_by_percent_) {
+      return refuse(ProblemName::bad_character,
+                    {raw.number, 1},
+                    "a % ends a program only where a % began it");
+    }
+    return end(raw.number, "%");
+  }
+
+  Result<void> end(std::size_t line, std::string_view word) {
+    ended_ = true;
+    return sink_.end(line, word);
+  }
+
+  Result<void> follow(const AfterBlock& after) {
+    switch (after.flow) {
+      case AfterBlock::Flow::next:
+        return {};
+      case AfterBlock::Flow::end:
+        return end(block_.line, after.end_word);
+      case AfterBlock::Flow::call_program:
+        return flow_.call_program(after.program, after.repeats, block_.start());
+      case AfterBlock::Flow::leave_program: {
+        const auto left = flow_.leave_program(block_.start());
+        if (!left) return tl::unexpected(left.error());
+        return {};
+      }
+    }
+    return {};
+  }
+
+  Interpreter interpreter_;
+  Flow flow_;
+  Sink& sink_;
+  const BeforeLine& before_line_;
+  CleanLine line_;
+  Block block_;
+  ProgramSummary summary_;
+  bool begun_ = false;
+  bool opened_by_percent_ = false;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+Result<ProgramSummary> run_program(LineSource& source,
+                                   const Dialect& dialect,
+                                   Sink& sink,
+                                   const BeforeLine& before_line) {
+  return Runner(source, dialect, sink, before_line).run();
+}
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Runs a whole program: lines, `%`, line numbers, block delete, O-words, subroutines, M98; every
+/// event to a sink.
+///
+/// Memory does not grow with the length of the file. Endless loops end at the budget of steps.
+///
+/// \code
+///   auto source = LineSource::from_file("part.nc");
+///   PathCollector path;                                   // any Sink
+///   if (source) {
+///     const auto outcome = run_program(*source, Dialect{}, path);
+///     if (!outcome) fmt::print("{}\n", outcome.error().message());
+///   }
+/// \endcode
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "tools/gcode/events.hpp"
+#include "tools/gcode/interpreter.hpp"
+#include "tools/gcode/line_source.hpp"
+
+namespace chaintrue::gcode {
+
+struct ProgramSummary {
+  std::size_t lines = 0;     ///< of the last line read
+  std::uint64_t blocks = 0;  ///< executed
+};
+
+/// Called before each executed line; false ends the run there (for `explain`).
+using BeforeLine = std::function<bool(std::size_t line, const Interpreter&)>;
+
+[[nodiscard]] Result<ProgramSummary> run_program(LineSource& source,
+                                                 const Dialect& dialect,
+                                                 Sink& sink,
+                                                 const BeforeLine& before_line = {});
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Recursive descent over one line.
+#include "tools/gcode/value_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+namespace chaintrue::gcode {
+namespace {
+
+constexpr int kDeepest = 64;
+/// LinuxCNC's TOLERANCE_EQUAL.
+constexpr double kEqual = 0.0001;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+using Outcome = tl::expected<double, std::string_view>;
+
+tl::unexpected<std::string_view> fails(std::string_view why) { return tl::unexpected(why); }
+
+struct Function {
+  std::string_view name;
+  Outcome (*apply)(double);
+};
+
+Outcome arc_function(double x, double (*apply)(double)) {
+  if (x < -1.0 || x > 1.0) return fails("asin and acos take values from -1 to 1");
+  return apply(x) / kDegree;
+}
+
+/// Longer names before their beginnings.
+constexpr Function kFunctions[] = {
+    {"abs", [](double x) -> Outcome { return std::fabs(x); }},
+    {"acos", [](double x) { return arc_function(x, [](double y) { return std::acos(y); }); }},
+    {"asin", [](double x) { return arc_function(x, [](double y) { return std::asin(y); }); }},
+    {"cos", [](double x) -> Outcome { return std::cos(x * kDegree); }},
+    {"exp", [](double x) -> Outcome { return std::exp(x); }},
+    {"fix", [](double x) -> Outcome { return std::floor(x); }},
+    {"fup", [](double x) -> Outcome { return std::ceil(x); }},
+    {"ln",
+     [](double x) -> Outcome {
+       if (!(x > 0.0)) return fails("ln takes values above zero");
+       return std::log(x);
+     }},
+    {"round", [](double x) -> Outcome { return std::trunc(x + (x < 0.0 ? -0.5 : 0.5)); }},
+    {"sin", [](double x) -> Outcome { return std::sin(x * kDegree); }},
+    {"sqrt",
+     [](double x) -> Outcome {
+       if (x < 0.0) return fails("sqrt takes no value below zero");
+       return std::sqrt(x);
+     }},
+    {"tan", [](double x) -> Outcome { return std::tan(x * kDegree); }},
+};
+
+double truth(bool value) { return value ? 1.0 : 0.0; }
+
+Outcome divide(double a, double b) {
+  if (b == 0.0) return fails("a division by zero");
+  return a / b;
+}
+
+Outcome modulo(double a, double b) {
+  if (b == 0.0) return fails("mod by zero");
+  const double rest = std::fmod(a, b);
+  return rest < 0.0 ? rest + std::fabs(b) : rest;
+}
+
+Outcome power(double a, double b) {
+  if (a < 0.0 && std::floor(b) != b) return fails("a negative number has no such power");
+  return std::pow(a, b);
+}
+
+struct Operator {
+  std::string_view name;
+  int precedence;
+  Outcome (*apply)(double, double);
+};
+
+/// `**` before `*`.
+constexpr Operator kOperators[] = {
+    {"**", 5, power},
+    {"*", 4, [](double a, double b) -> Outcome { return a * b; }},
+    {"/", 4, divide},
+    {"mod", 4, modulo},
+    {"+", 3, [](double a, double b) -> Outcome { return a + b; }},
+    {"-", 3, [](double a, double b) -> Outcome { return a - b; }},
+    {"eq", 2, [](double a, double b) -> Outcome { return truth(std::fabs(a - b) < kEqual); }},
+    {"ne", 2, [](double a, double b) -> Outcome { return truth(std::fabs(a - b) >= kEqual); }},
+    {"gt", 2, [](double a, double b) -> Outcome { return truth(a > b); }},
+    {"ge", 2, [](double a, double b) -> Outcome { return truth(a >= b); }},
+    {"lt", 2, [](double a, double b) -> Outcome { return truth(a < b); }},
+    {"le", 2, [](double a, double b) -> Outcome { return truth(a <= b); }},
+    {"and", 1, [](double a, double b) -> Outcome { return truth(a != 0.0 && b != 0.0); }},
+    {"or", 1, [](double a, double b) -> Outcome { return truth(a != 0.0 || b != 0.0); }},
+    {"xor", 1, [](double a, double b) -> Outcome { return truth((a != 0.0) != (b != 0.0)); }},
+};
+
+const Operator* operator_at(std::string_view text) {
+  for (const Operator& candidate : kOperators) {
+    if (text.starts_with(candidate.name)) return &candidate;
+  }
+  return nullptr;
+}
+
+Result<double> finite(const Outcome& outcome, Place place) {
+  if (!outcome) return refuse(ProblemName::arithmetic, place, std::string(outcome.error()));
+  if (!std::isfinite(*outcome)) {
+    return refuse(ProblemName::arithmetic, place, "the result is too large for a number");
+  }
+  return *outcome;
+}
+
+}  // namespace
+
+/// Counts how deep the reader is, so that no line can exhaust the stack.
+struct ValueReader::Nesting {
+  explicit Nesting(ValueReader& reader) : depth(reader.depth_) { ++depth; }
+  ~Nesting() { --depth; }
+  Nesting(const Nesting&) = delete;
+  Nesting& operator=(const Nesting&) = delete;
+  [[nodiscard]] bool too_deep() const { return depth > kDeepest; }
+  int& depth;
+};
+
+bool ValueReader::accept(std::string_view text) {
+  if (!std::string_view(line_.text).substr(std::min(at_, line_.text.size())).starts_with(text))
+    return false;
+  at_ += text.size();
+  return true;
+}
+
+Result<double> ValueReader::real() {
+  const Nesting nesting(*this);
+  if (nesting.too_deep()) {
+    return refuse(ProblemName::bad_expression, place(), "the expression is nested too deeply");
+  }
+  const char c = peek();
+  if (c == '\0')
+    return refuse(ProblemName::bad_number, place(), "a number is missing at the end of the line");
+  if (c == '#') return parameter();
+  if (c == '[') return bracketed();
+  if (c == '+' || c == '-') {
+    const char after = at_ + 1 < line_.text.size() ? line_.text[at_ + 1] : '\0';
+    if (after != '\0' && !is_digit(after) && after != '.') {
+      ++at_;
+      const auto value = real();
+      if (!value) return value;
+      return c == '-' ? -*value : *value;
+    }
+  }
+  if (c >= 'a' && c <= 'z') return function();
+  return number();
+}
+
+Result<double> ValueReader::number() {
+  const Place start = place();
+  const std::string_view text = line_.text;
+  std::size_t end = at_;
+  while (end < text.size() &&
+         (is_digit(text[end]) || text[end] == '.' || text[end] == '+' || text[end] == '-')) {
+    // A sign stands only in front of a number; inside an expression it is the next operator.
+    if (end > at_ && !is_digit(text[end]) && text[end] != '.') break;
+    ++end;
+  }
+  std::string_view digits = text.substr(at_, end - at_);
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(
+      digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed);
+  if (digits.empty() || error == std::errc::invalid_argument) {
+    return refuse(ProblemName::bad_number, start, "a number was expected here");
+  }
+  if (stop != digits.data() + digits.size()) {
+    return refuse(ProblemName::bad_number, start, fmt::format("'{}' is no number", digits));
+  }
+  if (error != std::errc{} || !std::isfinite(value)) {
+    return refuse(
+        ProblemName::number_out_of_range, start, fmt::format("'{}' is out of range", digits));
+  }
+  at_ = end;
+  return value;
+}
+
+Result<long> ValueReader::integer() {
+  const Place start = place();
+  const auto value = real();
+  if (!value) return tl::unexpected(value.error());
+  const double rounded = std::round(*value);
+  if (std::fabs(*value - rounded) > 0.0001 || std::fabs(rounded) > 1e9) {
+    return refuse(ProblemName::bad_number,
+                  start,
+                  fmt::format("a whole number was expected, found {}", *value));
+  }
+  return static_cast<long>(rounded);
+}
+
+Result<std::string> ValueReader::angle_name() {
+  const Place start = place();
+  if (!accept("<")) return refuse(ProblemName::bad_parameter, start, "a name in <> was expected");
+  const std::size_t close = line_.text.find('>', at_);
+  if (close == std::string::npos || close == at_) {
+    return refuse(ProblemName::bad_parameter, start, "the name is empty or its '>' is missing");
+  }
+  std::string name = line_.text.substr(at_, close - at_);
+  at_ = close + 1;
+  return name;
+}
+
+Result<double> ValueReader::parameter() {
+  const Place start = place();
+  ++at_;
+  if (peek() == '<') {
+    const auto name = angle_name();
+    if (!name) return tl::unexpected(name.error());
+    if (const auto value = parameters_.get(*name)) return *value;
+    return refuse(ProblemName::bad_parameter, start, fmt::format("#<{}> has no value yet", *name));
+  }
+  const auto index = integer();
+  if (!index) return tl::unexpected(index.error());
+  if (*index < 1 || *index >= parameter::kCount) {
+    return refuse(
+        ProblemName::bad_parameter,
+        start,
+        fmt::format(
+            "#{} does not exist: parameters are numbered 1 to {}", *index, parameter::kCount - 1));
+  }
+  return parameters_.get(static_cast<int>(*index));
+}
+
+Result<double> ValueReader::exists() {
+  const Place start = place();
+  if (!accept("[#")) return refuse(ProblemName::bad_expression, start, "exists takes [#<name>]");
+  const auto name = angle_name();
+  if (!name) return tl::unexpected(name.error());
+  if (!accept("]")) return refuse(ProblemName::bad_expression, place(), "']' was expected");
+  return truth(parameters_.get(*name).has_value());
+}
+
+Result<double> ValueReader::function() {
+  const Place start = place();
+  if (accept("exists")) return exists();
+  if (accept("atan")) {
+    const auto y = bracketed();
+    if (!y) return y;
+    if (!accept("/")) return refuse(ProblemName::bad_expression, place(), "atan takes [y]/[x]");
+    const auto x = bracketed();
+    if (!x) return x;
+    return std::atan2(*y, *x) / kDegree;
+  }
+  for (const Function& candidate : kFunctions) {
+    if (!accept(candidate.name)) continue;
+    const auto value = bracketed();
+    if (!value) return value;
+    return finite(candidate.apply(*value), start);
+  }
+  return refuse(ProblemName::bad_number, start, "a number was expected here, not a letter");
+}
+
+Result<double> ValueReader::bracketed() {
+  const Nesting nesting(*this);
+  if (nesting.too_deep()) {
+    return refuse(ProblemName::bad_expression, place(), "the expression is nested too deeply");
+  }
+  if (!accept("[")) return refuse(ProblemName::bad_expression, place(), "'[' was expected");
+  const auto value = operand_chain(1);
+  if (!value) return value;
+  if (!accept("]")) {
+    return refuse(ProblemName::bad_expression, place(), "an operator or ']' was expected");
+  }
+  return value;
+}
+
+Result<double> ValueReader::operand_chain(int lowest_precedence) {
+  auto left = real();
+  while (left) {
+    const Operator* found =
+        operator_at(std::string_view(line_.text).substr(std::min(at_, line_.text.size())));
+    if (found == nullptr || found->precedence < lowest_precedence) return left;
+    const Place start = place();
+    at_ += found->name.size();
+    // Everything that binds tighter belongs to the right operand: the operators group from the
+    // left.
+    const auto right = operand_chain(found->precedence + 1);
+    if (!right) return right;
+    left = finite(found->apply(*left, *right), start);
+  }
+  return left;
+}
+
+}  // namespace chaintrue::gcode

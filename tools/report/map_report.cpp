@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Lays a MapReport out: before and after on the bed, what each step gained, the error to expect,
+/// every point predicted without itself, the settings, what else was found.
+#include "tools/report/map_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace chaintrue::report {
+namespace {
+
+constexpr const char* kBeforeColor = "#d55e00";  // vermilion and blue of Okabe and Ito's palette,
+constexpr const char* kAfterColor = "#0072b2";   // told apart with every colour vision
+constexpr const char* kNeutralColor = "#8a94a3";
+
+/// The longest arrow of a panel spans this share of the bed's width.
+constexpr double kLongestArrow = 0.12;
+
+double length_mm(const ToolVector& vector) { return std::hypot(vector.x_mm, vector.y_mm); }
+
+/// The largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) not above value; 0 for 0.
+double round_down_125(double value) {
+  if (!(value > 0.0)) return 0.0;
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {5.0, 2.0}) {
+    if (value >= step * decade) return step * decade;
+  }
+  return decade;
+}
+
+/// Fixed digits with a true minus sign.
+std::string number(double value, int digits) {
+  const std::string text = fmt::format("{:.{}f}", value, digits);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  if (text.front() != '-') return text;
+  return is_zero ? text.substr(1) : "\u2212" + text.substr(1);
+}
+
+std::string number_or_dash(const std::optional<double>& value, int digits) {
+  return value ? number(*value, digits) : "\u2013";
+}
+
+struct Extent {
+  double x_min_mm, x_max_mm, y_min_mm, y_max_mm;
+};
+
+/// The bed, the points and their arrows, with a margin of 3 % of the bed's width.
+Extent extent_of(const MapReport& report) {
+  if (!(report.bed_width_mm > 0.0) || !(report.bed_height_mm > 0.0)) {
+    throw std::invalid_argument(fmt::format("a report needs a bed with an extent, not {} x {} mm",
+                                            report.bed_width_mm,
+                                            report.bed_height_mm));
+  }
+  Extent extent{-report.bed_width_mm / 2,
+                report.bed_width_mm / 2,
+                -report.bed_height_mm / 2,
+                report.bed_height_mm / 2};
+  const auto include = [&extent](double x_mm, double y_mm) {
+    extent.x_min_mm = std::min(extent.x_min_mm, x_mm);
+    extent.x_max_mm = std::max(extent.x_max_mm, x_mm);
+    extent.y_min_mm = std::min(extent.y_min_mm, y_mm);
+    extent.y_max_mm = std::max(extent.y_max_mm, y_mm);
+  };
+  for (const ReportPoint& point : report.points) include(point.x_mm, point.y_mm);
+  const double margin_mm = 0.03 * report.bed_width_mm;
+  return {extent.x_min_mm - margin_mm,
+          extent.x_max_mm + margin_mm,
+          extent.y_min_mm - margin_mm,
+          extent.y_max_mm + margin_mm};
+}
+
+void add_bed_signals(const MapReport& report, std::vector<Signal>& signals) {
+  const Extent extent = extent_of(report);
+  signals.insert(signals.end(),
+                 {{"x_min_mm", extent.x_min_mm},
+                  {"x_max_mm", extent.x_max_mm},
+                  {"y_min_mm", extent.y_min_mm},
+                  {"y_max_mm", extent.y_max_mm},
+                  {"bed_width_mm", report.bed_width_mm},
+                  {"bed_height_mm", report.bed_height_mm}});
+}
+
+/// How much a panel of arrows magnifies; arrows of zero length magnify once.
+double magnification_of(const MapReport& report, ToolVector ReportPoint::*vector) {
+  double longest_mm = 0.0;
+  for (const ReportPoint& point : report.points) {
+    if (!point.is_bad) longest_mm = std::max(longest_mm, length_mm(point.*vector));
+  }
+  return longest_mm > 0.0 ? round_down_125(kLongestArrow * report.bed_width_mm / longest_mm) : 1.0;
+}
+
+Chart arrows_chart(const MapReport& report,
+                   ToolVector ReportPoint::*vector,
+                   double magnification,
+                   const char* color) {
+  Chart chart{.specification = "bed_arrows"};
+  DataTable arrows{"arrows", {"name", "x_mm", "y_mm", "dx_mm", "dy_mm", "is_bad"}, {}};
+  for (const ReportPoint& point : report.points) {
+    const ToolVector& error = point.*vector;
+    arrows.rows.push_back(
+        {point.name, point.x_mm, point.y_mm, error.x_mm, error.y_mm, point.is_bad});
+  }
+  chart.data = {std::move(arrows)};
+  add_bed_signals(report, chart.signals);
+  const double key_mm = round_down_125(kLongestArrow * report.bed_width_mm / magnification);
+  chart.signals.insert(
+      chart.signals.end(),
+      {{"magnification", magnification},
+       {"key_mm", key_mm},
+       {"key_text", fmt::format("{:g} mm, drawn {:g} times as long", key_mm, magnification)},
+       {"color", std::string(color)}});
+  return chart;
+}
+
+Section before_after_section(const MapReport& report) {
+  Section section{"Before and after", {}};
+  const double coarse = magnification_of(report, &ReportPoint::before);
+  const double fine = magnification_of(report, &ReportPoint::after);
+  Chart before = arrows_chart(report, &ReportPoint::before, coarse, kBeforeColor);
+  before.title = "Before: the machine as stated";
+  before.caption =
+      "Each arrow runs from where the tool should be to where it lands. Hover or tap a point for "
+      "its values.";
+  Chart after = arrows_chart(report, &ReportPoint::after, coarse, kAfterColor);
+  after.title = "After: calibrated, with the surface; same scale";
+  after.caption = "What is left at the points that the map was made from.";
+  section.blocks.push_back(ChartRow{{std::move(before), std::move(after)}});
+  if (fine >= 2.0 * coarse) {
+    Chart close = arrows_chart(report, &ReportPoint::after, fine, kAfterColor);
+    close.title = "After, under the magnifying glass";
+    close.caption = fmt::format(
+        "The same arrows as above right, {:g} times larger. Random directions are noise; "
+        "neighbours that point the same "
+        "way would be something that the map has missed.",
+        fine / coarse);
+    section.blocks.push_back(std::move(close));
+  }
+  return section;
+}
+
+Section steps_section(const MapReport& report) {
+  Section section{"What each step gains", {}};
+  Chart chart{.specification = "error_steps", .title = "Error at the tool, rms"};
+  DataTable steps{"steps", {"what", "rms_mm", "max_text", "color"}, {}};
+  Table table{{{"step"},
+               {"tool rms, mm", true},
+               {"tool worst, mm", true},
+               {"left chain rms, mm", true},
+               {"right chain rms, mm", true},
+               {"found by"}},
+              {},
+              ""};
+  for (std::size_t i = 0; i < report.steps.size(); ++i) {
+    const ErrorStep& step = report.steps[i];
+    const char* color = i == 0 ? kBeforeColor : kAfterColor;
+    if (!step.max_mm) color = kNeutralColor;
+    steps.rows.push_back({step.what,
+                          step.rms_mm,
+                          step.max_mm ? number(*step.max_mm, 2) + " mm" : std::string("\u2013"),
+                          std::string(color)});
+    table.rows.push_back({{step.what,
+                           number(step.rms_mm, 2),
+                           number_or_dash(step.max_mm, 2),
+                           number_or_dash(step.left_rms_mm, 2),
+                           number_or_dash(step.right_rms_mm, 2),
+                           step.note},
+                          false});
+  }
+  chart.data = {std::move(steps)};
+  section.blocks.push_back(std::move(chart));
+  section.blocks.push_back(std::move(table));
+  return section;
+}
+
+Section error_map_section(const MapReport& report) {
+  const ErrorMap& map = *report.error_map;
+  Chart chart{
+      .specification = "error_map",
+      .title = "Expected error over the bed",
+      .caption =
+          "One sigma at the tool, from the readings' noise carried through the fit. Cells with a "
+          "stroke lie "
+          "at or beyond the edge of the measured points: trust them less. Circles are the points."};
+  DataTable cells{"cells", {"x_mm", "y_mm", "error_mm", "coverage"}, {}};
+  for (const ErrorCell& cell : map.cells)
+    cells.rows.push_back({cell.x_mm, cell.y_mm, cell.error_mm, cell.coverage});
+  DataTable points{"points", {"x_mm", "y_mm"}, {}};
+  for (const ReportPoint& point : report.points) points.rows.push_back({point.x_mm, point.y_mm});
+  chart.data = {std::move(cells), std::move(points)};
+  add_bed_signals(report, chart.signals);
+  chart.signals.insert(
+      chart.signals.end(),
+      {{"cell_width_mm", map.cell_width_mm}, {"cell_height_mm", map.cell_height_mm}});
+  Section section{"Where to expect which error", {}};
+  section.blocks.push_back(std::move(chart));
+  return section;
+}
+
+struct HeldOut {
+  double rms_mm = 0.0;
+  double max_mm = 0.0;
+  double max_of_good_mm = 0.0;
+  std::size_t count = 0;
+  bool has_bad = false;
+};
+
+/// Bad points count in max_mm and count only.
+HeldOut held_out_of(const MapReport& report) {
+  HeldOut result;
+  double sum_mm2 = 0.0;
+  std::size_t good = 0;
+  for (const ReportPoint& point : report.points) {
+    if (!point.held_out) continue;
+    const double error_mm = length_mm(*point.held_out);
+    ++result.count;
+    result.max_mm = std::max(result.max_mm, error_mm);
+    if (point.is_bad) {
+      result.has_bad = true;
+      continue;
+    }
+    ++good;
+    sum_mm2 += error_mm * error_mm;
+    result.max_of_good_mm = std::max(result.max_of_good_mm, error_mm);
+  }
+  if (good > 0) result.rms_mm = std::sqrt(sum_mm2 / static_cast<double>(good));
+  if (report.held_out_rms_mm > 0.0) result.rms_mm = report.held_out_rms_mm;
+  return result;
+}
+
+Chart target_chart(const MapReport& report, const HeldOut& held_out) {
+  Chart chart{.specification = "held_out_target",
+              .title = "Every point predicted without itself",
+              .caption =
+                  "Each dot is one point's error at the tool, as a hit on a target. A cloud "
+                  "around the middle is noise; a cloud beside it would be a shift of the "
+                  "whole sheet."};
+  if (held_out.has_bad)
+    chart.caption += " Crosses were set aside; those off the target stand at its rim.";
+  DataTable hits{"hits", {"name", "dx_mm", "dy_mm", "is_bad"}, {}};
+  for (const ReportPoint& point : report.points) {
+    if (point.held_out)
+      hits.rows.push_back({point.name, point.held_out->x_mm, point.held_out->y_mm, point.is_bad});
+  }
+  DataTable rings{"rings", {"radius_mm", "label", "is_dashed"}, {}};
+  rings.rows.push_back({held_out.rms_mm, fmt::format("rms {:.2f} mm", held_out.rms_mm), false});
+  chart.data = {std::move(hits), std::move(rings)};
+  chart.signals = {{"reach_mm", 1.15 * std::max({held_out.max_of_good_mm, held_out.rms_mm, 1e-3})}};
+  return chart;
+}
+
+Chart points_chart(const MapReport& report, const HeldOut& held_out) {
+  Chart chart{.specification = "held_out_points",
+              .title = "Point by point",
+              .caption = "In the order of the file."};
+  if (held_out.has_bad) chart.caption += " Points drawn as a cross were set aside by the fit.";
+  DataTable points{
+      "points", {"number", "name", "x_mm", "y_mm", "error_mm", "sigma_mm", "is_bad"}, {}};
+  for (std::size_t i = 0; i < report.points.size(); ++i) {
+    const ReportPoint& point = report.points[i];
+    if (!point.held_out) continue;
+    points.rows.push_back({static_cast<double>(i + 1),
+                           point.name,
+                           point.x_mm,
+                           point.y_mm,
+                           length_mm(*point.held_out),
+                           point.held_out_sigma_mm,
+                           point.is_bad});
+  }
+  DataTable lines{"lines", {"value_mm", "label", "is_dashed", "is_label_below"}, {}};
+  lines.rows.push_back({held_out.rms_mm,
+                        fmt::format("rms {:.2f} mm", held_out.rms_mm),
+                        false,
+                        held_out.rms_mm < report.noise_floor_mm});
+  if (report.noise_floor_mm > 0.0) {
+    lines.rows.push_back({report.noise_floor_mm,
+                          fmt::format("noise of the readings {:.2f} mm", report.noise_floor_mm),
+                          true,
+                          report.noise_floor_mm <= held_out.rms_mm});
+  }
+  chart.data = {std::move(points), std::move(lines)};
+  chart.signals = {
+      {"top_mm", 1.08 * std::max({held_out.max_mm, held_out.rms_mm, report.noise_floor_mm, 1e-3})}};
+  return chart;
+}
+
+Section settings_section(const MapReport& report) {
+  Table table{{{"setting"},
+               {"stated", true},
+               {"calibrated", true},
+               {"\u00b1 1 sigma", true},
+               {"change", true},
+               {"unit"},
+               {"remark"}},
+              {},
+              ""};
+  for (const ReportSetting& setting : report.settings) {
+    const int digits = setting.unit == "mm" ? 2 : 3;
+    std::string remark;
+    if (setting.is_off) {
+      remark = fmt::format(
+          "off: further from what was stated (\u00b1 {}) than chance explains; check it",
+          number(setting.stated_sigma, setting.unit == "mm" ? 1 : 3));
+    }
+    table.rows.push_back({{setting.name,
+                           number(setting.stated, digits),
+                           number(setting.calibrated, digits),
+                           number(setting.sigma, digits),
+                           number(setting.calibrated - setting.stated, digits),
+                           setting.unit,
+                           std::move(remark)},
+                          setting.is_off});
+  }
+  Section section{"The machine's settings", {}};
+  section.blocks.push_back(std::move(table));
+  return section;
+}
+
+}  // namespace
+
+Page page_of(const MapReport& report) {
+  Page page{.title = fmt::format("Compensation map: {}", report.name),
+            .subtitle = report.machine_name,
+            .verdict = report.verdict,
+            .tone = report.tone,
+            .advice = report.advice,
+            .figures = report.figures,
+            .not_proved = report.not_proved,
+            .provenance = report.provenance};
+  if (!report.points.empty()) page.sections.push_back(before_after_section(report));
+  if (!report.steps.empty()) page.sections.push_back(steps_section(report));
+  if (report.error_map) page.sections.push_back(error_map_section(report));
+  if (const HeldOut held_out = held_out_of(report); held_out.count > 0) {
+    Section section{"How well it predicts", {}};
+    section.blocks.push_back(
+        ChartRow{{target_chart(report, held_out), points_chart(report, held_out)}});
+    page.sections.push_back(std::move(section));
+  }
+  if (!report.settings.empty()) page.sections.push_back(settings_section(report));
+  if (!report.findings.empty()) {
+    Section section{"What else was found", {}};
+    for (const std::string& finding : report.findings) section.blocks.push_back(Paragraph{finding});
+    page.sections.push_back(std::move(section));
+  }
+  return page;
+}
+
+}  // namespace chaintrue::report

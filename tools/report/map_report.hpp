@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a compensation map's report says, as plain data: the caller fills it, page_of() lays it
+/// out.
+///
+/// All vectors are where the tool lands minus where it should, at the tool, in mm, x right and y
+/// up. "Held out" means that the point was predicted by a map made without it.
+///
+/// \code
+///   MapReport report{.name = "workshop grid", .verdict = "Expect 0.21 mm at the tool."};
+///   report.points.push_back({.name = "point 1", .x_mm = -1200, .y_mm = -600, .before = {1.9, 0.4},
+///   .after = {0.1, 0.0}, .held_out = {{0.2, 0.1}}}); write_file("report.html",
+///   render(page_of(report)));
+/// \endcode
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/report/page.hpp"
+
+namespace chaintrue::report {
+
+/// An error at the tool.
+struct ToolVector {
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+};
+
+struct ReportPoint {
+  std::string name{};  ///< "point 7"
+  /// Where the tool truly stood, in the frame of the page.
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+  /// With the machine as stated.
+  ToolVector before{};
+  /// With the machine calibrated and the residual surface added.
+  ToolVector after{};
+  std::optional<ToolVector> held_out{};
+  /// One sigma expected at the tool for this held-out prediction; 0: not known.
+  double held_out_sigma_mm = 0.0;
+  /// The fit gave this point little or no weight.
+  bool is_bad = false;
+};
+
+/// Expected error (one sigma at the tool) of one cell of a regular raster.
+struct ErrorCell {
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+  double error_mm = 0.0;
+  std::string coverage{};  ///< inside, edge or extrapolated; cells outside are left out
+};
+struct ErrorMap {
+  double cell_width_mm = 0.0;
+  double cell_height_mm = 0.0;
+  std::vector<ErrorCell> cells{};
+};
+
+/// One setting as the person stated it and as the points calibrate it.
+struct ReportSetting {
+  std::string name{};  ///< in words: "left motor, x"
+  std::string unit{};  ///< "mm" or "mrad"
+  double stated = 0.0;
+  double calibrated = 0.0;
+  double sigma = 0.0;
+  /// One sigma of what was stated.
+  double stated_sigma = 0.0;
+  /// Further from what was stated than its uncertainty allows.
+  bool is_off = false;
+};
+
+/// One step on the way to the map, with the error at the tool that is left there.
+struct ErrorStep {
+  std::string what{};  ///< "machine as stated", "machine calibrated", "with the surface", "noise of
+                       ///< the readings"
+  double rms_mm = 0.0;
+  std::optional<double> max_mm{};
+  /// Rms on each chain, where that is known.
+  std::optional<double> left_rms_mm{};
+  std::optional<double> right_rms_mm{};
+  std::string note{};  ///< how it was found: "leave-one-out on 28 points"
+};
+
+struct MapReport {
+  std::string name{};
+  std::string machine_name{};
+  double bed_width_mm = 0.0;
+  double bed_height_mm = 0.0;
+
+  std::string verdict{};
+  Tone tone = Tone::good;
+  std::vector<std::string> advice{};
+  std::string not_proved{};
+
+  std::vector<Figure> figures{};
+  /// In the order of the work; the last may be the noise floor.
+  std::vector<ErrorStep> steps{};
+  std::vector<ReportPoint> points{};
+  std::optional<ErrorMap> error_map{};
+  /// Rms of the held-out errors, drawn as a line and a ring; 0: computed from the points.
+  double held_out_rms_mm = 0.0;
+  /// What the readings' own noise amounts to at the tool; 0: not drawn.
+  double noise_floor_mm = 0.0;
+  std::vector<ReportSetting> settings{};
+  /// More findings, one paragraph each: the mirror test, what was assumed, which points were bad.
+  std::vector<std::string> findings{};
+  std::string provenance{};
+};
+
+/// Lays the report out as a page; sections without data are left out.
+/// \throws std::invalid_argument where the bed has no extent, or a number is not finite.
+[[nodiscard]] Page page_of(const MapReport& report);
+
+}  // namespace chaintrue::report

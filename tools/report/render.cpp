@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Writes a Page as HTML. Order of the file: verdict, sections, footer, then data, specifications,
+/// Vega and the script.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "tools/report/embedded.hpp"
+#include "tools/report/page.hpp"
+
+namespace chaintrue::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class... Handlers>
+struct Overloaded : Handlers... {
+  using Handlers::operator()...;
+};
+template <class... Handlers>
+Overloaded(Handlers...) -> Overloaded<Handlers...>;
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// Inside a script element no text may look like its end or like a comment.
+std::string script_json(const Json& json) {
+  std::string out;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    if (c == '<') {
+      out += "\\u003c";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+Json json_of(const Value& value, std::string_view where) {
+  return std::visit(
+      [&](const auto& held) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(held)>, double>) {
+          if (!std::isfinite(held)) {
+            throw std::invalid_argument(
+                fmt::format("{} is {}, which no chart can draw", where, held));
+          }
+        }
+        return held;
+      },
+      value);
+}
+
+Json rows_of(const DataTable& table) {
+  Json rows = Json::array();
+  for (const auto& row : table.rows) {
+    if (row.size() != table.fields.size()) {
+      throw std::invalid_argument(
+          fmt::format("data table \"{}\": a row has {} values for {} fields",
+                      table.name,
+                      row.size(),
+                      table.fields.size()));
+    }
+    Json object = Json::object();
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      object[table.fields[i]] = json_of(row[i], table.fields[i]);
+    }
+    rows.push_back(std::move(object));
+  }
+  return rows;
+}
+
+class Writer {
+ public:
+  std::string write(const Page& page) {
+    head(page);
+    verdict(page);
+    if (!page.figures.empty()) write_figures(Figures{page.figures});
+    for (const Section& section : page.sections) write_section(section);
+    if (!page.provenance.empty()) add("<footer><p>{}</p></footer>\n", escaped(page.provenance));
+    add("</main>\n<div id=\"tip\" role=\"tooltip\"></div>\n");
+    scripts();
+    return std::move(html_);
+  }
+
+ private:
+  template <class... Args>
+  void add(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(html_), format, std::forward<Args>(args)...);
+  }
+
+  void head(const Page& page) {
+    add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n",
+        escaped(page.title),
+        embedded_text("asset", "page.css"));
+    add("<body>\n<main>\n<header>\n<h1>{}</h1>\n", escaped(page.title));
+    if (!page.subtitle.empty()) add("<p class=\"subtitle\">{}</p>\n", escaped(page.subtitle));
+    add("</header>\n");
+  }
+
+  void verdict(const Page& page) {
+    static constexpr std::string_view kToneClass[] = {"good", "caution", "bad"};
+    add("<div class=\"verdict {}\">\n<p class=\"sentence\">{}</p>\n",
+        kToneClass[static_cast<std::size_t>(page.tone)],
+        escaped(page.verdict));
+    if (!page.advice.empty()) {
+      add("<ul>\n");
+      for (const std::string& line : page.advice) add("<li>{}</li>\n", escaped(line));
+      add("</ul>\n");
+    }
+    if (!page.not_proved.empty()) add("<p class=\"not-proved\">{}</p>\n", escaped(page.not_proved));
+    add("</div>\n<noscript><p>The charts need JavaScript; sentences and tables do "
+        "not.</p></noscript>\n");
+  }
+
+  void write_section(const Section& section) {
+    add("<section>\n<h2>{}</h2>\n", escaped(section.title));
+    for (const Block& block : section.blocks) {
+      std::visit(Overloaded{
+                     [&](const Paragraph& text) { add("<p>{}</p>\n", escaped(text.text)); },
+                     [&](const Figures& figures) { write_figures(figures); },
+                     [&](const Table& table) { write_table(table); },
+                     [&](const Chart& chart) { write_chart(chart); },
+                     [&](const ChartRow& row) {
+                       add("<div class=\"chart-row\">\n");
+                       for (const Chart& chart : row.charts) write_chart(chart);
+                       add("</div>\n");
+                     },
+                 },
+                 block);
+    }
+    add("</section>\n");
+  }
+
+  void write_figures(const Figures& figures) {
+    add("<div class=\"figures\">\n");
+    for (const Figure& figure : figures.figures) {
+      add("<div><b>{}</b><span>{}</span></div>\n", escaped(figure.value), escaped(figure.label));
+    }
+    add("</div>\n");
+  }
+
+  void write_table(const Table& table) {
+    add("<div class=\"table-box\"><table>\n");
+    if (!table.caption.empty()) add("<caption>{}</caption>\n", escaped(table.caption));
+    add("<thead><tr>");
+    for (const Column& column : table.columns) {
+      add("<th{}>{}</th>", column.is_number ? " class=\"number\"" : "", escaped(column.heading));
+    }
+    add("</tr></thead>\n<tbody>\n");
+    for (const Row& row : table.rows) {
+      if (row.cells.size() != table.columns.size()) {
+        throw std::invalid_argument(fmt::format(
+            "a table row has {} cells for {} columns", row.cells.size(), table.columns.size()));
+      }
+      add("<tr{}>", row.is_flagged ? " class=\"flagged\"" : "");
+      for (std::size_t i = 0; i < row.cells.size(); ++i) {
+        add("<td{}>{}</td>",
+            table.columns[i].is_number ? " class=\"number\"" : "",
+            escaped(row.cells[i]));
+      }
+      add("</tr>\n");
+    }
+    add("</tbody>\n</table></div>\n");
+  }
+
+  void write_chart(const Chart& chart) {
+    const std::string id = fmt::format("chart-{}", charts_.size() + 1);
+    specifications_[chart.specification] = Json::parse(embedded_text("chart", chart.specification));
+    Json data = Json::object();
+    for (const DataTable& table : chart.data) data[table.name] = rows_of(table);
+    Json signals = Json::object();
+    for (const Signal& signal : chart.signals)
+      signals[signal.name] = json_of(signal.value, signal.name);
+    charts_.push_back({{"id", id},
+                       {"spec", chart.specification},
+                       {"data", std::move(data)},
+                       {"signals", std::move(signals)}});
+    add("<figure class=\"chart\" data-spec=\"{}\">\n<h3>{}</h3>\n<div class=\"canvas\" "
+        "id=\"{}\"></div>\n",
+        escaped(chart.specification),
+        escaped(chart.title),
+        id);
+    if (!chart.caption.empty()) add("<figcaption>{}</figcaption>\n", escaped(chart.caption));
+    add("</figure>\n");
+  }
+
+  void scripts() {
+    if (!charts_.empty()) {
+      add("<script type=\"application/json\" id=\"data\">{}</script>\n",
+          script_json(Json{{"charts", charts_}}));
+      add("<script type=\"application/json\" id=\"specifications\">{}</script>\n",
+          script_json(Json(specifications_)));
+      add("<script>\n/*\n{}*/\n", embedded_text("asset", "licences.txt"));
+      add("const chaintrueModules = {{}};\n");
+      for (const EmbeddedFile& module : embedded_files("vega")) write_module(module);
+      add("{}</script>\n", embedded_text("asset", "page.js"));
+    }
+    add("</body>\n</html>\n");
+  }
+
+  /// Debian's modules expect require(); each gets the ones before it.
+  void write_module(const EmbeddedFile& module) {
+    html_ +=
+        "(() => {\nconst module = {exports: {}}, exports = module.exports;\n"
+        "const require = (name) => chaintrueModules[name === \"vega-selections\" ? "
+        "\"vega-selection\" : name];\n";
+    html_ += module.text;
+    add("\nchaintrueModules[\"{}\"] = module.exports;\n}})();\n", module.name);
+  }
+
+  std::string html_;
+  Json charts_ = Json::array();
+  std::map<std::string, Json> specifications_;
+};
+
+}  // namespace
+
+std::string render(const Page& page) { return Writer().write(page); }
+
+}  // namespace chaintrue::report
