@@ -114,9 +114,10 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"{\"a\": 1,\n \"b\" 2}", "file: line 2, column 6: found 2, expected JSON: ':' here"},
         Broken{"{\"a\": 1} x", "line 1, column 10: found x, expected JSON"},
         Broken{"{'a': 1}",
-               "line 1, column 2: found ', expected JSON: string literal or '}' here; texts stand"},
+               "line 1, column 2: found ', expected JSON: string literal here; texts stand"},
         Broken{"[1, 2,]",
-               "line 1, column 7: found ], expected JSON; the comma before it is one too many"},
+               "line 1, column 7: found ], expected JSON: '[', '{', or a literal here; the comma "
+               "before it is one too many"},
         Broken{"{\"a\": \"b\nc\"}",
                "line 1, column 9: found  , expected JSON: in a text, control character"},
         Broken{"{\"a\": \"\xFF\"}", "expected JSON: in a text, ill-formed UTF-8 byte"},
