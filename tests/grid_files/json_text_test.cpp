@@ -241,7 +241,8 @@ TEST(JsonReader, AFormatIsATableOfItsFields) {
   EXPECT_THAT(holes_message(good), HasSubstr(R"("weights": {"a": 0.5})"));
   EXPECT_EQ(
       holes_message(head + R"("holes": [{"name": "a", "x_mm": 1}, {"name": "a", "x_mm": 2}]})"),
-      R"(holes.json: /holes: found [{"name": "a", "x_mm": 1}, {"name": "a", "x_mm": 2}], expected names that differ)");
+      R"(holes.json: /holes: found [{"name": "a", "x_mm": 1}, {"name": "a", "x_mm": 2}], )"
+      R"(expected names that differ)");
   const std::string bad = holes_message(
       head + R"("holes": [{"name": 1, "x": 1}], "weights": {"b": 2}, "matrix": [[0, "1"]]})");
   EXPECT_THAT(bad, HasSubstr("/holes/0/x: found 1, expected \"x_mm\"? This key is unknown"));
