@@ -68,13 +68,13 @@ struct ThetaNode {
 };
 
 // Walks one or two components of theta outward from the optimum while the posterior is worth e^-4
-// of its peak. For a smoothing parameter the prior is flat in lambda^(-1/2), the standard deviation
-// of the field (Gelman 2006): proper where V runs out flat towards lambda -> infinity, and there
-// the field stays as uncertain as the data leave it. For log sigma2 the prior is flat.
+// of its peak.
 class PosteriorGrid {
  public:
-  PosteriorGrid(const reml::Marginal& marginal, Eigen::VectorXd centre, Eigen::VectorXd sigma)
-      : marginal_(marginal), centre_(std::move(centre)), sigma_(std::move(sigma)) {}
+  PosteriorGrid(const reml::Marginal& marginal,
+                const reml::SearchResult& found,
+                Eigen::VectorXd sigma)
+      : marginal_(marginal), found_(found), centre_(found.theta), sigma_(std::move(sigma)) {}
 
   std::vector<ThetaNode> over(Eigen::Index i) {
     peak_ = -std::numeric_limits<double>::infinity();
@@ -92,6 +92,9 @@ class PosteriorGrid {
       Eigen::VectorXd from = centre_;
       for (int j = direction < 0.0 ? 0 : 1; j < kLongest; ++j) {
         from(outer) = centre_(outer) + direction * step * j;
+        if (from(outer) < found_.low(outer) || from(outer) > found_.high(outer)) {
+          break;
+        }
         const Best best = walk(i, from);
         if (!(best.log_weight > peak_ - kNegligible)) {
           break;
@@ -110,21 +113,33 @@ class PosteriorGrid {
     double log_weight;
   };
 
+  // The averaging always has the prior, so that it is proper; the fit has it where it was asked
+  // for.
+  [[nodiscard]] double missing_prior(const Eigen::VectorXd& theta) const {
+    double sum = 0.0;
+    for (Eigen::Index i = 0; marginal_.prior() == SmoothingPrior::kNone && i < theta.size(); ++i) {
+      sum += marginal_.flat_slope(i) * theta(i);
+    }
+    return sum;
+  }
+
   [[nodiscard]] double step_of(Eigen::Index i) const { return std::clamp(sigma_(i), 0.2, 1.0); }
 
   Best walk(Eigen::Index i, const Eigen::VectorXd& from) {
     const double step = step_of(i);
-    const double slope = i < marginal_.penalties() ? -0.5 : 0.0;
     Best best{from(i), -std::numeric_limits<double>::infinity()};
     for (const double direction : {-1.0, 1.0}) {
       for (int j = direction < 0.0 ? 0 : 1; j < kLongest; ++j) {
         Eigen::VectorXd theta = from;
         theta(i) += direction * step * j;
+        if (theta(i) < found_.low(i) || theta(i) > found_.high(i)) {
+          break;
+        }
         const auto state = marginal_.evaluate(theta, reml::Order::kValue);
         if (!state) {
           break;
         }
-        const double w = -0.5 * state->value + slope * theta(i);
+        const double w = -0.5 * (state->value + missing_prior(theta));
         if (w > best.log_weight) {
           best = {theta(i), w};
         }
@@ -154,39 +169,44 @@ class PosteriorGrid {
   }
 
   const reml::Marginal& marginal_;
+  const reml::SearchResult& found_;
   Eigen::VectorXd centre_;
   Eigen::VectorXd sigma_;
   double peak_ = 0.0;
   std::vector<ThetaNode> nodes_;
 };
 
-// The posterior covariance of b about the fit with theta averaged over rather than fixed, in
-// working coordinates: E[A^-1] + E[(b - fit)(b - fit)']. What each lambda adds is added up; where
-// sigma2 is free each lambda is averaged together with it, and sigma2's own share is counted once.
+// The posterior covariance of b about the fit with theta averaged over rather than fixed: E[A^-1] +
+// E[(b - fit)(b - fit)']. What each lambda adds to A^-1 is added up; where sigma2 is free each
+// lambda is averaged together with it.
 Eigen::MatrixXd averaged_covariance(const reml::Marginal& marginal,
                                     const reml::SearchResult& found,
-                                    const Eigen::VectorXd& sigma,
-                                    const Eigen::MatrixXd& plain) {
-  const Eigen::VectorXd fit =
-      marginal.evaluate(found.theta, reml::Order::kValue).value().coefficients;
-  Eigen::MatrixXd total = plain;
-  const auto add = [&](const std::vector<ThetaNode>& nodes, double times) {
+                                    const Eigen::VectorXd& sigma) {
+  reml::WorkingCovariance sum;
+  const Eigen::Index k = marginal.penalties();
+  const Eigen::VectorXd fit = marginal.add_inverse(
+      found.theta, 1.0 - static_cast<double>(marginal.sigma2_free() && k == 0 ? 1 : k), sum);
+  std::vector<Eigen::VectorXd> shifts;
+  const auto add = [&](const std::vector<ThetaNode>& nodes) {
     for (const ThetaNode& node : nodes) {
-      const Eigen::VectorXd shift =
-          marginal.evaluate(node.theta, reml::Order::kValue).value().coefficients - fit;
-      total += (times * node.weight) * (marginal.inverse(node.theta) - plain);
-      total.noalias() += (times * node.weight) * shift * shift.transpose();
+      const Eigen::VectorXd b = marginal.add_inverse(node.theta, node.weight, sum);
+      shifts.emplace_back(std::sqrt(node.weight) * (b - fit));
     }
   };
-  PosteriorGrid grid(marginal, found.theta, sigma);
-  const Eigen::Index k = marginal.penalties();
+  PosteriorGrid grid(marginal, found, sigma);
   for (Eigen::Index i = 0; i < k; ++i) {
-    add(marginal.sigma2_free() ? grid.over(i, k) : grid.over(i), 1.0);
+    add(marginal.sigma2_free() ? grid.over(i, k) : grid.over(i));
   }
-  if (marginal.sigma2_free() && k != 1) {
-    add(grid.over(k), 1.0 - static_cast<double>(k));
+  if (marginal.sigma2_free() && k == 0) {
+    add(grid.over(k));
   }
-  return total;
+  Eigen::MatrixXd shift_columns(fit.size(), static_cast<Eigen::Index>(shifts.size()));
+  for (std::size_t j = 0; j < shifts.size(); ++j) {
+    shift_columns.col(static_cast<Eigen::Index>(j)) = shifts[j];
+  }
+  // Weights below zero on the plain part may leave a rounding below zero where nothing was added.
+  sum.diagonal = sum.diagonal.cwiseMax(0.0);
+  return marginal.structure().covariance_to_columns(sum, shift_columns);
 }
 
 PenalisedFit assemble(const PenalisedProblem& problem,
@@ -198,8 +218,9 @@ PenalisedFit assemble(const PenalisedProblem& problem,
   const Eigen::Index k = marginal.penalties();
   PenalisedFit fit;
   fit.coefficients = structure.to_columns(state.coefficients);
-  const Eigen::MatrixXd inverse = marginal.inverse(found.theta);
-  fit.covariance = structure.covariance_to_columns(inverse);
+  reml::WorkingCovariance inverse;
+  marginal.add_inverse(found.theta, 1.0, inverse);
+  fit.covariance = structure.covariance_to_columns(inverse, Eigen::MatrixXd(problem.columns(), 0));
   fit.lambda = found.theta.head(k).array().exp();
   fit.sigma2 = marginal.sigma2(found.theta);
   const Eigen::VectorXd& b = fit.coefficients;
@@ -218,10 +239,9 @@ PenalisedFit assemble(const PenalisedProblem& problem,
     }
   }
   fit.log_lambda_sigma = sigma.head(k);
-  fit.corrected_covariance =
-      options.correct_covariance
-          ? structure.covariance_to_columns(averaged_covariance(marginal, found, sigma, inverse))
-          : fit.covariance;
+  fit.corrected_covariance = options.correct_covariance && marginal.unknowns() > 0
+                                 ? averaged_covariance(marginal, found, sigma)
+                                 : fit.covariance;
   return fit;
 }
 
@@ -270,7 +290,7 @@ void PenalisedProblem::add_sparse_row(const std::vector<Eigen::Index>& indices,
 tl::expected<PenalisedFit, FitRefusal> fit_penalised(const PenalisedProblem& problem,
                                                      const FitOptions& options) {
   check(problem);
-  const reml::Marginal marginal(problem, std::nullopt);
+  const reml::Marginal marginal(problem, std::nullopt, options.prior);
   if (!marginal.positive()) {
     return rank_deficient();
   }
@@ -300,6 +320,8 @@ tl::expected<PenalisedFit, FitRefusal> fit_with_smoothing(
   const reml::Marginal marginal(problem, sigma2);
   reml::SearchResult fixed;
   fixed.theta = lambda.array().log();
+  fixed.low = fixed.theta;
+  fixed.high = fixed.theta;
   fixed.ends.assign(problem.penalties.size(), SmoothingEnd::kInside);
   if (!marginal.positive() || !marginal.evaluate(fixed.theta, reml::Order::kValue)) {
     return rank_deficient();

@@ -138,6 +138,8 @@ double largest_free_gradient(const Eigen::VectorXd& gradient, const std::vector<
 tl::expected<SearchResult, FitFailure> search(const Marginal& marginal, int maximum_iterations) {
   const Limits limits = limits_of(marginal);
   SearchResult result;
+  result.low = limits.low;
+  result.high = limits.high;
   Eigen::VectorXd balance = 0.5 * (limits.low + limits.high);
   if (marginal.sigma2_free()) {
     balance(balance.size() - 1) = 0.0;

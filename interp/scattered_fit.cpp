@@ -2,6 +2,7 @@
 #include "interp/scattered_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -66,7 +67,7 @@ void choose_intervals(const Rectangle& box, std::size_t points, ScatteredOptions
   if (options.intervals_x > 0 && options.intervals_y > 0) {
     return;
   }
-  const double cells = std::clamp(static_cast<double>(points) / 4.0, 32.0, 72.0);
+  const double cells = std::clamp(static_cast<double>(points) / 8.0, 32.0, 50.0);
   const double ratio = std::clamp(box.width() / box.height(), 0.125, 8.0);
   options.intervals_x = std::max(2, static_cast<int>(std::lround(std::sqrt(cells * ratio))));
   options.intervals_y = std::max(2, static_cast<int>(std::lround(std::sqrt(cells / ratio))));
@@ -92,7 +93,7 @@ class ScatteredFitter {
         basis_(*options.rectangle, options.intervals_x, options.intervals_y),
         weight_(points.size(), 1.0) {
     for (const ScatteredPoint& p : points) {
-      rows_.push_back(basis_.at(p.x, p.y));
+      rows_.push_back(split(basis_.at(p.x, p.y)));
       mean_ += p.z / static_cast<double>(points.size());
     }
     penalty_ = basis_.thin_plate_penalty();
@@ -104,7 +105,8 @@ class ScatteredFitter {
     constexpr int kMostRounds = 5;
     tl::expected<PenalisedFit, FitRefusal> fit = solve();
     for (int round = 1; fit && options_.robust && round < kMostRounds; ++round) {
-      if (!reweigh(*fit)) {
+      leave_out_each(*fit);
+      if (!reweigh()) {
         break;
       }
       fit = solve();
@@ -115,6 +117,7 @@ class ScatteredFitter {
                         : ScatteredRefusal::kNotConverged,
                     fit.error().sentence);
     }
+    leave_out_each(*fit);
     ScatteredSurface surface(basis_, std::move(*fit));
     judge(surface);
     const LeftOutErrors& e = surface.left_out_;
@@ -139,62 +142,84 @@ class ScatteredFitter {
     PenalisedProblem problem(basis_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double scale = weight_[i] / (points_[i].sigma * points_[i].sigma);
-      const BasisSupport& row = rows_[i];
+      const Row& row = rows_[i];
       const double z = points_[i].z - mean_;
-      for (std::size_t a = 0; a < 16; ++a) {
-        const double scaled = scale * row.value[a];
-        double* column = problem.gram.col(row.index[a]).data();
-        for (std::size_t b = 0; b < 16; ++b) {
-          column[row.index[b]] += scaled * row.value[b];
+      const Eigen::Matrix4d outer = row.x * row.x.transpose();
+      for (int a = 0; a < 4; ++a) {
+        for (int b = 0; b <= a; ++b) {
+          problem.gram.block<4, 4>(row.first[static_cast<std::size_t>(a)],
+                                   row.first[static_cast<std::size_t>(b)]) +=
+              (scale * row.y(a) * row.y(b)) * outer;
         }
-        problem.moment(row.index[a]) += scaled * z;
+        problem.moment.segment<4>(row.first[static_cast<std::size_t>(a)]) +=
+            (scale * row.y(a) * z) * row.x;
       }
       problem.response_square += scale * z * z;
     }
+    problem.gram.triangularView<Eigen::StrictlyUpper>() = problem.gram.transpose();
     problem.rows = static_cast<Eigen::Index>(points_.size());
     problem.penalties.push_back({0, penalty_, basis_.thin_plate_rank()});
     problem.noise = options_.noise;
     return fit_penalised(problem);
   }
 
-  // Value and b' C b of the fit at point i.
-  struct Predicted {
-    double residual;
-    double spread;
+  // A point's row of the design as what it is made of: four runs of four columns.
+  struct Row {
+    std::array<Eigen::Index, 4> first;
+    Eigen::Vector4d x;
+    Eigen::Vector4d y;
   };
-  [[nodiscard]] Predicted predict(const PenalisedFit& fit, std::size_t i) const {
-    const BasisSupport& row = rows_[i];
-    Predicted result{points_[i].z - mean_, 0.0};
-    for (std::size_t a = 0; a < 16; ++a) {
-      result.residual -= fit.coefficients(row.index[a]) * row.value[a];
-      const double* column = fit.covariance.col(row.index[a]).data();
-      double sum = 0.0;
-      for (std::size_t b = 0; b < 16; ++b) {
-        sum += column[row.index[b]] * row.value[b];
-      }
-      result.spread += row.value[a] * sum;
+  static Row split(const BasisSupport& support) {
+    Row row{{support.index[0], support.index[4], support.index[8], support.index[12]}, {}, {}};
+    // The functions of one axis sum to one.
+    for (std::size_t j = 0; j < 4; ++j) {
+      row.y(static_cast<int>(j)) = support.value[4 * j] + support.value[4 * j + 1] +
+                                   support.value[4 * j + 2] + support.value[4 * j + 3];
+      row.x(static_cast<int>(j)) =
+          support.value[j] + support.value[j + 4] + support.value[j + 8] + support.value[j + 12];
     }
-    return result;
+    return row;
   }
 
+  // e_i, its sigma from the noise as fitted, and r_i.
   struct LeftOut {
-    double error;  // e_i
-    double sigma;  // of e_i, from the noise as fitted
+    double error;
+    double sigma;
+    double residual;
   };
   [[nodiscard]] LeftOut left_out(const PenalisedFit& fit, std::size_t i) const {
-    const Predicted p = predict(fit, i);
+    const Row& row = rows_[i];
+    double residual = points_[i].z - mean_;
+    double spread = 0.0;  // b' C b
+    for (int a = 0; a < 4; ++a) {
+      residual -=
+          row.y(a) * row.x.dot(fit.coefficients.segment<4>(row.first[static_cast<std::size_t>(a)]));
+      for (int b = 0; b <= a; ++b) {
+        const double part =
+            row.x.dot(fit.covariance.block<4, 4>(row.first[static_cast<std::size_t>(a)],
+                                                 row.first[static_cast<std::size_t>(b)]) *
+                      row.x);
+        spread += (a == b ? 1.0 : 2.0) * row.y(a) * row.y(b) * part;
+      }
+    }
     const double variance = fit.sigma2 * points_[i].sigma * points_[i].sigma;
     // A point that alone holds the surface in place cannot be judged by the others.
-    const double rest = std::max(1e-9, 1.0 - weight_[i] * p.spread / variance);
-    return {p.residual / rest, std::sqrt(variance + p.spread / rest)};
+    const double rest = std::max(1e-9, 1.0 - weight_[i] * spread / variance);
+    return {residual / rest, std::sqrt(variance + spread / rest), residual};
+  }
+
+  void leave_out_each(const PenalisedFit& fit) {
+    left_out_.clear();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      left_out_.push_back(left_out(fit, i));
+    }
   }
 
   // The standardized errors; where the noise is unknown their scale is the median's, which a third
   // of bad points does not move.
-  [[nodiscard]] std::vector<double> standardized(const PenalisedFit& fit) const {
+  [[nodiscard]] std::vector<double> standardized() const {
     std::vector<double> t;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const LeftOut e = left_out(fit, i);
+    for (const LeftOut& e : left_out_) {
       t.push_back(e.error / e.sigma);
     }
     if (options_.noise.knowledge == NoiseKnowledge::kUnknown) {
@@ -208,9 +233,9 @@ class ScatteredFitter {
   }
 
   // Hampel-type weights: full below the limit, then falling as the square. True where one moved.
-  bool reweigh(const PenalisedFit& fit) {
+  bool reweigh() {
     constexpr double kSettled = 0.05;
-    const std::vector<double> t = standardized(fit);
+    const std::vector<double> t = standardized();
     bool moved = false;
     for (std::size_t i = 0; i < t.size(); ++i) {
       const double ratio = options_.contradicted_from / std::max(std::abs(t[i]), 1e-300);
@@ -222,14 +247,14 @@ class ScatteredFitter {
   }
 
   void judge(ScatteredSurface& surface) const {
-    const std::vector<double> t = standardized(surface.fit_);
+    const std::vector<double> t = standardized();
     LeftOutErrors& errors = surface.left_out_;
     errors.error.resize(static_cast<Eigen::Index>(points_.size()));
     double square = 0.0;
     double residual_square = 0.0;
     std::size_t counted = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      const double e = left_out(surface.fit_, i).error;
+      const double e = left_out_[i].error;
       errors.error(static_cast<Eigen::Index>(i)) = e;
       if (std::abs(t[i]) > options_.contradicted_from) {
         surface.flags_.push_back({i, PointDoubt::kContradicted, t[i], weight_[i]});
@@ -237,7 +262,7 @@ class ScatteredFitter {
           continue;
         }
       }
-      const double r = predict(surface.fit_, i).residual;
+      const double r = left_out_[i].residual;
       square += e * e;
       residual_square += r * r;
       errors.largest = std::max(errors.largest, std::abs(e));
@@ -310,7 +335,8 @@ class ScatteredFitter {
   ScatteredOptions options_;
   BsplineBasis basis_;
   std::vector<double> weight_;
-  std::vector<BasisSupport> rows_;
+  std::vector<Row> rows_;
+  std::vector<LeftOut> left_out_;
   Eigen::MatrixXd penalty_;
   double mean_ = 0.0;
 };
