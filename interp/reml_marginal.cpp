@@ -91,6 +91,12 @@ double Marginal::sigma2(const Eigen::VectorXd& theta) const {
   return sigma2_free_ ? std::exp(theta(theta.size() - 1)) : sigma2_fixed_;
 }
 
+double Marginal::response_variance() const {
+  return std::max(
+      problem_.response_square / static_cast<double>(std::max<Eigen::Index>(problem_.rows, 1)),
+      1e-300);
+}
+
 double Marginal::balanced_log_lambda(Eigen::Index k) const {
   const Penalty& penalty = problem_.penalties[static_cast<std::size_t>(k)];
   const Eigen::Index m = penalty.matrix.rows();

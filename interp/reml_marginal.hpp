@@ -38,6 +38,11 @@ class Marginal {
   /// Where penalty k weighs as much as the data (traces equal); the search is centred there.
   [[nodiscard]] double balanced_log_lambda(Eigen::Index k) const;
 
+  [[nodiscard]] bool sigma2_free() const { return sigma2_free_; }
+  [[nodiscard]] bool noise_from_repeats() const { return extra_degrees_ > 0.0; }
+  /// Mean square of the responses: no noise is larger.
+  [[nodiscard]] double response_variance() const;
+
   /// False where some columns are free whatever lambda is.
   [[nodiscard]] bool positive() const { return structure_ != nullptr; }
   [[nodiscard]] const Structure& structure() const { return *structure_; }

@@ -163,24 +163,20 @@ bool check_inches(const MeasuredGrid& grid, const PointPlaces& places, Problems&
   const auto second =
       slope_of(grid.points, extent.length > 0.0 ? Getter(right_of) : Getter(commanded_y_of));
   if (!first || !second) return false;
-  const std::string what = extent.length > 0.0 ? "lengths" : "commanded coordinates";
+  const std::string what = extent.length > 0.0 ? "lengths" : "commands";
+  const double steepness = 0.5 * (first->steepness() + second->steepness());
   const std::string found =
-      fmt::format("{} that change by {:.3g} and {:.3g} for each 1 of x_mm, y_mm",
-                  what,
-                  first->steepness(),
-                  second->steepness());
+      fmt::format("{} that change by {:.3g} for each 1 of x_mm, y_mm", what, steepness);
   if (is_inches_under(first->steepness()) && is_inches_under(second->steepness())) {
-    problems.add(
-        places.all,
-        found,
-        fmt::format("a change of about 1; x_mm and y_mm look like inches, the {} like mm", what));
+    problems.add(places.all,
+                 found,
+                 fmt::format("about 1; x_mm and y_mm look like inches, the {} like mm", what));
     return true;
   }
   if (is_inches_over(first->steepness()) && is_inches_over(second->steepness())) {
-    problems.add(
-        places.all,
-        found,
-        fmt::format("a change of about 1; the {} look like inches, x_mm and y_mm like mm", what));
+    problems.add(places.all,
+                 found,
+                 fmt::format("about 1; the {} look like inches, x_mm and y_mm like mm", what));
     return true;
   }
   return false;
@@ -207,12 +203,11 @@ void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& 
   const auto left = slope_of(grid.points, left_of);
   const auto right = slope_of(grid.points, right_of);
   const std::string swapped =
-      "left lengths that grow and right lengths that shrink towards +x; the columns left_mm and "
+      "left lengths growing and right ones shrinking towards +x; the columns left_mm and "
       "right_mm look swapped";
   if (left && right) {
     if (left->per_x < 0.0 && right->per_x > 0.0) {
-      problems.add(
-          places.all, "left lengths that shrink and right lengths that grow towards +x", swapped);
+      problems.add(places.all, "left lengths shrinking and right ones growing towards +x", swapped);
     }
     constexpr double kClearly = 0.1;
     if (left->per_y > kClearly && right->per_y > kClearly) {
@@ -226,8 +221,7 @@ void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& 
   // A handful of points has no slope; a machine tells its sides apart all the same.
   constexpr double kClearly_mm = 100.0;
   if (grid.machine && mean_misfit(grid, 1.0) > mean_misfit(grid, -1.0) + kClearly_mm) {
-    problems.add(
-        places.all, "lengths that fit the machine only with left and right exchanged", swapped);
+    problems.add(places.all, "lengths that fit the machine with left and right exchanged", swapped);
   }
 }
 

@@ -93,7 +93,30 @@ Result<void> Interpreter::step(Place place) {
                             dialect_.step_budget));
 }
 
+void Interpreter::note_once(NoteOnce which, std::size_t line) {
+  struct Text {
+    std::string_view name;
+    const char* sentence;
+  };
+  static constexpr Text kTexts[] = {
+      {"dotted_code",
+       "the classic Maslow firmware reads G91.1 as G91 and G90.1 as G90; the compensated file "
+       "holds neither"},
+      {"dwell_unit",
+       "G4 counts P in seconds here, in milliseconds on the classic Maslow firmware; P passes "
+       "unchanged"},
+      {"deletable_line",
+       "a line begins with a slash; it is executed, as with the block delete switch off"},
+  };
+  bool& noted = noted_[static_cast<std::size_t>(which)];
+  if (noted) return;
+  noted = true;
+  const Text& text = kTexts[static_cast<std::size_t>(which)];
+  sink_.note({line, text.name, text.sentence});
+}
+
 Result<AfterBlock> Interpreter::execute(const Block& block, const std::vector<CommentText>& texts) {
+  if (block.deletable) note_once(NoteOnce::deletable_line, block.line);
   const auto motion = motion_to_be(block);
   if (!motion) return tl::unexpected(motion.error());
   CHAINTRUE_GCODE_TRY(check_assignments(block));
@@ -359,6 +382,7 @@ Result<void> Interpreter::dwell(const Block& block) {
     return refuse(
         ProblemName::missing_word, block.start(), "G4 needs its time as P, not below zero");
   }
+  note_once(NoteOnce::dwell_unit, block.line);
   return pass(block, with_value("G4 P", block.value('p')));
 }
 
