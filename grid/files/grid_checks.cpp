@@ -247,10 +247,10 @@ double width_across_best_line(const std::vector<MeasuredPoint>& points) {
 }
 
 /// Commands and marks both in inches fit each other; only the bed shows that they cover a
-/// twenty-fifth of it.
-void warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
+/// twenty-fifth of it. True where they do.
+bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   constexpr double kInch_mm = 25.4;
-  if (!grid.machine) return;
+  if (!grid.machine) return false;
   double half_width_mm = 0.0;
   double half_height_mm = 0.0;
   for (const MeasuredPoint& point : grid.points) {
@@ -260,7 +260,7 @@ void warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Pr
   const model::Bed& bed = grid.machine->bed;
   if (2.0 * half_width_mm * kInch_mm > bed.width_mm ||
       2.0 * half_height_mm * kInch_mm > bed.height_mm)
-    return;
+    return false;
   problems.warn(
       places.all,
       fmt::format(
@@ -269,6 +269,7 @@ void warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Pr
           2.0 * half_height_mm,
           bed.width_mm,
           bed.height_mm));
+  return true;
 }
 
 }  // namespace
@@ -317,12 +318,13 @@ void check_points_together(const MeasuredGrid& grid,
   }
   if (count == 0 || check_inches(grid, places, problems)) return;
   check_sides(grid, places, problems);
-  if (count >= kSpanFrom) warn_of_a_tiny_area(grid, places, problems);
+  const bool is_tiny = count >= kSpanFrom && warn_of_a_tiny_area(grid, places, problems);
   if (fewest_points < kSpanFrom || count < fewest_points) return;
   if (const double width = width_across_best_line(grid.points); width < kRepeatDistance_mm) {
     problems.add(places.all,
                  fmt::format("points within {:.3g} mm of one line", width),
-                 "points that span an area, as a map of the bed needs");
+                 std::string("points that span an area, as a map of the bed needs") +
+                     (is_tiny ? "; are they in inches?" : ""));
   }
 }
 
