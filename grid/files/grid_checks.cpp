@@ -246,6 +246,32 @@ double width_across_best_line(const std::vector<MeasuredPoint>& points) {
   return widest;
 }
 
+/// Commands and marks both in inches fit each other; only the bed shows that they cover a
+/// twenty-fifth of it. True where they do.
+bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
+  constexpr double kInch_mm = 25.4;
+  if (!grid.machine) return false;
+  double half_width_mm = 0.0;
+  double half_height_mm = 0.0;
+  for (const MeasuredPoint& point : grid.points) {
+    half_width_mm = std::max(half_width_mm, std::abs(point.mark.x_mm));
+    half_height_mm = std::max(half_height_mm, std::abs(point.mark.y_mm));
+  }
+  const model::Bed& bed = grid.machine->bed;
+  if (2.0 * half_width_mm * kInch_mm > bed.width_mm ||
+      2.0 * half_height_mm * kInch_mm > bed.height_mm)
+    return false;
+  problems.warn(
+      places.all,
+      fmt::format(
+          "all points lie within {:.4g} x {:.4g} mm of a bed of {} x {} mm; are they in inches?",
+          2.0 * half_width_mm,
+          2.0 * half_height_mm,
+          bed.width_mm,
+          bed.height_mm));
+  return true;
+}
+
 }  // namespace
 
 std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& stated,
@@ -292,11 +318,13 @@ void check_points_together(const MeasuredGrid& grid,
   }
   if (count == 0 || check_inches(grid, places, problems)) return;
   check_sides(grid, places, problems);
+  const bool is_tiny = count >= kSpanFrom && warn_of_a_tiny_area(grid, places, problems);
   if (fewest_points < kSpanFrom || count < fewest_points) return;
   if (const double width = width_across_best_line(grid.points); width < kRepeatDistance_mm) {
     problems.add(places.all,
                  fmt::format("points within {:.3g} mm of one line", width),
-                 "points that span an area, as a map of the bed needs");
+                 std::string("points that span an area, as a map of the bed needs") +
+                     (is_tiny ? "; are they in inches?" : ""));
   }
 }
 

@@ -176,12 +176,18 @@ class Builder : public nlohmann::json_sax<Json> {
     std::unordered_set<std::string> keys;
   };
 
+  /// The place of the value that comes next.
   [[nodiscard]] std::string pointer() const {
     std::string text;
     for (const Level& level : open_) {
       text += '/';
-      text += level.value->is_array() ? fmt::format("{}", level.value->size())
-                                      : pointer_token(level.key);
+      if (!level.value->is_array()) {
+        text += pointer_token(level.key);
+      } else {
+        // An element that is still open stands in its array already.
+        const bool holds_next = &level == &open_.back();
+        text += fmt::format("{}", level.value->size() - (holds_next ? 0 : 1));
+      }
     }
     return text;
   }

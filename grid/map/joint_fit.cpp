@@ -77,12 +77,13 @@ JointFitFailure unreachable(const LengthPoint& point, model::PoseFailure failure
                       model::explain(failure))};
 }
 
-/// Intervals as wide as the square that each point has to itself, so that noise-free points can be met; the penalty makes
+/// Intervals a little wider than the square that each point has to itself: three more coefficients than intervals on each
+/// axis still let noise-free points be met; the penalty makes
 /// what is too many of them harmless, and beyond some 200 a surface more would only cost time.
 interp::BsplineBasis basis_for(const interp::Rectangle& domain, const std::vector<LengthPoint>& points) {
   std::vector<model::BedPoint> marks;
   for (const LengthPoint& point : points) marks.push_back(point.mark);
-  const double spacing_mm = 2.0 * MeasuredArea(marks, domain).edge_mm();
+  const double spacing_mm = 1.2 * 2.0 * MeasuredArea(marks, domain).edge_mm();
   const auto intervals = [spacing_mm](double length_mm, int most) {
     return std::clamp(static_cast<int>(std::ceil(length_mm / spacing_mm)), 3, most);
   };

@@ -174,6 +174,18 @@ TEST_P(GridOfAnyMachine, AHandfulIsEnoughForACheckAndStillKnowsItsSides) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, GridOfAnyMachine, ::testing::Range(1, 41));
 
+TEST(GridFile, CommandsAndMarksInInchesAreSuspected) {
+  for (const double height : {23.5, 20.0}) {
+    MeasuredGrid grid;
+    grid.machine = model::Machine{};
+    for (int i = 0; i < 15; ++i) {
+      const model::BedPoint mark{-47.0 + 23.5 * (i % 5), -height + height * (i / 5)};
+      grid.points.push_back({mark, {}, model::BedPoint{mark.x_mm + 0.5, mark.y_mm + 0.25}, {}});
+    }
+    EXPECT_THAT(said_of(grid), ElementsAre(HasSubstr("are they in inches?"))) << height;
+  }
+}
+
 TEST(GridFile, TheMachineGivenReplacesTheGridsOwn) {
   Dice dice(7);
   MeasuredGrid grid = some_grid(model::Machine{}, dice);
@@ -191,8 +203,8 @@ TEST(GridFile, AMachineFileIsLookedForBesideTheGrid) {
   const std::string good = std::string(CHAINTRUE_FIXTURES) + "/good/";
   EXPECT_EQ(read_grid(good + "grid_with_machine_file.json").grid.machine->name, "every key");
   // Not needed, so not looked for, where another is given.
-  const std::string text =
-      R"({"file_type": "chaintrue_grid", "format_version": "1.0", "machine_file": "none.json", "points": []})";
+  const std::string text = R"({"file_type": "chaintrue_grid", "format_version": "1.0", )"
+                           R"("machine_file": "none.json", "points": []})";
   const GridOptions options{model::Machine{}, {}, 0};
   EXPECT_EQ(parse_grid(text, good + "x.json", options).grid.machine->name, "classic Maslow");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The verbs import and export as a person runs them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -7,10 +8,12 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tests/grid_files/fixture_files.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -91,6 +94,26 @@ TEST_F(ImportCommand, BadInputIsExitCodeThreeAndNothingIsWritten) {
     EXPECT_EQ(ran.out, "") << line;
     EXPECT_THAT(ran.err, HasSubstr("expected")) << line;
     EXPECT_FALSE(fs::exists(folder_ / "out.json")) << line;
+  }
+}
+
+TEST_F(ImportCommand, EveryBadFileIsRefusedByItsVerbInItsOwnWords) {
+  const std::map<std::string, std::string> verbs = {
+      {"grid", "fit fixtures/bad/{}"},
+      {"machine", "export groundcontrol fixtures/bad/{}"},
+      {"optical", "import optical fixtures/bad/{} --machine fixtures/machines/groundcontrol.json"},
+      {"groundcontrol", "import groundcontrol fixtures/bad/{}"}};
+  for (const FixtureFile& fixture : fixtures_in("bad")) {
+    const auto verb = verbs.find(fixture.kind);
+    if (verb == verbs.end()) continue;
+    const Ran ran = run("build/chaintrue " +
+                        fmt::format(fmt::runtime(verb->second), fixture.path.filename().string()) +
+                        " -o out.json");
+    EXPECT_EQ(ran.exit_code, 3) << fixture.path;
+    EXPECT_EQ(ran.out, "") << fixture.path;
+    for (const std::string& expected : remarks_in(fixture, "expect: "))
+      EXPECT_THAT(ran.err, HasSubstr(expected));
+    EXPECT_FALSE(fs::exists(folder_ / "out.json")) << fixture.path;
   }
 }
 

@@ -114,9 +114,10 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"{\"a\": 1,\n \"b\" 2}", "file: line 2, column 6: found 2, expected JSON: ':' here"},
         Broken{"{\"a\": 1} x", "line 1, column 10: found x, expected JSON"},
         Broken{"{'a': 1}",
-               "line 1, column 2: found ', expected JSON: string literal or '}' here; texts stand"},
+               "line 1, column 2: found ', expected JSON: string literal here; texts stand"},
         Broken{"[1, 2,]",
-               "line 1, column 7: found ], expected JSON; the comma before it is one too many"},
+               "line 1, column 7: found ], expected JSON: '[', '{', or a literal here; the comma "
+               "before it is one too many"},
         Broken{"{\"a\": \"b\nc\"}",
                "line 1, column 9: found  , expected JSON: in a text, control character"},
         Broken{"{\"a\": \"\xFF\"}", "expected JSON: in a text, ill-formed UTF-8 byte"},
@@ -240,7 +241,8 @@ TEST(JsonReader, AFormatIsATableOfItsFields) {
   EXPECT_THAT(holes_message(good), HasSubstr(R"("weights": {"a": 0.5})"));
   EXPECT_EQ(
       holes_message(head + R"("holes": [{"name": "a", "x_mm": 1}, {"name": "a", "x_mm": 2}]})"),
-      R"(holes.json: /holes: found [{"name": "a", "x_mm": 1}, {"name": "a", "x_mm": 2}], expected names that differ)");
+      R"(holes.json: /holes: found [{"name": "a", "x_mm": 1}, {"name": "a", "x_mm": 2}], )"
+      R"(expected names that differ)");
   const std::string bad = holes_message(
       head + R"("holes": [{"name": 1, "x": 1}], "weights": {"b": 2}, "matrix": [[0, "1"]]})");
   EXPECT_THAT(bad, HasSubstr("/holes/0/x: found 1, expected \"x_mm\"? This key is unknown"));

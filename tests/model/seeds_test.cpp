@@ -127,8 +127,9 @@ TEST(Seeds, FirmwaresChainOfFormulasStepByStep) {
   }
 }
 
-// k = 1e12 (lambda/m)^2 / 24 makes the parabola the catenary's first term. What the formula leaves out, the chains' own
-// weight in the tension and the ring, is 0.31 mm where a chain hangs deepest and under a micrometre high up.
+// k = 1e12 (lambda/m)^2 / 24 makes the parabola the catenary's first term. What the formula leaves
+// out, the chains' own weight in the tension and the ring, is 0.31 mm where a chain hangs deepest
+// and under a micrometre high up.
 TEST(Seeds, SagFactorsClosedFormIsTheCatenarys) {
   const EquilibriumParameters m = equilibrium_parameters(Machine{});
   EXPECT_NEAR(m.sag_correction, 6.069, 0.0005);

@@ -394,8 +394,10 @@ void Interpreter::set_modes(const Block& block) {
   }
   if (const GCode* distance = block.code(GGroup::distance))
     modes_.incremental = distance->tenths == 910;
-  if (const GCode* centres = block.code(GGroup::arc_distance))
+  if (const GCode* centres = block.code(GGroup::arc_distance)) {
     modes_.absolute_centres = centres->tenths == 901;
+    note_once(NoteOnce::dotted_code, block.line);
+  }
   if (block.is(GGroup::motion, 800)) modes_.motion = 800;
   if (const GCode* retract = block.code(GGroup::retract))
     modes_.retract_to_r = retract->tenths == 990;

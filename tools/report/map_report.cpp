@@ -170,19 +170,24 @@ Section steps_section(const MapReport& report) {
 
 Section error_map_section(const MapReport& report) {
   const ErrorMap& map = *report.error_map;
-  Chart chart{
-      .specification = "error_map",
-      .title = "Expected error over the bed",
-      .caption =
-          "One sigma at the tool, from the readings' noise carried through the fit. Cells with a "
-          "stroke lie "
-          "at or beyond the edge of the measured points: trust them less. Circles are the points."};
+  Chart chart{.specification = "error_map",
+              .title = "Expected error over the bed",
+              .caption =
+                  "One sigma at the tool, from the readings' noise carried through the fit. "
+                  "Circles are the points."};
   DataTable cells{"cells", {"x_mm", "y_mm", "error_mm", "coverage"}, {}};
   for (const ErrorCell& cell : map.cells)
     cells.rows.push_back({cell.x_mm, cell.y_mm, cell.error_mm, cell.coverage});
+  if (std::any_of(map.cells.begin(), map.cells.end(), [](const ErrorCell& cell) {
+        return cell.coverage != "inside";
+      })) {
+    chart.caption +=
+        " Cells with a stroke lie at or beyond the edge of the measured points: trust them less.";
+  }
   DataTable points{"points", {"x_mm", "y_mm"}, {}};
   for (const ReportPoint& point : report.points) points.rows.push_back({point.x_mm, point.y_mm});
-  chart.data = {std::move(cells), std::move(points)};
+  chart.data.push_back(std::move(cells));
+  chart.data.push_back(std::move(points));
   chart.signals = bed_signals(report);
   chart.signals.push_back({"cell_width_mm", map.cell_width_mm});
   chart.signals.push_back({"cell_height_mm", map.cell_height_mm});
