@@ -79,11 +79,14 @@ JointFitFailure unreachable(const LengthPoint& point, model::PoseFailure failure
 
 /// Intervals a little wider than the square that each point has to itself: three more coefficients than intervals on each
 /// axis still let noise-free points be met; the penalty makes
-/// what is too many of them harmless, and beyond some 200 a surface more would only cost time.
-interp::BsplineBasis basis_for(const interp::Rectangle& domain, const std::vector<LengthPoint>& points) {
+/// what is too many of them harmless, and beyond some 200 a surface more would only cost time. The smoother surface is for
+/// points that are met closely, and closer ones show.
+interp::BsplineBasis basis_for(const interp::Rectangle& domain, const std::vector<LengthPoint>& points,
+                               int bending_order) {
   std::vector<model::BedPoint> marks;
   for (const LengthPoint& point : points) marks.push_back(point.mark);
-  const double spacing_mm = 1.2 * 2.0 * MeasuredArea(marks, domain).edge_mm();
+  const double widening = bending_order == 2 ? 1.2 : 0.8;
+  const double spacing_mm = widening * 2.0 * MeasuredArea(marks, domain).edge_mm();
   const auto intervals = [spacing_mm](double length_mm, int most) {
     return std::clamp(static_cast<int>(std::ceil(length_mm / spacing_mm)), 3, most);
   };
@@ -95,7 +98,7 @@ class JointFitter {
   explicit JointFitter(const JointFitInput& input)
       : input_(input),
         unknowns_(input.machine, input.sheet),
-        basis_(basis_for(input.domain, input.points)),
+        basis_(basis_for(input.domain, input.points, input.bending_order)),
         columns_{unknowns_.size(), basis_.size()},
         theta_(Eigen::VectorXd::Zero(unknowns_.size())),
         weights_(Eigen::VectorXd::Ones(static_cast<Eigen::Index>(input.points.size()))),
@@ -189,23 +192,24 @@ interp::PenalisedProblem JointFitter::problem() const {
   problem.prior_mean.head(columns_.settings) =
       problem.prior_precision.topLeftCorner(columns_.settings, columns_.settings).ldlt().solve(pull);
 
-  const Eigen::MatrixXd planes = basis_.plane_coefficients();
-  const Eigen::MatrixXd to_plane = (planes.transpose() * planes).ldlt().solve(planes.transpose());
-  const Eigen::MatrixXd plane_precision = to_plane.transpose() * to_plane / (kPlaneSigmaMm * kPlaneSigmaMm);
+  const Eigen::MatrixXd free = basis_.polynomial_coefficients(input_.bending_order - 1);
+  const Eigen::MatrixXd to_free = (free.transpose() * free).ldlt().solve(free.transpose());
+  const Eigen::MatrixXd free_precision = to_free.transpose() * to_free / (kFreePartSigmaMm * kFreePartSigmaMm);
   for (model::Side side : model::kSides) {
     problem.prior_precision(columns_.scale(side), columns_.scale(side)) = 1.0 / (kScaleSigma * kScaleSigma);
     problem.prior_precision.block(columns_.spline(side), columns_.spline(side), basis_.size(), basis_.size()) =
-        plane_precision;
+        free_precision;
   }
 
   // One smoothness for both chains: what bends one surface bends the other.
   interp::Penalty penalty;
   penalty.first_column = columns_.spline(model::Side::left);
   penalty.matrix = Eigen::MatrixXd::Zero(2 * basis_.size(), 2 * basis_.size());
-  penalty.matrix.topLeftCorner(basis_.size(), basis_.size()) = basis_.thin_plate_penalty();
+  penalty.matrix.topLeftCorner(basis_.size(), basis_.size()) =
+      basis_.bending_penalty(input_.bending_order);
   penalty.matrix.bottomRightCorner(basis_.size(), basis_.size()) =
       penalty.matrix.topLeftCorner(basis_.size(), basis_.size());
-  penalty.rank = 2 * basis_.thin_plate_rank();
+  penalty.rank = 2 * basis_.bending_rank(input_.bending_order);
   problem.penalties = {std::move(penalty)};
   problem.noise = input_.noise_scale;
   return problem;
