@@ -216,6 +216,12 @@ synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model:
   spec.seed = options.seed;
   check_ranges(options, machine, problems);
   problems.throw_if_any();
+  for (const model::MachineProblem& problem :
+       problems_of(synthetic::truth_of(machine, spec).machine)) {
+    problems.add(
+        "--offset", fmt::format("{} = {}", problem.parameter, problem.value), problem.expected);
+  }
+  problems.throw_if_any();
   return spec;
 }
 
