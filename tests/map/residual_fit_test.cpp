@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "grid/files/map_file.hpp"
+#include "grid/map/fit.hpp"
+#include "tests/map/synthetic_grid.hpp"
+
+namespace chaintrue {
+namespace {
+
+using grid::CompensationMap;
+using testing_support::true_tool_rms_mm;
+using testing_support::usual_spec;
+
+grid::synthetic::SyntheticSession session(const grid::synthetic::SyntheticSpec& spec) {
+  return grid::synthetic::generate(model::Machine{}, spec).value();
+}
+
+CompensationMap fitted(const grid::MeasuredGrid& grid) {
+  auto map = grid::fit(grid);
+  if (!map) throw std::runtime_error(map.error().sentence);
+  return *std::move(map);
+}
+
+TEST(ResidualFit, LeavesAFractionOfWhatTheStatedMachineErrs) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto made = session(usual_spec(seed));
+    const CompensationMap map = fitted(made.grid);
+    // 28 points of 0.35 mm noise on the tool and 9 or so effective parameters: about 0.2 mm; twice that is allowed.
+    EXPECT_LT(true_tool_rms_mm(map, made.answer), 0.4);
+  }
+}
+
+TEST(ResidualFit, ExpectsTheErrorThatItHas) {
+  // The mean square of the true error over the sigma that the map states for it is 1 where sigmas are honest. One bed's
+  // errors are strongly correlated (about 9 independent ones), so 12 beds pin the mean down to 1 +- 0.14.
+  double ratio = 0.0;
+  constexpr int kBeds = 12;
+  for (std::uint64_t seed = 100; seed < 100 + kBeds; ++seed) {
+    const auto made = session(usual_spec(seed));
+    const CompensationMap map = fitted(made.grid);
+    const double expected = map.contents().accuracy.expected_tool.rms_mm;
+    ratio += std::pow(true_tool_rms_mm(map, made.answer) / expected, 2) / kBeds;
+  }
+  // Three of those standard errors, and a fifth for the raster's edge beyond the outermost points.
+  EXPECT_GT(ratio, 0.55);
+  EXPECT_LT(ratio, 1.65);
+}
+
+TEST(ResidualFit, FindsSettingsWithinTheirSigmas) {
+  double squares = 0.0;
+  int count = 0;
+  for (std::uint64_t seed = 20; seed < 30; ++seed) {
+    const auto made = session(usual_spec(seed));
+    const CompensationMap map = fitted(made.grid);
+    for (const grid::SettingResult& result : map.contents().settings) {
+      double truth = result.stated;
+      for (const auto& offset : made.answer.offsets) {
+        if (offset.setting == result.setting) truth += offset.offset;
+      }
+      squares += std::pow((result.calibrated - truth) / result.sigma, 2);
+      ++count;
+    }
+  }
+  // 60 correlated standard normals squared, worth about 20: mean 1 +- 0.32; three of those.
+  EXPECT_LT(squares / count, 2.0);
+  EXPECT_GT(squares / count, 0.3);
+}
+
+TEST(ResidualFit, PlacesASheetThatWasLaidByHand) {
+  auto spec = usual_spec(7);
+  spec.sheet = grid::SheetUncertainty{};
+  const auto made = session(spec);
+  const CompensationMap map = fitted(made.grid);
+  EXPECT_LT(true_tool_rms_mm(map, made.answer), 0.4);  // as without a sheet: its placement moves the frame alone
+  const model::BedPoint mark{300.0, -200.0};
+  const model::BedPoint bed = map.to_bed(mark);
+  const auto by_mark = map.query(mark, grid::Frame::marks);
+  const auto by_bed = map.query(bed, grid::Frame::bed);
+  ASSERT_TRUE(by_mark && by_bed);
+  EXPECT_NEAR(by_mark->lengths.left_mm, by_bed->lengths.left_mm, 1e-9);  // rounding of a rotation there and back
+}
+
+TEST(ResidualFit, SetsBadPointsAside) {
+  for (std::uint64_t seed = 40; seed < 45; ++seed) {
+    SCOPED_TRACE(seed);
+    auto spec = usual_spec(seed);
+    spec.bad = {2, 10.0};
+    const auto made = session(spec);
+    const CompensationMap map = fitted(made.grid);
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < map.contents().points.size(); ++i) {
+      if (map.contents().points[i].bad) found.push_back(i);
+    }
+    auto hidden = made.answer.bad_points;
+    std::sort(hidden.begin(), hidden.end());
+    EXPECT_EQ(found, hidden);
+    EXPECT_LT(true_tool_rms_mm(map, made.answer), 0.45);
+    EXPECT_THAT(map.contents().notes, testing::Contains(testing::HasSubstr("was set aside")));
+  }
+}
+
+TEST(ResidualFit, DoesNotDependOnTheOrderOfThePoints) {
+  const auto made = session(usual_spec(3));
+  grid::MeasuredGrid reversed = made.grid;
+  std::reverse(reversed.points.begin(), reversed.points.end());
+  const CompensationMap a = fitted(made.grid);
+  const CompensationMap b = fitted(reversed);
+  for (const model::BedPoint point : {model::BedPoint{0, 0}, {-1100, -550}, {900, 580}}) {
+    // Sums in another order: rounding, magnified by the condition of the fit.
+    EXPECT_NEAR(a.query(point)->lengths.left_mm, b.query(point)->lengths.left_mm, 1e-6);
+  }
+}
+
+TEST(ResidualFit, WithoutNoiseItMeetsThePointsAndTheTruth) {
+  auto spec = usual_spec(5);
+  spec.noise = {};
+  spec.repeats = 0;
+  const auto made = session(spec);
+  EXPECT_FALSE(made.grid.noise);
+  EXPECT_LT(true_tool_rms_mm(fitted(made.grid), made.answer), 0.01);  // the model class holds the truth exactly
+}
+
+TEST(ResidualFit, TakesTheNoiseFromRepeatsWhereNobodyStatedIt) {
+  auto spec = usual_spec(11);
+  spec.repeats = 20;
+  auto made = session(spec);
+  made.grid.noise.reset();
+  const grid::MapNoise noise = fitted(made.grid).contents().noise;
+  EXPECT_EQ(noise.source, "repeats");
+  EXPECT_NEAR(noise.length_mm * noise.factor_found, 0.2, 0.08);  // 40 degrees of freedom: 11 % a sigma, three and a half
+}
+
+TEST(ResidualFit, InverseFindsTheQueriedPoint) {
+  const CompensationMap map = fitted(session(usual_spec(2)).grid);
+  for (double x = -1200.0; x <= 1200.0; x += 300.0) {
+    for (double y = -600.0; y <= 600.0; y += 200.0) {
+      const auto answer = map.query({x, y});
+      ASSERT_TRUE(answer);
+      const auto back = map.inverse(answer->lengths);
+      ASSERT_TRUE(back);
+      // The last Newton step is below 1e-9 mm.
+      EXPECT_NEAR(back->x_mm, x, 1e-8);
+      EXPECT_NEAR(back->y_mm, y, 1e-8);
+    }
+  }
+}
+
+TEST(ResidualFit, TheMapsDerivativeIsThatOfItsLengths) {
+  const CompensationMap map = fitted(session(usual_spec(2)).grid);
+  constexpr double kStep = 0.01;
+  for (const model::BedPoint p : {model::BedPoint{0, 0}, {-1100, -500}, {1150, 590}, {333, -77}}) {
+    const auto jacobian = map.lengths(p)->mark_jacobian;
+    const auto at = [&](double dx, double dy) { return map.lengths({p.x_mm + dx, p.y_mm + dy})->lengths; };
+    const double by_x = (at(kStep, 0).left_mm - at(-kStep, 0).left_mm) / (2 * kStep);
+    const double by_y = (at(0, kStep).right_mm - at(0, -kStep).right_mm) / (2 * kStep);
+    EXPECT_NEAR(jacobian(0, 0), by_x, 1e-8);  // central difference: step^2 / 6 times a third derivative of 1e-6
+    EXPECT_NEAR(jacobian(1, 1), by_y, 1e-8);
+  }
+}
+
+TEST(ResidualFit, ReadingsOfTheMachineSharpenTheSettings) {
+  auto made = session(usual_spec(9));
+  const auto& truth = made.answer.machine.motors;
+  const auto sigma_of_spacing = [](const CompensationMap& map) {
+    const auto& surface = std::get<grid::ModelSurface>(map.contents().surface);
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(surface.covariance_factor.rows());
+    row[0] = -1.0;
+    row[2] = 1.0;
+    return (row.transpose() * surface.covariance_factor).norm();
+  };
+  const double before = sigma_of_spacing(fitted(made.grid));
+  made.grid.readings = {{"motor_spacing_mm", "", truth.right.x_mm - truth.left.x_mm, 0.1}};
+  const CompensationMap map = fitted(made.grid);
+  EXPECT_LT(sigma_of_spacing(map), 0.1);  // the tape alone is that good
+  EXPECT_LT(sigma_of_spacing(map), before);
+  const auto& motors = map.machine()->motors;
+  EXPECT_NEAR(motors.right.x_mm - motors.left.x_mm, truth.right.x_mm - truth.left.x_mm, 0.4);  // four of its sigmas
+}
+
+TEST(ResidualFit, SaysThatTheMirrorClaimFailsOnAMachineThatIsNotSymmetric) {
+  auto spec = usual_spec(6);
+  spec.draw_settings = false;
+  const auto symmetric = fitted(session(spec).grid);
+  ASSERT_TRUE(symmetric.contents().mirror);
+  EXPECT_TRUE(symmetric.contents().mirror->holds) << symmetric.contents().mirror->sentence;
+  spec.offsets = {{model::Setting::motor_left_y_mm, 8.0}};
+  const auto tilted = fitted(session(spec).grid);
+  EXPECT_FALSE(tilted.contents().mirror->holds);
+  EXPECT_THAT(tilted.contents().mirror->sentence, testing::HasSubstr("not the left one mirrored"));
+}
+
+TEST(ResidualFit, NeedsAMachine) {
+  auto grid = session(usual_spec(1)).grid;
+  grid.machine.reset();
+  const auto map = grid::fit(grid);
+  ASSERT_FALSE(map);
+  EXPECT_EQ(map.error().reason, grid::FitFailure::Reason::no_machine);
+}
+
+TEST(ResidualFit, NamesAPointThatTheMachineCannotReach) {
+  auto grid = session(usual_spec(1)).grid;
+  grid.points[3].mark = {0.0, 1200.0};  // above the motors
+  const auto map = grid::fit(grid);
+  ASSERT_FALSE(map);
+  EXPECT_EQ(map.error().reason, grid::FitFailure::Reason::point_unreachable);
+  EXPECT_THAT(map.error().sentence, testing::HasSubstr("point 3 at (0.0, 1200.0)"));
+}
+
+TEST(MapFile, SaysTheSameAfterReadingAndWritesTheSameBytes) {
+  auto spec = usual_spec(4);
+  spec.sheet = grid::SheetUncertainty{};
+  const CompensationMap map = fitted(session(spec).grid);
+  const std::string text = grid::files::write_map(map);
+  const CompensationMap read = grid::files::parse_map(text, "map.json");
+  EXPECT_EQ(grid::files::write_map(read), text);
+  const auto a = map.query({-700.0, 333.0});
+  const auto b = read.query({-700.0, 333.0});
+  EXPECT_EQ(a->lengths.left_mm, b->lengths.left_mm);
+  EXPECT_NEAR(a->sigma.left_mm, b->sigma.left_mm, 1e-6 * a->sigma.left_mm);  // kept to seven digits
+}
+
+}  // namespace
+}  // namespace chaintrue

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Grids with a known truth for the tests of the map.
+#pragma once
+
+#include <Eigen/LU>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "grid/measured_grid.hpp"
+#include "grid/synthetic/generator.hpp"
+#include "model/reading_model.hpp"
+
+namespace chaintrue::testing_support {
+
+/// A 7 x 4 grid as an owner measures it: sled up to 8 mm beside the marks, 0.2 mm and 0.3 mm noise, six repeats,
+/// motors and zeros off by draws from their stated uncertainty.
+inline grid::synthetic::SyntheticSpec usual_spec(std::uint64_t seed) {
+  grid::synthetic::SyntheticSpec spec;
+  spec.jitter_mm = 8.0;
+  spec.noise.length_mm = 0.2;
+  spec.noise.position_mm = 0.3;
+  spec.repeats = 6;
+  spec.draw_settings = true;
+  spec.seed = seed;
+  return spec;
+}
+
+/// Root mean square of the tool's error of a map against the truth, over a raster of the bed inside the points.
+template <class Map>
+double true_tool_rms_mm(const Map& map, const grid::synthetic::SyntheticAnswer& answer) {
+  const model::ReadingModel truth(answer.machine);
+  double squares = 0.0;
+  int count = 0;
+  for (double x = -1200.0; x <= 1200.0; x += 100.0) {
+    for (double y = -600.0; y <= 600.0; y += 100.0) {
+      const auto told = map.query({x, y});
+      const auto reading = truth.at(answer.sheet.to_bed({x, y}));
+      if (!told || !reading) continue;
+      const Eigen::Vector2d chain(told->lengths.left_mm - reading->lengths.left_mm,
+                                  told->lengths.right_mm - reading->lengths.right_mm);
+      squares += (told->mark_jacobian.inverse() * chain).squaredNorm();
+      ++count;
+    }
+  }
+  return std::sqrt(squares / count);
+}
+
+}  // namespace chaintrue::testing_support
