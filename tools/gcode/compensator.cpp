@@ -183,6 +183,7 @@ void Compensator::examine(const Move& move, const Station& station) {
 
 Result<void> Compensator::emit(const Move& move, double feed, const Station& station) {
   examine(move, station);
+  if (here_ && options_.on_command) options_.on_command(move, *here_, station);
   here_ = station;
   // What is written after a problem is thrown away.
   if (findings_.problem_count > 0) return {};
