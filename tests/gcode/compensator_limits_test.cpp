@@ -70,7 +70,7 @@ TEST_F(Limits, AFileThatWasCompensatedIsRefused) {
 
 TEST_F(Limits, WhatCannotBeCutRightIsNamedByLine) {
   EXPECT_EQ(compensate("G0 X0 Y0\nG0 X1500 Y0\n", corrector_).message,
-            "line 2: X0.000 Y0.000 lies outside the map (outside_map)");
+            "line 2: X1500.000 Y0.000 lies outside the map (outside_map)");
   EXPECT_THAT(compensate("G0 X1 Y1\nG28\n", corrector_).message,
               HasSubstr("line 2: G28 and G30 go to a place that only the machine knows"));
   EXPECT_THAT(compensate("F9 G0 X1 Y1 Z5\nG38.2 Z-5\n", corrector_).message,
@@ -255,7 +255,7 @@ INSTANTIATE_TEST_SUITE_P(Controllers,
                                          model::ControllerKind::maslow_classic,
                                          model::ControllerKind::holey,
                                          model::ControllerKind::fluidnc_wallplotter),
-                         [](const auto& info) { return std::string(firmware(info.param).name); });
+                         [](const auto& kind) { return std::string(firmware(kind.param).name); });
 
 /// verify sees what a faulty file does: a move left out, one too many, a wrong height, words out of
 /// order.

@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{std::string(5000, 'X'),
                 "line 1: the line is longer than 4096 characters (line_too_long)"},
         Refusal{"F9\nG2 X1 I.5 P2000",
-                "line 2, column 13: P, the number of turns, is a whole number from 1 to 1000 "
+                "line 2, column 11: P, the number of turns, is a whole number from 1 to 1000 "
                 "(bad_arc)"}));
 
 TEST(Language, ReadsNumbersInEveryForm) {

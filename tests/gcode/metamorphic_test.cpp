@@ -245,8 +245,8 @@ TEST_P(OnePath, WrittenInAnotherWayIsTheSame) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Styles, OnePath, testing::ValuesIn(styles()), [](const auto& info) {
-  return info.param.name;
+INSTANTIATE_TEST_SUITE_P(Styles, OnePath, testing::ValuesIn(styles()), [](const auto& style) {
+  return style.param.name;
 });
 
 /// A shift of the work offset and its undoing in the words, a rotation of 90 degrees and exchanged

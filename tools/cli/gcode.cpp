@@ -13,10 +13,12 @@
 
 #include "grid/files/input_error.hpp"
 #include "grid/files/machine_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "tools/cli/gcode_job.hpp"
 #include "tools/gcode/path_lengths.hpp"
 #include "tools/gcode/survey.hpp"
 #include "tools/gcode/verifier.hpp"
+#include "tools/report/path_report.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -191,6 +193,24 @@ int run_compensate(const GcodeOptions& options) {
   auto source = text.open();
   gcode::CompensateOptions settings = compensate_options(options, machine);
   settings.input_hash = text.hash();
+  report::PathReport picture;
+  if (!options.report.empty()) {
+    settings.on_command =
+        [&picture](const gcode::Move& move, const gcode::Station& from, const gcode::Station& to) {
+          const auto correction = [](const gcode::Station& station) {
+            return report::ToolVector{station.command.x_mm - station.target.x_mm,
+                                      station.command.y_mm - station.target.y_mm};
+          };
+          picture.add({move.line,
+                       move.kind == gcode::MoveKind::rapid,
+                       from.target.x_mm,
+                       from.target.y_mm,
+                       to.target.x_mm,
+                       to.target.y_mm,
+                       correction(from),
+                       correction(to)});
+        };
+  }
   PendingFile output(options.output);
   gcode::Compensator compensator(
       machine.corrector(), settings, [&](std::string_view bytes) { output.write(bytes); });
@@ -202,16 +222,30 @@ int run_compensate(const GcodeOptions& options) {
     return code;
   }
   output.commit();
-  fmt::print(stderr,
-             "{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} "
-             "mm on line {}\n",
-             summary->blocks,
-             summary->moves,
-             summary->path_mm / 1000.0,
-             summary->commands,
-             machine.corrector().firmware().name,
-             summary->largest_correction_mm,
-             summary->largest_correction_line);
+  const std::string words = fmt::format(
+      "{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
+      "line {}",
+      summary->blocks,
+      summary->moves,
+      summary->path_mm / 1000.0,
+      summary->commands,
+      machine.corrector().firmware().name,
+      summary->largest_correction_mm,
+      summary->largest_correction_line);
+  fmt::print(stderr, "{}\n", words);
+  if (!options.report.empty()) {
+    const model::Bed& bed = machine.machine().bed;
+    picture.name = options.program;
+    picture.verdict = words + ".";
+    picture.sheet = {
+        -0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
+    picture.figures = {
+        {fmt::format("{:.2f} mm", summary->largest_correction_mm), "largest correction"},
+        {fmt::format("{:g} mm", options.tolerance_mm), "tolerance of the path"},
+        {fmt::format("{:.1f} m", summary->path_mm / 1000.0), "path"},
+        {fmt::format("{}", summary->commands), "commands written"}};
+    grid::files::write_whole_file(options.report, report::render(report::page_of(picture)));
+  }
   return kDone;
 }
 
@@ -507,6 +541,9 @@ void add_gcode(CLI::App& app, Run& run) {
   compensate
       ->add_option("-o,--output", options->output, "The compensated program; - is standard output")
       ->required();
+  compensate->add_option("--report",
+                         options->report,
+                         "A page with the path before and after, coloured by the correction");
   add_limits(*compensate, *options);
   compensate->footer(
       "Example:\n  chaintrue gcode compensate part.nc --map map.json -o part.true.nc");

@@ -26,6 +26,7 @@ struct GcodeOptions {
   std::string frame = "marks";
   std::string home = "0,0";
   std::string output = "-";
+  std::string report;  ///< compensate: a page with a picture
   double tolerance_mm = 0.05;
   double every_mm = 10.0;
   double largest_correction_mm = 30.0;

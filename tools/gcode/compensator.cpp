@@ -183,6 +183,7 @@ void Compensator::examine(const Move& move, const Station& station) {
 
 Result<void> Compensator::emit(const Move& move, double feed, const Station& station) {
   examine(move, station);
+  if (here_ && options_.on_command) options_.on_command(move, *here_, station);
   here_ = station;
   // What is written after a problem is thrown away.
   if (findings_.problem_count > 0) return {};
@@ -251,18 +252,17 @@ Result<void> Compensator::piece(
 
 /// In pieces between the places where a chain turns around, if that matters.
 Result<void> Compensator::along(const Move& move, double feed) {
-  if (!has_play()) {
-    if (!here_ && move.kind == MoveKind::rapid) {
-      // Where the tool stands before the first move is not known: only its end can be right.
-      const auto end = curve(move, {})(1.0);
-      if (!end) {
-        object(move, end.error(), move.to.x_mm, move.to.y_mm);
-        return {};
-      }
-      return emit(move, feed, *end);
+  if (!here_ && move.kind == MoveKind::rapid) {
+    // Where the tool stands before the first move is not known, nor which way its chains ran: only
+    // its end can be right, and that as if both chains had been paid out.
+    const auto end = curve(move, directions_)(1.0);
+    if (!end) {
+      object(move, end.error(), move.to.x_mm, move.to.y_mm);
+      return {};
     }
-    return piece(move, feed, 0.0, 1.0, {});
+    return emit(move, feed, *end);
   }
+  if (!has_play()) return piece(move, feed, 0.0, 1.0, {});
   constexpr double kLook_mm = 20.0;
   const int looks =
       static_cast<int>(std::clamp(length_mm(move) / kLook_mm, move.arc ? 16.0 : 4.0, 1e4));

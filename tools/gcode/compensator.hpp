@@ -21,6 +21,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,8 @@ struct CompensateOptions {
   model::ChainLengths half_play_mm;
   std::string map_hash;
   std::string input_hash;
+  /// Called for every command in X and Y, with its start and end; for pictures.
+  std::function<void(const Move&, const Station&, const Station&)> on_command;
 };
 
 /// What the run found. Problems and notes keep the first hundred of their kind, and count all.

@@ -90,6 +90,7 @@ class Interpreter {
     double sine = 0.0;
   };
   struct Sticky {
+    int plane = 170;
     double start = 0.0;  ///< height where the row of cycles began
     double r = 0.0;      ///< as written, in mm
     double depth = 0.0;
