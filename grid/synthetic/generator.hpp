@@ -38,8 +38,8 @@ struct SyntheticNoise {
   double position_mm = 0.0;
   /// Student's t with 4 degrees of freedom instead of Gauss, of the same standard deviation.
   bool heavy_tails = false;
-  /// Readings are rounded to whole multiples of these. 0: all digits where there is no noise, 0.0001
-  /// mm where there is.
+  /// Readings are rounded to whole multiples of these. 0: all digits where there is no noise,
+  /// 0.0001 mm where there is.
   double length_rounding_mm = 0.0;
   double position_rounding_mm = 0.0;
 };

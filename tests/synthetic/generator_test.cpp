@@ -345,8 +345,9 @@ TEST(Fixtures, SevenByFourIsMadeAsStated) {
   SyntheticSession session =
       session_of(spec, files::read_machine(folder + "/machines/classic.json"));
   session.grid.name = "simulated, seed 1";
-  EXPECT_EQ(files::write_grid(session.grid),
-            files::read_whole_file(folder + "/grids/seven_by_four.json"));
+  // Compared as written now: the layout of JSON may change, the numbers may not.
+  const MeasuredGrid fixture = files::read_grid(folder + "/grids/seven_by_four.json").grid;
+  EXPECT_EQ(files::write_grid(session.grid), files::write_grid(fixture));
 }
 
 }  // namespace

@@ -44,7 +44,10 @@ Result<void> Interpreter::cycle_move(const Block& block,
   program[cycle.second] = to[1];
   program[cycle.normal] = to[2];
   const Axes machine = to_machine(program);
-  CHAINTRUE_GCODE_TRY(sink_.move(basic_move(block.line, kind, machine)));
+  Move move = basic_move(block.line, kind, machine);
+  move.names_xy = true;
+  move.names_z = true;
+  CHAINTRUE_GCODE_TRY(sink_.move(move));
   machine_ = machine;
   z_unknown_ = false;
   return {};

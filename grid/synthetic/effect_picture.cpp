@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/synthetic/effect_picture.hpp"
+
+#include <cmath>
+
+namespace chaintrue::grid::synthetic {
+namespace {
+
+using model::BedPoint;
+using model::Machine;
+using model::Visit;
+
+constexpr int kColumns = 7;
+constexpr int kRows = 4;
+// 28, 60 and 200 marks.
+constexpr std::array<std::array<int, 2>, 3> kGrids = {{{7, 4}, {10, 6}, {20, 10}}};
+constexpr double kSquare_mm = 100.0;
+
+ShiftedSquare square_at(const Machine& machine,
+                        const model::AppliedEffect& applied,
+                        BedPoint centre) {
+  ShiftedSquare square;
+  square.centre = centre;
+  const double half = 0.5 * kSquare_mm;
+  const std::array<BedPoint, 4> corners = {BedPoint{centre.x_mm - half, centre.y_mm - half},
+                                           BedPoint{centre.x_mm + half, centre.y_mm - half},
+                                           BedPoint{centre.x_mm + half, centre.y_mm + half},
+                                           BedPoint{centre.x_mm - half, centre.y_mm + half}};
+  std::vector<Visit> visits;
+  for (const BedPoint& corner : corners)
+    visits.push_back({corner, static_cast<int>(visits.size())});
+  const std::vector<Eigen::Vector2d> shift = signature(machine, {applied}, visits).tool_shift_mm();
+  std::array<Eigen::Vector2d, 4> cut;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    square.corner_shift_mm[i] = shift[i];
+    cut[i] = Eigen::Vector2d{corners[i].x_mm, corners[i].y_mm} + shift[i];
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    square.side_mm[i] = (cut[(i + 1) % corners.size()] - cut[i]).norm();
+  }
+  square.diagonal_mm = {(cut[2] - cut[0]).norm(), (cut[3] - cut[1]).norm()};
+  return square;
+}
+
+}  // namespace
+
+EffectPicture picture_effect(const Machine& machine,
+                             const model::effects::Effect& effect,
+                             model::effects::EffectSide side,
+                             const std::vector<double>& values,
+                             const StatedNoise& noise) {
+  EffectPicture picture;
+  picture.applied = model::effects::applied(effect, side, values);
+  picture.noise = noise;
+  picture.columns = kColumns;
+  picture.rows = kRows;
+  const std::vector<Visit> visits = regular_session(machine, kColumns, kRows);
+  const StrengthTable table(machine, visits, noise);
+  const std::vector<Eigen::Vector2d> stated =
+      signature(machine, {picture.applied}, visits).tool_shift_mm();
+  const std::vector<Eigen::Vector2d> calibrated = table.calibrated_shift_mm(picture.applied);
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    picture.marks.push_back({visits[i].position, stated[i], calibrated[i]});
+  }
+  // In the middle, and where most shapes suffer: towards a lower corner.
+  picture.squares.push_back(square_at(machine, picture.applied, {0.0, 0.0}));
+  picture.squares.push_back(square_at(
+      machine, picture.applied, {-0.42 * machine.bed.width_mm, -0.38 * machine.bed.height_mm}));
+  for (const auto& [columns, rows] : kGrids) {
+    const bool same = columns == kColumns && rows == kRows;
+    const StrengthTable other =
+        same ? table : StrengthTable(machine, regular_session(machine, columns, rows), noise);
+    picture.strengths.push_back({columns, rows, other.strength(effect, side)});
+  }
+  return picture;
+}
+
+}  // namespace chaintrue::grid::synthetic

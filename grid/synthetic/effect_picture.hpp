@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What one effect does to the bed and to a square of 100 mm, and how large it must be to be named:
+/// the numbers that `chaintrue effects ID` draws.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grid/synthetic/strength.hpp"
+
+namespace chaintrue::grid::synthetic {
+
+/// A tool sent to a mark.
+struct ShiftedMark {
+  model::BedPoint mark;
+  /// Where the tool goes less where it was sent, on the machine as stated ...
+  Eigen::Vector2d as_stated_mm;
+  /// ... and once the settings are calibrated on these marks.
+  Eigen::Vector2d calibrated_mm;
+};
+
+/// A square cut where the machine is as stated; corners counter-clockwise from the lower left.
+struct ShiftedSquare {
+  model::BedPoint centre;
+  double size_mm = 100.0;
+  std::array<Eigen::Vector2d, 4> corner_shift_mm;
+  /// Bottom, right, top, left, as cut.
+  std::array<double, 4> side_mm{};
+  /// From the lower left, from the lower right.
+  std::array<double, 2> diagonal_mm{};
+};
+
+/// The strength over a regular grid of so many marks.
+struct StrengthAt {
+  int columns = 0;
+  int rows = 0;
+  EffectStrength strength;
+};
+
+struct EffectPicture {
+  model::AppliedEffect applied;
+  StatedNoise noise;
+  int columns = 0;
+  int rows = 0;
+  /// Row by row from the bottom left.
+  std::vector<ShiftedMark> marks;
+  std::vector<ShiftedSquare> squares;
+  std::vector<StrengthAt> strengths;
+};
+
+/// `values` in the order of the effect's parameters.
+/// \throws std::invalid_argument where the effect cannot act on the machine or the machine cannot
+/// reach its own bed.
+[[nodiscard]] EffectPicture picture_effect(const model::Machine& machine,
+                                           const model::effects::Effect& effect,
+                                           model::effects::EffectSide side,
+                                           const std::vector<double>& values,
+                                           const StatedNoise& noise);
+
+}  // namespace chaintrue::grid::synthetic

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/synthetic/strength.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "grid/synthetic/design.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid::synthetic {
+namespace {
+
+using model::AppliedEffect;
+using model::Machine;
+using model::Visit;
+using model::effects::Effect;
+using model::effects::EffectParameter;
+using model::effects::EffectSide;
+
+std::vector<model::ChainLengths> lengths_of(const Machine& machine,
+                                            const std::vector<Visit>& visits) {
+  const auto lengths = model::readings(model::ReadingModel(machine), visits);
+  if (!lengths) {
+    const model::BedPoint p = visits[lengths.error().index].position;
+    throw std::invalid_argument(fmt::format("signature: ({}, {}) mm cannot be reached: {}",
+                                            p.x_mm,
+                                            p.y_mm,
+                                            explain(lengths.error().reason)));
+  }
+  return *lengths;
+}
+
+// Places at which a rival may set in: evenly over what the session shows.
+std::vector<std::vector<double>> place_choices(const Effect& effect, std::size_t visits) {
+  constexpr int kSteps = 12;
+  std::vector<std::vector<double>> choices = {nominal_values(effect)};
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+    const EffectParameter& parameter = effect.parameters[i];
+    if (parameter.role != model::effects::ParameterRole::place) continue;
+    const bool counts_visits = parameter.integer;
+    const double from = counts_visits ? 1.0 : std::max(parameter.lower, 0.0);
+    const double to = counts_visits ? static_cast<double>(visits) - 1.0
+                                    : std::min(parameter.upper, std::numbers::pi);
+    std::vector<std::vector<double>> more;
+    for (const auto& choice : choices) {
+      for (int k = 0; k < kSteps; ++k) {
+        std::vector<double> other = choice;
+        const double place = from + (to - from) * (k + 0.5) / kSteps;
+        other[i] = counts_visits ? std::floor(place) : place;
+        more.push_back(other);
+      }
+    }
+    choices.insert(choices.end(), more.begin(), more.end());
+  }
+  return choices;
+}
+
+// Rows whitened by their covariance.
+Eigen::VectorXd whitened(const std::vector<Eigen::Vector2d>& pairs,
+                         const std::vector<Eigen::Matrix2d>& whitening,
+                         Eigen::Index rows) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(rows);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    result.segment<2>(2 * static_cast<Eigen::Index>(i)) = whitening[i] * pairs[i];
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Visit> regular_session(const Machine& machine, int columns, int rows) {
+  Design design;
+  design.columns = columns;
+  design.rows = rows;
+  Random unused(0);
+  std::vector<Visit> visits;
+  for (const Mark& mark : marks(machine.bed, design, unused)) {
+    visits.push_back({mark.place, static_cast<int>(visits.size())});
+  }
+  return visits;
+}
+
+std::vector<Eigen::Vector2d> SessionSignature::tool_shift_mm() const {
+  std::vector<Eigen::Vector2d> shift;
+  for (std::size_t i = 0; i < residual_mm.size(); ++i) {
+    shift.emplace_back(-length_by_xy[i].inverse() * residual_mm[i]);
+  }
+  return shift;
+}
+
+SessionSignature signature(const Machine& stated,
+                           const std::vector<AppliedEffect>& effects,
+                           const std::vector<Visit>& visits) {
+  Machine true_machine = stated;
+  true_machine.effects.insert(true_machine.effects.end(), effects.begin(), effects.end());
+  const model::ReadingModel plain(stated);
+  const model::Paper paper(true_machine);
+  const model::Paper stated_paper(stated);
+  const std::vector<model::ChainLengths> before = lengths_of(stated, visits);
+  const std::vector<model::ChainLengths> after = lengths_of(true_machine, visits);
+  SessionSignature result;
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    const auto reading = plain.at(visits[i].position);
+    if (!reading) {
+      throw std::invalid_argument(
+          fmt::format("signature: visit {}: {}", i, explain(reading.error())));
+    }
+    const model::BedPoint written = paper.written(visits[i].position);
+    const model::BedPoint usual = stated_paper.written(visits[i].position);
+    const Eigen::Vector2d moved{written.x_mm - usual.x_mm, written.y_mm - usual.y_mm};
+    const Eigen::Vector2d gained{after[i].left_mm - before[i].left_mm,
+                                 after[i].right_mm - before[i].right_mm};
+    result.length_by_xy.push_back(reading->position_jacobian);
+    result.residual_mm.emplace_back(gained - reading->position_jacobian * moved);
+  }
+  return result;
+}
+
+StrengthTable::StrengthTable(const Machine& stated,
+                             std::vector<Visit> visits,
+                             const StatedNoise& noise)
+    : stated_(stated), visits_(std::move(visits)) {
+  if (!(noise.length_mm > 0.0 && noise.position_mm >= 0.0)) {
+    throw std::invalid_argument(fmt::format("strength: noise of {} mm in length, {} mm in position",
+                                            noise.length_mm,
+                                            noise.position_mm));
+  }
+  const auto count = static_cast<Eigen::Index>(visits_.size());
+  const auto settings = static_cast<Eigen::Index>(model::kMachineSettings.size());
+  Eigen::MatrixXd by_setting = Eigen::MatrixXd::Zero(2 * count + settings, settings);
+  const model::ReadingModel model(stated);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto reading = model.at(visits_[static_cast<std::size_t>(i)].position);
+    if (!reading)
+      throw std::invalid_argument(
+          fmt::format("strength: visit {}: {}", i, explain(reading.error())));
+    const Eigen::Matrix2d& j = reading->position_jacobian;
+    const Eigen::Matrix2d covariance =
+        j * j.transpose() * (noise.position_mm * noise.position_mm) +
+        Eigen::Matrix2d::Identity() * (noise.length_mm * noise.length_mm);
+    length_by_xy_.push_back(j);
+    whitening_.emplace_back(Eigen::Matrix2d(covariance.llt().matrixL()).inverse());
+    for (Eigen::Index k = 0; k < settings; ++k) {
+      by_setting.block<2, 1>(2 * i, k) =
+          whitening_.back() *
+          model.sensitivity(*reading, model::kMachineSettings[static_cast<std::size_t>(k)]);
+    }
+  }
+  for (Eigen::Index k = 0; k < settings; ++k) {
+    by_setting(2 * count + k, k) =
+        1.0 / model::stated_sigma(stated, model::kMachineSettings[static_cast<std::size_t>(k)]);
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(by_setting);
+  settings_basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(by_setting.rows(), settings);
+  for (const Effect* effect : model::effects::catalogue()) {
+    for (const EffectSide side : effect->sides) add_entries(*effect, side);
+  }
+}
+
+void StrengthTable::add_entries(const Effect& effect, EffectSide side) {
+  bool usual = true;
+  for (const auto& values : place_choices(effect, visits_.size())) {
+    Machine with = stated_;
+    with.effects.push_back(model::effects::applied(effect, side, values));
+    if (!model::effects::problems_of_effects(with).empty()) return;  // cannot act on such a machine
+    entries_.push_back(entry(with.effects.back()));
+    entries_.back().effect = &effect;
+    entries_.back().side = side;
+    entries_.back().usual = usual;
+    usual = false;
+  }
+}
+
+StrengthTable::Entry StrengthTable::entry(const AppliedEffect& applied) const {
+  Entry result{};
+  const Eigen::VectorXd g = whitened(
+      signature(stated_, {applied}, visits_).residual_mm, whitening_, settings_basis_.rows());
+  result.norm = g.norm();
+  result.left = g - settings_basis_ * (settings_basis_.transpose() * g);
+  return result;
+}
+
+const StrengthTable::Entry& StrengthTable::usual(const Effect& effect, EffectSide side) const {
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
+    return e.usual && e.effect == &effect && e.side == side;
+  });
+  if (found == entries_.end()) {
+    throw std::invalid_argument(fmt::format("strength: {} cannot act on this machine", effect.id));
+  }
+  return *found;
+}
+
+EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) const {
+  const Entry& own = usual(effect, side);
+  EffectStrength result;
+  result.delta = own.left.norm();
+  result.share_left = own.norm > 0.0 ? result.delta / own.norm : 0.0;
+  const EffectParameter& size = effect.parameters.front();
+  const double per_size = result.delta / std::abs(size.nominal);
+  result.seen_size = kSeenAtDelta / per_size;
+  // The most alike place of each rival.
+  std::vector<Rival> rivals;
+  for (const Entry& other : entries_) {
+    if (other.effect == &effect && other.side == side) continue;
+    const double length = other.left.norm();
+    if (!(length > 0.0 && result.delta > 0.0)) continue;
+    const double rho = std::min(1.0, std::abs(own.left.dot(other.left)) / (length * result.delta));
+    const auto same = std::find_if(rivals.begin(), rivals.end(), [&](const Rival& r) {
+      return r.effect == other.effect && r.side == other.side;
+    });
+    if (same == rivals.end()) {
+      rivals.push_back({other.effect, other.side, rho});
+    } else {
+      same->rho = std::max(same->rho, rho);
+    }
+  }
+  std::stable_sort(
+      rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.rho > b.rho; });
+  double needed = kSeenAtDelta;
+  for (const Rival& rival : rivals) {
+    if (rival.rho >= kInseparable) {
+      result.inseparable.push_back(rival);
+    } else {
+      result.nearest = rival;
+      needed = std::max(needed, 1.645 * std::sqrt(2.0 / (1.0 - rival.rho)));
+      break;
+    }
+  }
+  const double named = needed / per_size;
+  if (named <= size.upper) result.named_size = named;
+  return result;
+}
+
+std::vector<Eigen::Vector2d> StrengthTable::calibrated_shift_mm(
+    const AppliedEffect& applied) const {
+  const Eigen::VectorXd left = entry(applied).left;
+  std::vector<Eigen::Vector2d> shift;
+  for (std::size_t i = 0; i < visits_.size(); ++i) {
+    const Eigen::Vector2d pair = left.segment<2>(2 * static_cast<Eigen::Index>(i));
+    shift.emplace_back(-length_by_xy_[i].inverse() * (whitening_[i].inverse() * pair));
+  }
+  return shift;
+}
+
+}  // namespace chaintrue::grid::synthetic

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue effects: the catalogue for a person, and what one effect does to a machine.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "grid/files/catalogue_file.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "grid/synthetic/effect_picture.hpp"
+#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/effect_drawing.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+namespace synthetic = grid::synthetic;
+using model::effects::Effect;
+using model::effects::EffectParameter;
+using model::effects::EffectSide;
+
+struct EffectsOptions {
+  std::string id;
+  std::string machine;
+  std::string side;
+  std::vector<std::string> values;
+  double length_noise_mm = grid::StatedNoise{}.length_mm;
+  double position_noise_mm = grid::StatedNoise{}.position_mm;
+  std::string drawing;
+  bool json = false;
+  bool markdown = false;
+};
+
+std::string sides_of(const Effect& effect) {
+  std::string list;
+  for (const EffectSide side : effect.sides) {
+    list +=
+        fmt::format("{}{}", list.empty() ? "" : "|", side == EffectSide::none ? "-" : name(side));
+  }
+  return list;
+}
+
+int list_catalogue() {
+  std::string station;
+  for (const Effect* effect : model::effects::catalogue()) {
+    if (name(effect->station) != station) {
+      station = name(effect->station);
+      fmt::print("{}{}\n", effect == model::effects::catalogue().front() ? "" : "\n", station);
+    }
+    std::string parameters;
+    for (const EffectParameter& parameter : effect->parameters) {
+      parameters += fmt::format("{}{}", parameters.empty() ? "" : ",", parameter.name);
+    }
+    fmt::print("  {}:{}:{}\n", effect->id, sides_of(*effect), parameters);
+    fmt::print("      {}; usually {}\n", effect->cause, effect->typical);
+  }
+  fmt::print("\nOne of them: chaintrue effects ID [--machine M.json]\n");
+  return kDone;
+}
+
+void describe(const Effect& effect) {
+  fmt::print("{} ({}, {})\n", effect.id, name(effect.station), sides_of(effect));
+  fmt::print("  cause         {}\n", effect.cause);
+  fmt::print("  seen as       {}\n", effect.signature);
+  fmt::print("  equation      {}\n", effect.equation);
+  for (const EffectParameter& p : effect.parameters) {
+    fmt::print("  {}  {}{}: {}, {} to {}, usually {}\n",
+               p.role == model::effects::ParameterRole::size ? "size        " : "place       ",
+               p.name,
+               p.symbol.empty() ? "" : fmt::format(" ({})", p.symbol),
+               p.meaning,
+               short_number(p.lower),
+               short_number(p.upper),
+               short_number(p.nominal));
+  }
+  fmt::print("  usual size    {}\n", effect.typical);
+  fmt::print("  needs         {}\n", name(effect.needs));
+  fmt::print("  remedy        {}: {}\n", name(effect.remedy_kind), effect.remedy);
+  fmt::print("  not modelled  {}\n", effect.not_modelled);
+  fmt::print("  source        {}\n", effect.source);
+}
+
+// The arrow's glyph for a shift, a dot where it is below a hundredth of a millimetre.
+std::string_view glyph(const Eigen::Vector2d& shift) {
+  constexpr double kNothing_mm = 0.005;
+  constexpr std::string_view kArrows[] = {"→", "↗", "↑", "↖", "←", "↙", "↓", "↘"};
+  if (shift.norm() < kNothing_mm) return "·";
+  const double eighths = std::atan2(shift.y(), shift.x()) / (std::numbers::pi / 4.0);
+  return kArrows[static_cast<std::size_t>(std::lround(eighths) + 8) % 8];
+}
+
+template <class Member>
+void print_bed(const synthetic::EffectPicture& picture, Member member) {
+  const auto columns = static_cast<std::size_t>(picture.columns);
+  fmt::print("      x");
+  for (std::size_t k = 0; k < columns; ++k) fmt::print("{:>10.0f}", picture.marks[k].mark.x_mm);
+  fmt::print("\n");
+  for (std::size_t row = static_cast<std::size_t>(picture.rows); row-- > 0;) {
+    fmt::print("  y{:>5.0f}", picture.marks[row * columns].mark.y_mm);
+    for (std::size_t k = 0; k < columns; ++k) {
+      const Eigen::Vector2d& shift = picture.marks[row * columns + k].*member;
+      fmt::print("  {} {:>6.2f}", glyph(shift), shift.norm());
+    }
+    fmt::print("\n");
+  }
+}
+
+void print_square(const synthetic::ShiftedSquare& square) {
+  fmt::print(
+      "  at ({:.0f}, {:.0f}): sides {:.3f} (bottom), {:.3f} (right), {:.3f} (top), {:.3f} (left); "
+      "diagonals "
+      "{:.3f} / and {:.3f} \\ (square: {:.3f})\n",
+      square.centre.x_mm,
+      square.centre.y_mm,
+      square.side_mm[0],
+      square.side_mm[1],
+      square.side_mm[2],
+      square.side_mm[3],
+      square.diagonal_mm[0],
+      square.diagonal_mm[1],
+      square.size_mm * std::numbers::sqrt2);
+}
+
+std::string rival_words(const synthetic::Rival& rival) {
+  const std::string side(name(rival.side));
+  return fmt::format("{}{}", rival.effect->id, side.empty() ? "" : " " + side);
+}
+
+void print_strengths(const Effect& effect, const synthetic::EffectPicture& picture) {
+  const EffectParameter& size = effect.parameters.front();
+  fmt::print(
+      "\nHow large {} must be (noise {} mm of length, {} mm of position; motors and zeros "
+      "calibrated):\n",
+      size.name,
+      short_number(picture.noise.length_mm),
+      short_number(picture.noise.position_mm));
+  fmt::print(
+      "  {:>6}  {:>10}  {:>14}  {}\n", "points", "to be seen", "to be named", "nearest rival");
+  for (const synthetic::StrengthAt& at : picture.strengths) {
+    const synthetic::EffectStrength& s = at.strength;
+    std::string nearest =
+        s.nearest ? fmt::format("{} (alike to {:.4f})", rival_words(*s.nearest), s.nearest->rho)
+                  : "none";
+    for (const synthetic::Rival& same : s.inseparable) {
+      nearest += fmt::format("; never apart from {}", rival_words(same));
+    }
+    fmt::print("  {:>6}  {:>10}  {:>14}  {}\n",
+               at.columns * at.rows,
+               short_number(s.seen_size),
+               s.named_size ? short_number(*s.named_size) : "never",
+               nearest);
+  }
+  fmt::print(
+      "  usually it is {}; {:.0f} % of what it does is left by the calibration of {} points\n",
+      short_number(size.nominal),
+      100.0 * picture.strengths.front().strength.share_left,
+      picture.strengths.front().columns * picture.strengths.front().rows);
+}
+
+std::vector<double> chosen_values(const Effect& effect,
+                                  EffectSide side,
+                                  const EffectsOptions& options,
+                                  const model::Machine& machine) {
+  OptionProblems problems;
+  model::AppliedEffect wanted = applied(effect, side, nominal_values(effect));
+  for (const std::string& argument : options.values) {
+    const std::size_t equals = argument.find('=');
+    double value = 0.0;
+    if (equals == std::string::npos ||
+        !parse_number(std::string_view(argument).substr(equals + 1), value)) {
+      problems.add("--set", argument, "parameter=number");
+      continue;
+    }
+    wanted.parameters[argument.substr(0, equals)] = value;
+  }
+  model::Machine with = machine;
+  with.effects.push_back(wanted);
+  for (const model::MachineProblem& problem : model::effects::problems_of_effects(with)) {
+    problems.add("--set", problem.value, problem.expected);
+  }
+  problems.throw_if_any();
+  std::vector<double> values;
+  for (const EffectParameter& parameter : effect.parameters) {
+    values.push_back(wanted.parameters.at(std::string(parameter.name)));
+  }
+  return values;
+}
+
+EffectSide chosen_side(const Effect& effect, const std::string& word) {
+  if (word.empty()) return effect.sides.front();
+  for (const EffectSide side : effect.sides) {
+    if (name(side) == word || (word == "-" && side == EffectSide::none)) return side;
+  }
+  OptionProblems problems;
+  problems.add("--side", word, fmt::format("one of {}", sides_of(effect)));
+  problems.throw_if_any();
+  return EffectSide::none;
+}
+
+int show_picture(const Effect& effect, const EffectsOptions& options) {
+  const model::Machine machine = files::read_machine(options.machine);
+  OptionProblems problems;
+  problems.require("--length-noise-mm", options.length_noise_mm, 1e-6, 100.0);
+  problems.require("--position-noise-mm", options.position_noise_mm, 0.0, 100.0);
+  problems.throw_if_any();
+  const EffectSide side = chosen_side(effect, options.side);
+  const std::vector<double> values = chosen_values(effect, side, options, machine);
+  grid::StatedNoise noise;
+  noise.length_mm = options.length_noise_mm;
+  noise.position_mm = options.position_noise_mm;
+  const synthetic::EffectPicture picture =
+      synthetic::picture_effect(machine, effect, side, values, noise);
+  if (!options.drawing.empty())
+    files::write_whole_file(options.drawing, draw_effect(machine, picture));
+  if (options.json) {
+    fmt::print("{}", files::write_effect_picture(picture));
+    return kDone;
+  }
+  describe(effect);
+  const std::string side_name(name(side));
+  fmt::print(
+      "\nOn \"{}\" with {}{}", machine.name, effect.id, side_name.empty() ? "" : " " + side_name);
+  for (const auto& [key, value] : picture.applied.parameters)
+    fmt::print(", {} = {}", key, short_number(value));
+  fmt::print("\nthe tool goes beside where it is sent by so many mm (marks visited row by row):\n");
+  print_bed(picture, &synthetic::ShiftedMark::as_stated_mm);
+  fmt::print("and, once motors and zeros are calibrated on these marks, still by\n");
+  print_bed(picture, &synthetic::ShiftedMark::calibrated_mm);
+  fmt::print("\nA square of 100 mm, machine as stated, mm\n");
+  for (const synthetic::ShiftedSquare& square : picture.squares) print_square(square);
+  print_strengths(effect, picture);
+  return kDone;
+}
+
+int run_effects(const EffectsOptions& options) {
+  if (options.markdown) {
+    fmt::print("{}", model::effects::catalogue_document());
+    return kDone;
+  }
+  if (options.id.empty()) {
+    if (!options.json) return list_catalogue();
+    fmt::print("{}", files::write_catalogue());
+    return kDone;
+  }
+  const Effect* effect = model::effects::find_effect(options.id);
+  if (effect == nullptr) {
+    OptionProblems problems;
+    problems.add("effect", options.id, "an effect that `chaintrue effects` lists");
+    problems.throw_if_any();
+  }
+  if (!options.machine.empty()) return show_picture(*effect, options);
+  describe(*effect);
+  return kDone;
+}
+
+}  // namespace
+
+void add_effects(CLI::App& app, Run& run) {
+  auto options = std::make_shared<EffectsOptions>();
+  CLI::App* verb = app.add_subcommand(
+      "effects", "List the catalogue of effects, or show what one of them does to a machine");
+  verb->add_option("id", options->id, "Effect; without it the catalogue is listed");
+  auto* machine =
+      verb->add_option("--machine", options->machine, "chaintrue_machine file to show it on");
+  verb->add_option(
+          "--side", options->side, "left, right, both, x or y; default: the effect's first")
+      ->needs(machine);
+  verb->add_option("--set", options->values, "parameter=number instead of the usual size")
+      ->needs(machine);
+  verb->add_option("--length-noise-mm", options->length_noise_mm, "One sigma")
+      ->capture_default_str();
+  verb->add_option("--position-noise-mm", options->position_noise_mm, "One sigma")
+      ->capture_default_str();
+  verb->add_option("--draw", options->drawing, "Also draw it into this SVG file")->needs(machine);
+  verb->add_flag("--json", options->json, "For programs");
+  verb->add_flag("--markdown", options->markdown, "The catalogue as docs/effects.md");
+  verb->footer(
+      "Examples:\n"
+      "  chaintrue effects\n"
+      "  chaintrue effects chain_stretch --machine fixtures/machines/classic.json --draw "
+      "/tmp/stretch.svg");
+  verb->callback([options, &run] { run = [options] { return run_effects(*options); }; });
+}
+
+}  // namespace chaintrue::cli
