@@ -61,7 +61,7 @@ struct LatticeFit {
 
 /// Through what `fit` leaves with its penalised surface taken away. Nothing where the points do not stand alone on the nodes of
 /// a lattice of at least 4 x 4 lines with at most a tenth of the nodes empty, where the readings bear noise (the fit then
-/// has clearly fewer effective parameters than readings), or where the lines foretell left-out points worse.
+/// has clearly fewer effective parameters than readings), or where the lines foretell left-out points far worse.
 [[nodiscard]] std::optional<LatticeFit> fit_lattice(const JointFit& fit);
 
 }  // namespace chaintrue::grid
