@@ -61,79 +61,152 @@ tl::unexpected<FitRefusal> rank_deficient() {
       "the points do not determine the fit: some combination of its unknowns is left free"});
 }
 
-// The posterior of one component of theta, others at their optimum, on a grid: weights and offsets.
-struct ThetaGrid {
-  std::vector<double> offset;
-  std::vector<double> weight;
+// A point of the posterior of theta and its weight.
+struct ThetaNode {
+  Eigen::VectorXd theta;
+  double weight;
 };
 
-// For a smoothing parameter the prior is flat in lambda^(-1/2), the standard deviation of the field
-// (A. Gelman, Bayesian Analysis 1 (2006) 515-534): proper where V runs out flat towards lambda ->
-// infinity, and there the field stays as uncertain as the data leave it. For log sigma2 it is flat.
-ThetaGrid posterior_grid(const reml::Marginal& marginal,
-                         const reml::SearchResult& found,
-                         Eigen::Index i,
-                         double sigma) {
-  constexpr double kNegligible = 5.0;  // e^-5 of the peak
-  constexpr int kLongest = 60;
-  const double step = std::clamp(sigma / 1.5, 0.2, 1.0);
-  const double slope = i < marginal.penalties() ? -0.5 : 0.0;
-  std::vector<double> log_weight;
-  ThetaGrid grid;
-  double peak = -std::numeric_limits<double>::infinity();
-  for (const double direction : {-1.0, 1.0}) {
-    for (int j = direction < 0.0 ? 0 : 1; j < kLongest; ++j) {
-      const double offset = direction * step * j;
-      Eigen::VectorXd theta = found.theta;
-      theta(i) += offset;
-      const auto state = marginal.evaluate(theta, reml::Order::kValue);
-      if (!state) {
-        break;
-      }
-      const double w = -0.5 * state->value + slope * offset;
-      peak = std::max(peak, w);
-      if (w < peak - kNegligible) {
-        break;
-      }
-      grid.offset.push_back(offset);
-      log_weight.push_back(w);
-    }
-  }
-  double sum = 0.0;
-  for (const double w : log_weight) {
-    grid.weight.push_back(w > peak - kNegligible ? std::exp(w - peak) : 0.0);
-    sum += grid.weight.back();
-  }
-  for (double& w : grid.weight) {
-    w /= sum;
-  }
-  return grid;
-}
+// Walks one or two components of theta outward from the optimum while the posterior is worth e^-4
+// of its peak.
+class PosteriorGrid {
+ public:
+  PosteriorGrid(const reml::Marginal& marginal,
+                const reml::SearchResult& found,
+                Eigen::VectorXd sigma)
+      : marginal_(marginal), found_(found), centre_(found.theta), sigma_(std::move(sigma)) {}
 
-// The posterior covariance of b about the fit with theta averaged over rather than fixed, one
-// component of theta at a time, in working coordinates: E[A^-1] + E[(b - fit)(b - fit)'].
+  std::vector<ThetaNode> over(Eigen::Index i) {
+    peak_ = -std::numeric_limits<double>::infinity();
+    nodes_.clear();
+    walk(i, centre_);
+    return normalized();
+  }
+
+  // `i` is walked anew, from its best so far, at each value of `outer`.
+  std::vector<ThetaNode> over(Eigen::Index i, Eigen::Index outer) {
+    peak_ = -std::numeric_limits<double>::infinity();
+    nodes_.clear();
+    const double step = step_of(outer);
+    for (const double direction : {-1.0, 1.0}) {
+      Eigen::VectorXd from = centre_;
+      for (int j = direction < 0.0 ? 0 : 1; j < kLongest; ++j) {
+        from(outer) = centre_(outer) + direction * step * j;
+        if (from(outer) < found_.low(outer) || from(outer) > found_.high(outer)) {
+          break;
+        }
+        const Best best = walk(i, from);
+        if (!(best.log_weight > peak_ - kNegligible)) {
+          break;
+        }
+        from(i) = best.at;
+      }
+    }
+    return normalized();
+  }
+
+ private:
+  static constexpr double kNegligible = 4.0;
+  static constexpr int kLongest = 60;
+  struct Best {
+    double at;
+    double log_weight;
+  };
+
+  // The averaging always has the prior, so that it is proper; the fit has it where it was asked
+  // for.
+  [[nodiscard]] double missing_prior(const Eigen::VectorXd& theta) const {
+    double sum = 0.0;
+    for (Eigen::Index i = 0; marginal_.prior() == SmoothingPrior::kNone && i < theta.size(); ++i) {
+      sum += marginal_.flat_slope(i) * theta(i);
+    }
+    return sum;
+  }
+
+  [[nodiscard]] double step_of(Eigen::Index i) const { return std::clamp(sigma_(i), 0.2, 1.0); }
+
+  Best walk(Eigen::Index i, const Eigen::VectorXd& from) {
+    const double step = step_of(i);
+    Best best{from(i), -std::numeric_limits<double>::infinity()};
+    for (const double direction : {-1.0, 1.0}) {
+      for (int j = direction < 0.0 ? 0 : 1; j < kLongest; ++j) {
+        Eigen::VectorXd theta = from;
+        theta(i) += direction * step * j;
+        if (theta(i) < found_.low(i) || theta(i) > found_.high(i)) {
+          break;
+        }
+        const auto state = marginal_.evaluate(theta, reml::Order::kValue);
+        if (!state) {
+          break;
+        }
+        const double w = -0.5 * (state->value + missing_prior(theta));
+        if (w > best.log_weight) {
+          best = {theta(i), w};
+        }
+        peak_ = std::max(peak_, w);
+        if (w < best.log_weight - kNegligible) {
+          break;
+        }
+        nodes_.push_back({std::move(theta), w});
+      }
+    }
+    return best;
+  }
+
+  [[nodiscard]] std::vector<ThetaNode> normalized() const {
+    std::vector<ThetaNode> kept;
+    double sum = 0.0;
+    for (const ThetaNode& node : nodes_) {
+      if (node.weight > peak_ - kNegligible) {
+        kept.push_back({node.theta, std::exp(node.weight - peak_)});
+        sum += kept.back().weight;
+      }
+    }
+    for (ThetaNode& node : kept) {
+      node.weight /= sum;
+    }
+    return kept;
+  }
+
+  const reml::Marginal& marginal_;
+  const reml::SearchResult& found_;
+  Eigen::VectorXd centre_;
+  Eigen::VectorXd sigma_;
+  double peak_ = 0.0;
+  std::vector<ThetaNode> nodes_;
+};
+
+// The posterior covariance of b about the fit with theta averaged over rather than fixed: E[A^-1] +
+// E[(b - fit)(b - fit)']. What each lambda adds to A^-1 is added up; where sigma2 is free each
+// lambda is averaged together with it.
 Eigen::MatrixXd averaged_covariance(const reml::Marginal& marginal,
                                     const reml::SearchResult& found,
-                                    const Eigen::VectorXd& sigma,
-                                    const Eigen::MatrixXd& plain) {
-  const Eigen::VectorXd fit =
-      marginal.evaluate(found.theta, reml::Order::kValue).value().coefficients;
-  Eigen::MatrixXd total = plain;
-  for (Eigen::Index i = 0; i < marginal.unknowns(); ++i) {
-    const ThetaGrid grid = posterior_grid(marginal, found, i, sigma(i));
-    for (std::size_t j = 0; j < grid.offset.size(); ++j) {
-      if (!(grid.weight[j] > 0.0)) {
-        continue;
-      }
-      Eigen::VectorXd theta = found.theta;
-      theta(i) += grid.offset[j];
-      const Eigen::VectorXd shift =
-          marginal.evaluate(theta, reml::Order::kValue).value().coefficients - fit;
-      total += grid.weight[j] * (marginal.inverse(theta) - plain);
-      total.noalias() += grid.weight[j] * shift * shift.transpose();
+                                    const Eigen::VectorXd& sigma) {
+  reml::WorkingCovariance sum;
+  const Eigen::Index k = marginal.penalties();
+  const Eigen::VectorXd fit = marginal.add_inverse(
+      found.theta, 1.0 - static_cast<double>(marginal.sigma2_free() && k == 0 ? 1 : k), sum);
+  std::vector<Eigen::VectorXd> shifts;
+  const auto add = [&](const std::vector<ThetaNode>& nodes) {
+    for (const ThetaNode& node : nodes) {
+      const Eigen::VectorXd b = marginal.add_inverse(node.theta, node.weight, sum);
+      shifts.emplace_back(std::sqrt(node.weight) * (b - fit));
     }
+  };
+  PosteriorGrid grid(marginal, found, sigma);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    add(marginal.sigma2_free() ? grid.over(i, k) : grid.over(i));
   }
-  return total;
+  if (marginal.sigma2_free() && k == 0) {
+    add(grid.over(k));
+  }
+  Eigen::MatrixXd shift_columns(fit.size(), static_cast<Eigen::Index>(shifts.size()));
+  for (std::size_t j = 0; j < shifts.size(); ++j) {
+    shift_columns.col(static_cast<Eigen::Index>(j)) = shifts[j];
+  }
+  // Weights below zero on the plain part may leave a rounding below zero where nothing was added.
+  sum.diagonal = sum.diagonal.cwiseMax(0.0);
+  return marginal.structure().covariance_to_columns(sum, shift_columns);
 }
 
 PenalisedFit assemble(const PenalisedProblem& problem,
@@ -145,8 +218,9 @@ PenalisedFit assemble(const PenalisedProblem& problem,
   const Eigen::Index k = marginal.penalties();
   PenalisedFit fit;
   fit.coefficients = structure.to_columns(state.coefficients);
-  const Eigen::MatrixXd inverse = marginal.inverse(found.theta);
-  fit.covariance = structure.covariance_to_columns(inverse);
+  reml::WorkingCovariance inverse;
+  marginal.add_inverse(found.theta, 1.0, inverse);
+  fit.covariance = structure.covariance_to_columns(inverse, Eigen::MatrixXd(problem.columns(), 0));
   fit.lambda = found.theta.head(k).array().exp();
   fit.sigma2 = marginal.sigma2(found.theta);
   const Eigen::VectorXd& b = fit.coefficients;
@@ -165,10 +239,9 @@ PenalisedFit assemble(const PenalisedProblem& problem,
     }
   }
   fit.log_lambda_sigma = sigma.head(k);
-  fit.corrected_covariance =
-      options.correct_covariance
-          ? structure.covariance_to_columns(averaged_covariance(marginal, found, sigma, inverse))
-          : fit.covariance;
+  fit.corrected_covariance = options.correct_covariance && marginal.unknowns() > 0
+                                 ? averaged_covariance(marginal, found, sigma)
+                                 : fit.covariance;
   return fit;
 }
 
@@ -217,7 +290,7 @@ void PenalisedProblem::add_sparse_row(const std::vector<Eigen::Index>& indices,
 tl::expected<PenalisedFit, FitRefusal> fit_penalised(const PenalisedProblem& problem,
                                                      const FitOptions& options) {
   check(problem);
-  const reml::Marginal marginal(problem, std::nullopt);
+  const reml::Marginal marginal(problem, std::nullopt, options.prior);
   if (!marginal.positive()) {
     return rank_deficient();
   }
@@ -247,6 +320,8 @@ tl::expected<PenalisedFit, FitRefusal> fit_with_smoothing(
   const reml::Marginal marginal(problem, sigma2);
   reml::SearchResult fixed;
   fixed.theta = lambda.array().log();
+  fixed.low = fixed.theta;
+  fixed.high = fixed.theta;
   fixed.ends.assign(problem.penalties.size(), SmoothingEnd::kInside);
   if (!marginal.positive() || !marginal.evaluate(fixed.theta, reml::Order::kValue)) {
     return rank_deficient();

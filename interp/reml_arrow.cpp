@@ -114,19 +114,27 @@ class ArrowFactor final : public Factor {
     return result;
   }
 
-  [[nodiscard]] Eigen::MatrixXd inverse() const override {  // (2)
+  void add_inverse(double weight, WorkingCovariance& sum) const override {  // (2)
+    if (sum.diagonal.size() == 0) {
+      sum.diagonal = Eigen::VectorXd::Zero(size_);
+    }
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      sum.diagonal.segment(blocks_[k].first_working, blocks_[k].weight.size()) +=
+          weight * inverse_diagonal_[k];
+    }
     const Eigen::Index p = corner_.rows();
+    if (p == 0) {
+      return;
+    }
     Eigen::MatrixXd wide(size_, p);
     wide.bottomRows(p).setIdentity();
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
       wide.middleRows(blocks_[k].first_working, blocks_[k].weight.size()) = -beside_[k];
     }
-    Eigen::MatrixXd result = wide * (corner_ * wide.transpose());
-    for (std::size_t k = 0; k < blocks_.size(); ++k) {
-      result.diagonal().segment(blocks_[k].first_working, blocks_[k].weight.size()) +=
-          inverse_diagonal_[k];
+    if (sum.dense.size() == 0) {
+      sum.dense = Eigen::MatrixXd::Zero(size_, size_);
     }
-    return result;
+    sum.dense.noalias() += (weight * wide * corner_) * wide.transpose();
   }
 
  private:
@@ -207,10 +215,26 @@ class ArrowStructure final : public Structure {
   }
 
   [[nodiscard]] Eigen::MatrixXd covariance_to_columns(
-      const Eigen::MatrixXd& working) const override {
-    const Eigen::MatrixXd half = to_columns(working).transpose();
-    const Eigen::MatrixXd full = to_columns(half);
-    return 0.5 * (full + full.transpose());
+      const WorkingCovariance& covariance, const Eigen::MatrixXd& shifts) const override {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns_, columns_);
+    for (const Block& block : blocks_) {
+      const Eigen::Index m = block.weight.size();
+      const Eigen::MatrixXd half =
+          block.basis *
+          covariance.diagonal.segment(block.first_working, m).cwiseSqrt().asDiagonal();
+      result.block(block.first_column, block.first_column, m, m)
+          .selfadjointView<Eigen::Lower>()
+          .rankUpdate(half);
+    }
+    if (shifts.cols() > 0) {
+      result.selfadjointView<Eigen::Lower>().rankUpdate(to_columns(shifts));
+    }
+    if (covariance.dense.size() > 0) {
+      const Eigen::MatrixXd half = to_columns(covariance.dense).transpose();
+      result.triangularView<Eigen::Lower>() += to_columns(half);
+    }
+    result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
+    return result;
   }
 
  private:

@@ -53,10 +53,16 @@ class DenseFactor final : public Factor {
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const override {
     return cholesky_.solve(right);
   }
-  [[nodiscard]] Eigen::MatrixXd inverse() const override { return cholesky_.inverse(); }
+  void add_inverse(double weight, WorkingCovariance& sum) const override {
+    if (sum.dense.size() == 0) {
+      sum.dense = weight * cholesky_.inverse();
+    } else {
+      sum.dense += weight * cholesky_.inverse();
+    }
+  }
   [[nodiscard]] Traces traces() const override {
     const Eigen::Index q = problem_.columns();
-    const Eigen::MatrixXd c = inverse();
+    const Eigen::MatrixXd c = cholesky_.inverse();
     std::vector<Eigen::MatrixXd> product;  // A^-1 D_i
     for (std::size_t k = 0; k < problem_.penalties.size(); ++k) {
       const Penalty& penalty = problem_.penalties[k];
@@ -135,8 +141,8 @@ class DenseStructure final : public Structure {
     return working;
   }
   [[nodiscard]] Eigen::MatrixXd covariance_to_columns(
-      const Eigen::MatrixXd& working) const override {
-    return working;
+      const WorkingCovariance& covariance, const Eigen::MatrixXd& shifts) const override {
+    return covariance.dense + shifts * shifts.transpose();
   }
 
  private:

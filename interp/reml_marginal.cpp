@@ -23,8 +23,10 @@ Eigen::Index rank_of(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-Marginal::Marginal(const PenalisedProblem& problem, std::optional<double> fixed_sigma2)
-    : problem_(problem) {
+Marginal::Marginal(const PenalisedProblem& problem,
+                   std::optional<double> fixed_sigma2,
+                   SmoothingPrior prior)
+    : problem_(problem), prior_kind_(prior) {
   structure_ = is_arrow(problem) ? make_arrow(problem) : make_dense(problem);
   if (problem.prior_mean.size() > 0 && problem.prior_precision.size() > 0) {
     prior_square_ = problem.prior_mean.dot(problem.prior_precision * problem.prior_mean);
@@ -89,6 +91,19 @@ void Marginal::find_ranks() {
 
 double Marginal::sigma2(const Eigen::VectorXd& theta) const {
   return sigma2_free_ ? std::exp(theta(theta.size() - 1)) : sigma2_fixed_;
+}
+
+double Marginal::flat_slope(Eigen::Index i) const {
+  if (i < penalties()) {
+    return 1.0;
+  }
+  return noise_from_repeats() ? 0.0 : -1.0;
+}
+
+double Marginal::response_variance() const {
+  return std::max(
+      problem_.response_square / static_cast<double>(std::max<Eigen::Index>(problem_.rows, 1)),
+      1e-300);
 }
 
 double Marginal::balanced_log_lambda(Eigen::Index k) const {
@@ -156,11 +171,22 @@ std::optional<State> Marginal::evaluate(const Eigen::VectorXd& theta, Order orde
   if (order == Order::kHessian) {
     add_derivatives(state, *factor, theta);
   }
+  for (Eigen::Index i = 0; prior_kind_ == SmoothingPrior::kAvoidsBoundary && i < unknowns(); ++i) {
+    state.value += flat_slope(i) * theta(i);
+    if (order == Order::kHessian) {
+      state.gradient(i) += flat_slope(i);
+    }
+  }
   return state;
 }
 
-Eigen::MatrixXd Marginal::inverse(const Eigen::VectorXd& theta) const {
-  return structure_->factor(theta.head(penalties()).array().exp(), sigma2(theta))->inverse();
+Eigen::VectorXd Marginal::add_inverse(const Eigen::VectorXd& theta,
+                                      double weight,
+                                      WorkingCovariance& sum) const {
+  const double s2 = sigma2(theta);
+  const auto factor = structure_->factor(theta.head(penalties()).array().exp(), s2);
+  factor->add_inverse(weight, sum);
+  return factor->solve(structure_->moment() / s2 + structure_->prior_moment());
 }
 
 // With D_i = dA / dtheta_i and u_i = D_i b - d(A b) / dtheta_i, db / dtheta_i = -A^-1 u_i. For

@@ -27,7 +27,9 @@ struct State {
 class Marginal {
  public:
   /// `fixed_sigma2` overrides what the problem says about the noise scale.
-  Marginal(const PenalisedProblem& problem, std::optional<double> fixed_sigma2);
+  Marginal(const PenalisedProblem& problem,
+           std::optional<double> fixed_sigma2,
+           SmoothingPrior prior = SmoothingPrior::kNone);
 
   [[nodiscard]] Eigen::Index penalties() const {
     return static_cast<Eigen::Index>(problem_.penalties.size());
@@ -38,14 +40,25 @@ class Marginal {
   /// Where penalty k weighs as much as the data (traces equal); the search is centred there.
   [[nodiscard]] double balanced_log_lambda(Eigen::Index k) const;
 
+  /// What the prior flat in the standard deviations adds to V for each unit of theta_i.
+  [[nodiscard]] double flat_slope(Eigen::Index i) const;
+  [[nodiscard]] SmoothingPrior prior() const { return prior_kind_; }
+  [[nodiscard]] bool sigma2_free() const { return sigma2_free_; }
+  [[nodiscard]] bool noise_from_repeats() const { return extra_degrees_ > 0.0; }
+  /// Mean square of the responses: no noise is larger.
+  [[nodiscard]] double response_variance() const;
+
   /// False where some columns are free whatever lambda is.
   [[nodiscard]] bool positive() const { return structure_ != nullptr; }
   [[nodiscard]] const Structure& structure() const { return *structure_; }
 
   /// Empty where A is not positive definite.
   [[nodiscard]] std::optional<State> evaluate(const Eigen::VectorXd& theta, Order order) const;
-  /// A^-1 in working coordinates; A must be positive definite at theta.
-  [[nodiscard]] Eigen::MatrixXd inverse(const Eigen::VectorXd& theta) const;
+  /// sum += weight * A^-1 in working coordinates; A must be positive definite at theta. Returns b
+  /// there.
+  Eigen::VectorXd add_inverse(const Eigen::VectorXd& theta,
+                              double weight,
+                              WorkingCovariance& sum) const;
 
  private:
   struct LogDeterminant {
@@ -58,6 +71,7 @@ class Marginal {
   void find_ranks();
 
   const PenalisedProblem& problem_;
+  SmoothingPrior prior_kind_;
   std::unique_ptr<Structure> structure_;
   double prior_square_ = 0.0;  // b0' S0 b0
   bool sigma2_free_ = false;

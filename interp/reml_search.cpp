@@ -32,6 +32,12 @@ Limits limits_of(const Marginal& marginal) {
     limits.low(k) += marginal.balanced_log_lambda(k);
     limits.high(k) += marginal.balanced_log_lambda(k);
   }
+  if (marginal.sigma2_free()) {
+    // Noise below 1e-5 of the responses cannot be told from the rounding of a leverage near one.
+    const double largest = std::log(marginal.response_variance());
+    limits.low(n - 1) = std::min(largest - kHalfRange, 0.0);
+    limits.high(n - 1) = std::max(largest, 0.0) + 1.0;
+  }
   return limits;
 }
 
@@ -40,17 +46,33 @@ double value_at(const Marginal& marginal, const Eigen::VectorXd& theta) {
   return state ? state->value : std::numeric_limits<double>::infinity();
 }
 
-// All lambdas are moved together over the range; the best of them starts the search.
-Eigen::VectorXd scan(const Marginal& marginal, const Eigen::VectorXd& balance) {
+// All lambdas are moved together over the range, and sigma2 below the responses' own size where
+// nothing is known of it; the best of them starts the search.
+Eigen::VectorXd scan(const Marginal& marginal,
+                     const Eigen::VectorXd& balance,
+                     const Limits& limits) {
+  const Eigen::Index k = marginal.penalties();
+  std::vector<double> log_sigma2 = {0.0};
+  if (marginal.sigma2_free() && !marginal.noise_from_repeats()) {
+    const double largest = std::log(marginal.response_variance());
+    log_sigma2 = {largest, largest - 5.0, largest - 10.0, largest - 15.0};
+  }
   Eigen::VectorXd best = balance;
   double best_value = std::numeric_limits<double>::infinity();
-  for (double offset = -15.0; offset <= 15.0; offset += kScanStep) {
-    Eigen::VectorXd theta = balance;
-    theta.head(marginal.penalties()).array() += offset;
-    const double value = value_at(marginal, theta);
-    if (value < best_value) {
-      best_value = value;
-      best = theta;
+  for (const double s : log_sigma2) {
+    for (double offset = -15.0; offset <= 15.0; offset += kScanStep) {
+      Eigen::VectorXd theta = balance;
+      theta.head(k).array() += offset;
+      if (marginal.sigma2_free()) {
+        theta.head(k).array() -= s;
+        theta(k) = s;
+      }
+      theta = theta.cwiseMax(limits.low).cwiseMin(limits.high);
+      const double value = value_at(marginal, theta);
+      if (value < best_value) {
+        best_value = value;
+        best = theta;
+      }
     }
   }
   return best;
@@ -116,11 +138,16 @@ double largest_free_gradient(const Eigen::VectorXd& gradient, const std::vector<
 tl::expected<SearchResult, FitFailure> search(const Marginal& marginal, int maximum_iterations) {
   const Limits limits = limits_of(marginal);
   SearchResult result;
-  const Eigen::VectorXd balance = 0.5 * (limits.low + limits.high);
+  result.low = limits.low;
+  result.high = limits.high;
+  Eigen::VectorXd balance = 0.5 * (limits.low + limits.high);
+  if (marginal.sigma2_free()) {
+    balance(balance.size() - 1) = 0.0;
+  }
   if (!marginal.evaluate(balance, Order::kValue)) {
     return tl::unexpected(FitFailure::kRankDeficient);
   }
-  result.theta = scan(marginal, balance);
+  result.theta = scan(marginal, balance, limits);
   auto state = marginal.evaluate(result.theta, Order::kHessian);
   bool settled = false;
   while (!settled) {

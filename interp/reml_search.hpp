@@ -13,6 +13,8 @@ namespace chaintrue::interp::reml {
 
 struct SearchResult {
   Eigen::VectorXd theta;
+  Eigen::VectorXd low;  ///< the search's limits
+  Eigen::VectorXd high;
   std::vector<SmoothingEnd> ends;  ///< one a penalty
   int iterations = 0;
 };

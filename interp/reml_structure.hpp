@@ -22,6 +22,12 @@ struct Traces {
   Eigen::MatrixXd second;
 };
 
+/// A covariance in working coordinates: diag(diagonal) + dense. An empty part is zero.
+struct WorkingCovariance {
+  Eigen::VectorXd diagonal;
+  Eigen::MatrixXd dense;
+};
+
 /// A at one lambda and sigma2.
 class Factor {
  public:
@@ -29,8 +35,8 @@ class Factor {
   [[nodiscard]] virtual double log_determinant() const = 0;
   [[nodiscard]] virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const = 0;
   [[nodiscard]] virtual Traces traces() const = 0;
-  /// A^-1 in working coordinates.
-  [[nodiscard]] virtual Eigen::MatrixXd inverse() const = 0;
+  /// sum += weight * A^-1.
+  virtual void add_inverse(double weight, WorkingCovariance& sum) const = 0;
 };
 
 class Structure {
@@ -45,8 +51,9 @@ class Structure {
   [[nodiscard]] virtual std::unique_ptr<Factor> factor(const Eigen::VectorXd& lambda,
                                                        double sigma2) const = 0;
   [[nodiscard]] virtual Eigen::MatrixXd to_columns(const Eigen::MatrixXd& working) const = 0;
+  /// T (covariance + shifts shifts') T'; `shifts` may have no columns.
   [[nodiscard]] virtual Eigen::MatrixXd covariance_to_columns(
-      const Eigen::MatrixXd& working) const = 0;
+      const WorkingCovariance& covariance, const Eigen::MatrixXd& shifts) const = 0;
 
  protected:
   Eigen::VectorXd moment_;        // T' X'y

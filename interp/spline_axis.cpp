@@ -40,25 +40,26 @@ EndRow end_row(EndCondition end, double outer_step, double inner_step) {
   throw std::logic_error("unknown end condition");
 }
 
-double end_rhs(EndCondition end,
-               double outer_step,
-               double inner_step,
-               double outer_quotient,
-               double inner_quotient,
-               double given_slope) {
+// A cell's length and the difference quotient over it.
+struct CellSlope {
+  double step;
+  double quotient;
+};
+
+double end_rhs(EndCondition end, const CellSlope& outer, const CellSlope& inner, double given) {
   switch (end) {
     case EndCondition::kNotAKnot: {
-      const double both = outer_step + inner_step;
-      return ((outer_step + 2.0 * both) * inner_step * outer_quotient +
-              outer_step * outer_step * inner_quotient) /
+      const double both = outer.step + inner.step;
+      return ((outer.step + 2.0 * both) * inner.step * outer.quotient +
+              outer.step * outer.step * inner.quotient) /
              both;
     }
     case EndCondition::kNatural:
-      return 3.0 * outer_quotient;
+      return 3.0 * outer.quotient;
     case EndCondition::kParabolic:
-      return 2.0 * outer_quotient;
+      return 2.0 * outer.quotient;
     case EndCondition::kClamped:
-      return given_slope;
+      return given;
   }
   throw std::logic_error("unknown end condition");
 }
@@ -131,45 +132,76 @@ void SplineAxis::slopes(const double* values,
                         const LineLayout& layout,
                         const double* low_slopes,
                         const double* high_slopes) const {
+  // Eight lines abreast: their recurrences are independent, and whichever way the lines run in
+  // memory each visit uses what it fetched.
+  constexpr std::size_t kAbreast = 8;
+  for (std::size_t first = 0; first < layout.lines; first += kAbreast) {
+    const auto offset = static_cast<std::ptrdiff_t>(first) * layout.line_step;
+    LineLayout part = layout;
+    part.lines = std::min(kAbreast, layout.lines - first);
+    solve_abreast(values + offset,
+                  slopes + offset,
+                  part,
+                  low_slopes != nullptr ? low_slopes + first : nullptr,
+                  high_slopes != nullptr ? high_slopes + first : nullptr);
+  }
+}
+
+void SplineAxis::solve_abreast(const double* f,
+                               double* d,
+                               const LineLayout& layout,
+                               const double* low_slopes,
+                               const double* high_slopes) const {
   const std::size_t n = nodes_.size();
   const auto last = static_cast<std::ptrdiff_t>(n) - 1;
+  const std::ptrdiff_t step = layout.step;
+  const auto lines = static_cast<std::ptrdiff_t>(layout.lines);
+  const auto quotient = [&](std::ptrdiff_t i, std::ptrdiff_t line) {
+    const double* at = f + i * step + line * layout.line_step;
+    return (at[step] - at[0]) * inverse_step_[static_cast<std::size_t>(i)];
+  };
+  const auto slope = [&](std::ptrdiff_t i, std::ptrdiff_t line) -> double& {
+    return d[i * step + line * layout.line_step];
+  };
+  if (straight_line_) {
+    for (std::ptrdiff_t line = 0; line < lines; ++line) {
+      slope(0, line) = quotient(0, line);
+      slope(1, line) = quotient(0, line);
+    }
+    return;
+  }
   const EndCondition low = effective_end(ends_.low, ends_, n);
   const EndCondition high = effective_end(ends_.high, ends_, n);
-  const std::ptrdiff_t step = layout.step;
-  for (std::size_t line = 0; line < layout.lines; ++line) {
-    const double* f = values + static_cast<std::ptrdiff_t>(line) * layout.line_step;
-    double* d = slopes + static_cast<std::ptrdiff_t>(line) * layout.line_step;
-    double before = (f[step] - f[0]) * inverse_step_[0];
-    if (straight_line_) {
-      d[0] = before;
-      d[step] = before;
-      continue;
+  const std::ptrdiff_t second = n > 2 ? 1 : 0;
+  for (std::ptrdiff_t line = 0; line < lines; ++line) {
+    slope(0, line) = inverse_pivot_[0] *
+                     end_rhs(low,
+                             {step_[0], quotient(0, line)},
+                             {step_[static_cast<std::size_t>(second)], quotient(second, line)},
+                             low_slopes != nullptr ? low_slopes[line] : 0.0);
+  }
+  for (std::ptrdiff_t i = 1; i < last; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double before = 3.0 * step_[k] * inverse_pivot_[k];
+    const double after = 3.0 * step_[k - 1] * inverse_pivot_[k];
+    const double carry = lower_[k] * inverse_pivot_[k];
+    for (std::ptrdiff_t line = 0; line < lines; ++line) {
+      slope(i, line) = before * quotient(i - 1, line) + after * quotient(i, line) -
+                       carry * slope(i - 1, line);  // (1)
     }
-    const double second = n > 2 ? (f[2 * step] - f[step]) * inverse_step_[1] : before;
-    d[0] = inverse_pivot_[0] * end_rhs(low,
-                                       step_[0],
-                                       n > 2 ? step_[1] : step_[0],
-                                       before,
-                                       second,
-                                       low_slopes != nullptr ? low_slopes[line] : 0.0);
-    double inner = before;
-    for (std::ptrdiff_t i = 1; i < last; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const double after = (f[(i + 1) * step] - f[i * step]) * inverse_step_[k];
-      const double rhs = 3.0 * (step_[k] * before + step_[k - 1] * after);  // (1)
-      d[i * step] = (rhs - lower_[k] * d[(i - 1) * step]) * inverse_pivot_[k];
-      inner = before;
-      before = after;
-    }
+  }
+  const std::ptrdiff_t inner = last - 1 - second;
+  for (std::ptrdiff_t line = 0; line < lines; ++line) {
     const double rhs = end_rhs(high,
-                               step_[n - 2],
-                               n > 2 ? step_[n - 3] : step_[n - 2],
-                               before,
-                               inner,
+                               {step_[n - 2], quotient(last - 1, line)},
+                               {step_[static_cast<std::size_t>(inner)], quotient(inner, line)},
                                high_slopes != nullptr ? high_slopes[line] : 0.0);
-    d[last * step] = (rhs - lower_[n - 1] * d[(last - 1) * step]) * inverse_pivot_[n - 1];
-    for (std::ptrdiff_t i = last - 1; i >= 0; --i) {
-      d[i * step] -= upper_[static_cast<std::size_t>(i)] * d[(i + 1) * step];
+    slope(last, line) = (rhs - lower_[n - 1] * slope(last - 1, line)) * inverse_pivot_[n - 1];
+  }
+  for (std::ptrdiff_t i = last - 1; i >= 0; --i) {
+    const double upper = upper_[static_cast<std::size_t>(i)];
+    for (std::ptrdiff_t line = 0; line < lines; ++line) {
+      slope(i, line) -= upper * slope(i + 1, line);
     }
   }
 }

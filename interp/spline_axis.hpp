@@ -86,6 +86,11 @@ class SplineAxis {
 
  private:
   void factor();
+  void solve_abreast(const double* f,
+                     double* d,
+                     const LineLayout& layout,
+                     const double* low_slopes,
+                     const double* high_slopes) const;
 
   std::vector<double> nodes_;
   AxisEnds ends_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compiled with -O3 -fno-math-errno -fno-trapping-math (model/CMakeLists.txt), so that the compiler
 // may put square roots and both branches of a choice into vector lanes. Contraction stays off:
-// every clone computes the same bytes.
+// both versions compute the same bytes.
 #include "model/batch_inverse.hpp"
 
 #include <fmt/format.h>
@@ -11,10 +11,12 @@
 
 #include "model/equilibrium_newton.hpp"
 
-#if defined(__x86_64__) && defined(__gnu_linux__)
-#define CHAINTRUE_CLONES __attribute__((target_clones("avx2", "default")))
+// clang cannot both choose between versions and inline everything into them; it builds the plain
+// version alone.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__)
+#define CHAINTRUE_VERSIONS __attribute__((target_clones("avx2", "default"), flatten))
 #else
-#define CHAINTRUE_CLONES
+#define CHAINTRUE_VERSIONS __attribute__((flatten))
 #endif
 
 namespace chaintrue::model {
@@ -47,8 +49,7 @@ inline double tangent_angle(double vb, double h, double tb) {
 
 /// The equations of equilibrium.hpp in straight-line code over a block: three undamped Newton steps
 /// from the straight start.
-CHAINTRUE_CLONES [[gnu::flatten]] void solve_block(const EquilibriumConstants& constants,
-                                                   Block& block) {
+CHAINTRUE_VERSIONS void solve_block(const EquilibriumConstants& constants, Block& block) {
   const EquilibriumConstants m = constants;
   double* __restrict x = block.x.data();
   double* __restrict y = block.y.data();

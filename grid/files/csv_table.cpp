@@ -143,6 +143,28 @@ std::vector<std::size_t> match_header(const CsvRow& header,
   return {};
 }
 
+/// The values of a line, by column.
+std::vector<std::optional<double>> read_row(const CsvRow& row,
+                                            const std::vector<CsvColumn>& columns,
+                                            const std::vector<std::size_t>& index,
+                                            CsvRow& cells,
+                                            Problems& problems) {
+  std::vector<std::optional<double>> values(columns.size());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (index[c] == kNoCell) continue;
+    const CsvColumn& column = columns[c];
+    cells[c] = row[index[c]];
+    if (!cells[c].text.empty()) {
+      values[c] =
+          checked_number(cells[c].text, cells[c].place(), column.name, column.range, problems);
+    } else if (column.is_required) {
+      problems.add(
+          cells[c].place(), "", fmt::format("{} ({})", column.range.expected(), column.name));
+    }
+  }
+  return values;
+}
+
 /// Lines that end in a separator have one empty cell too many.
 void drop_trailing_cells(std::vector<CsvRow>& rows) {
   if (!rows[0].empty() && rows[0].size() > 1 && rows[0].back().text.empty()) rows[0].pop_back();
@@ -169,6 +191,18 @@ std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& p
     return true;
   });
   return rows;
+}
+
+std::vector<std::string> csv_header(std::string_view text) {
+  Problems ignored("");
+  std::vector<std::string> names;
+  const char separator = separator_of(text);
+  for_each_line(text, [&](std::string_view line, std::size_t) {
+    const std::vector<CsvRow> rows = split_csv(line, separator, ignored);
+    for (const CsvCell& cell : rows.front()) names.push_back(cell.text);
+    return false;
+  });
+  return names;
 }
 
 char separator_of(std::string_view text) {
@@ -211,28 +245,15 @@ CsvTable read_csv(std::string_view text,
     return table;
   }
   for (std::size_t r = 1; r < rows.size(); ++r) {
-    if (rows[r].size() != width) {
-      problems.add(rows[r].front().place(),
-                   fmt::format("{} cells", rows[r].size()),
-                   fmt::format("{} cells, as in the header", width));
-      continue;
-    }
     const std::size_t problems_before = problems.list().size();
     std::vector<std::optional<double>> values(columns.size());
     CsvRow cells(columns.size(), CsvCell{"", rows[r].front().line, 1});
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      if (index[c] == kNoCell) continue;
-      cells[c] = rows[r][index[c]];
-      if (cells[c].text.empty()) {
-        if (columns[c].is_required) {
-          problems.add(cells[c].place(),
-                       "",
-                       fmt::format("{} ({})", columns[c].range.expected(), columns[c].name));
-        }
-        continue;
-      }
-      values[c] = checked_number(
-          cells[c].text, cells[c].place(), columns[c].name, columns[c].range, problems);
+    if (rows[r].size() == width) {
+      values = read_row(rows[r], columns, index, cells, problems);
+    } else {
+      problems.add(rows[r].front().place(),
+                   fmt::format("{} cells", rows[r].size()),
+                   fmt::format("{} cells, as in the header", width));
     }
     table.clean.push_back(problems.list().size() == problems_before);
     table.rows.push_back(std::move(values));

@@ -29,6 +29,8 @@ using CsvRow = std::vector<CsvCell>;
 [[nodiscard]] std::vector<CsvRow> split_csv(std::string_view text,
                                             char separator,
                                             Problems& problems);
+/// The cells of the first line that is neither blank nor a comment.
+[[nodiscard]] std::vector<std::string> csv_header(std::string_view text);
 /// Of comma, semicolon and tab the one that the first line with cells has most of; a comma where
 /// there is none.
 [[nodiscard]] char separator_of(std::string_view text);

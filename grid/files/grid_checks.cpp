@@ -163,24 +163,20 @@ bool check_inches(const MeasuredGrid& grid, const PointPlaces& places, Problems&
   const auto second =
       slope_of(grid.points, extent.length > 0.0 ? Getter(right_of) : Getter(commanded_y_of));
   if (!first || !second) return false;
-  const std::string what = extent.length > 0.0 ? "lengths" : "commanded coordinates";
+  const std::string what = extent.length > 0.0 ? "lengths" : "commands";
+  const double steepness = 0.5 * (first->steepness() + second->steepness());
   const std::string found =
-      fmt::format("{} that change by {:.3g} and {:.3g} for each 1 of x_mm, y_mm",
-                  what,
-                  first->steepness(),
-                  second->steepness());
+      fmt::format("{} that change by {:.3g} for each 1 of x_mm, y_mm", what, steepness);
   if (is_inches_under(first->steepness()) && is_inches_under(second->steepness())) {
-    problems.add(
-        places.all,
-        found,
-        fmt::format("a change of about 1; x_mm and y_mm look like inches, the {} like mm", what));
+    problems.add(places.all,
+                 found,
+                 fmt::format("about 1; x_mm and y_mm look like inches, the {} like mm", what));
     return true;
   }
   if (is_inches_over(first->steepness()) && is_inches_over(second->steepness())) {
-    problems.add(
-        places.all,
-        found,
-        fmt::format("a change of about 1; the {} look like inches, x_mm and y_mm like mm", what));
+    problems.add(places.all,
+                 found,
+                 fmt::format("about 1; the {} look like inches, x_mm and y_mm like mm", what));
     return true;
   }
   return false;
@@ -207,12 +203,11 @@ void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& 
   const auto left = slope_of(grid.points, left_of);
   const auto right = slope_of(grid.points, right_of);
   const std::string swapped =
-      "left lengths that grow and right lengths that shrink towards +x; the columns left_mm and "
+      "left lengths growing and right ones shrinking towards +x; the columns left_mm and "
       "right_mm look swapped";
   if (left && right) {
     if (left->per_x < 0.0 && right->per_x > 0.0) {
-      problems.add(
-          places.all, "left lengths that shrink and right lengths that grow towards +x", swapped);
+      problems.add(places.all, "left lengths shrinking and right ones growing towards +x", swapped);
     }
     constexpr double kClearly = 0.1;
     if (left->per_y > kClearly && right->per_y > kClearly) {
@@ -226,8 +221,7 @@ void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& 
   // A handful of points has no slope; a machine tells its sides apart all the same.
   constexpr double kClearly_mm = 100.0;
   if (grid.machine && mean_misfit(grid, 1.0) > mean_misfit(grid, -1.0) + kClearly_mm) {
-    problems.add(
-        places.all, "lengths that fit the machine only with left and right exchanged", swapped);
+    problems.add(places.all, "lengths that fit the machine with left and right exchanged", swapped);
   }
 }
 
@@ -250,6 +244,32 @@ double width_across_best_line(const std::vector<MeasuredPoint>& points) {
     widest = std::max(widest, std::abs(across.dot(place)));
   }
   return widest;
+}
+
+/// Commands and marks both in inches fit each other; only the bed shows that they cover a
+/// twenty-fifth of it. True where they do.
+bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
+  constexpr double kInch_mm = 25.4;
+  if (!grid.machine) return false;
+  double half_width_mm = 0.0;
+  double half_height_mm = 0.0;
+  for (const MeasuredPoint& point : grid.points) {
+    half_width_mm = std::max(half_width_mm, std::abs(point.mark.x_mm));
+    half_height_mm = std::max(half_height_mm, std::abs(point.mark.y_mm));
+  }
+  const model::Bed& bed = grid.machine->bed;
+  if (2.0 * half_width_mm * kInch_mm > bed.width_mm ||
+      2.0 * half_height_mm * kInch_mm > bed.height_mm)
+    return false;
+  problems.warn(
+      places.all,
+      fmt::format(
+          "all points lie within {:.4g} x {:.4g} mm of a bed of {} x {} mm; are they in inches?",
+          2.0 * half_width_mm,
+          2.0 * half_height_mm,
+          bed.width_mm,
+          bed.height_mm));
+  return true;
 }
 
 }  // namespace
@@ -298,11 +318,13 @@ void check_points_together(const MeasuredGrid& grid,
   }
   if (count == 0 || check_inches(grid, places, problems)) return;
   check_sides(grid, places, problems);
+  const bool is_tiny = count >= kSpanFrom && warn_of_a_tiny_area(grid, places, problems);
   if (fewest_points < kSpanFrom || count < fewest_points) return;
   if (const double width = width_across_best_line(grid.points); width < kRepeatDistance_mm) {
     problems.add(places.all,
                  fmt::format("points within {:.3g} mm of one line", width),
-                 "points that span an area, as a map of the bed needs");
+                 std::string("points that span an area, as a map of the bed needs") +
+                     (is_tiny ? "; are they in inches?" : ""));
   }
 }
 

@@ -204,7 +204,10 @@ ReadGrid parse_json_grid(const std::string& text, const GridOptions& options, Pr
 ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Problems& problems) {
   constexpr std::size_t kOrder = 4;
   // Lengths are required unless the header has commands in their place.
-  const bool commanded = text.find("commanded_") != std::string::npos;
+  const std::vector<std::string> header = csv_header(text);
+  const bool commanded = std::any_of(header.begin(), header.end(), [](const std::string& name) {
+    return name.rfind("commanded_", 0) == 0;
+  });
   const std::vector<CsvColumn> columns = {{"x_mm", kCoordinate},
                                           {"y_mm", kCoordinate},
                                           {"left_mm", kLength, !commanded},

@@ -32,7 +32,9 @@ IniTable::IniTable(std::string_view text, Problems& problems) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark)
     text.remove_prefix(kByteOrderMark.size());
-  if (trimmed(text).empty()) problems.add("", "an empty file", "an ini file with [sections]");
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    problems.add("", "an empty file", "an ini file with [sections]");
+  }
   std::vector<IniEntry>* section = nullptr;
   std::size_t strange = 0;
   for (std::size_t number = 1; !text.empty(); ++number) {

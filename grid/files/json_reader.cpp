@@ -85,7 +85,8 @@ std::optional<bool> Cursor::boolean() const {
 
 Value<double> number(Range range) {
   return {[range](const Cursor& at) { return at.number(range); },
-          [](const double& value) { return Json(value); },
+          // A negative zero would come back as a zero: the same number, other bytes.
+          [](const double& value) { return Json(value + 0.0); },
           range.expected()};
 }
 

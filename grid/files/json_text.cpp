@@ -87,6 +87,43 @@ std::string likely_slip(std::string_view text, std::size_t offset) {
   return {};
 }
 
+struct Token {
+  std::size_t offset;
+  std::string_view text;
+};
+
+/// The word, text or single character that reaches over `offset`.
+Token token_at(std::string_view text, std::size_t offset) {
+  if (offset >= text.size()) return {text.size(), "the end of the text"};
+  std::size_t begin = offset;
+  std::size_t end = offset + 1;
+  if (text[offset] == '"') {
+    const std::size_t opening = offset == 0 ? std::string_view::npos : text.rfind('"', offset - 1);
+    const bool is_on_line =
+        opening != std::string_view::npos &&
+        text.substr(opening, offset - opening).find('\n') == std::string_view::npos;
+    if (is_on_line) begin = opening;
+  } else if (is_word_character(text[offset])) {
+    while (begin > 0 && is_word_character(text[begin - 1])) --begin;
+    while (end < text.size() && is_word_character(text[end])) ++end;
+  }
+  return {begin, text.substr(begin, end - begin)};
+}
+
+/// What the parser wanted, from its own words.
+std::string expected_by_parser(std::string_view what) {
+  constexpr std::string_view kExpected = "; expected ";
+  constexpr std::string_view kInvalid = "invalid string: ";
+  if (const std::size_t at = what.rfind(kExpected); at != std::string_view::npos) {
+    return fmt::format("JSON: {} here", what.substr(at + kExpected.size()));
+  }
+  if (const std::size_t at = what.find(kInvalid); at != std::string_view::npos) {
+    const std::string_view reason = what.substr(at + kInvalid.size());
+    return fmt::format("JSON: in a text, {}", reason.substr(0, reason.find("; last read")));
+  }
+  return "JSON";
+}
+
 /// Builds the value from the parser's events; the parser itself does not tell of keys that stand
 /// twice.
 class Builder : public nlohmann::json_sax<Json> {
@@ -114,23 +151,18 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   bool parse_error(std::size_t position,
-                   const std::string& last_token,
+                   const std::string&,
                    const nlohmann::detail::exception& error) override {
-    const bool at_end = position > source_.text.size() || last_token.empty();
-    const std::size_t length = last_token.find("<U+") == std::string::npos ? last_token.size() : 1;
-    const std::size_t offset = source_.original_offset(position - std::min(position, length));
-    const std::string_view what = error.what();
-    const std::size_t expected_at = what.rfind("expected ");
-    const bool expectation_known =
-        expected_at != std::string_view::npos && (expected_at < 2 || what[expected_at - 1] == ' ');
-    std::string expected = "JSON";
-    if (expectation_known) {
-      expected +=
-          fmt::format(": {} here", what.substr(expected_at + std::string_view("expected ").size()));
-    }
-    problems_.add(line_and_column_of(original_, at_end ? original_.size() : offset),
-                  at_end ? std::string("the end of the text") : last_token,
-                  expected + likely_slip(original_, offset));
+    // The parser counts what it has read: the last character is the one that did not fit, or the
+    // end of one that did.
+    const bool at_end = position > source_.text.size();
+    const Token token =
+        at_end ? Token{original_.size(), "the end of the text"}
+               : token_at(original_,
+                          source_.original_offset(position - std::min<std::size_t>(position, 1)));
+    problems_.add(line_and_column_of(original_, token.offset),
+                  token.text,
+                  expected_by_parser(error.what()) + likely_slip(original_, token.offset));
     return false;
   }
 
@@ -144,12 +176,18 @@ class Builder : public nlohmann::json_sax<Json> {
     std::unordered_set<std::string> keys;
   };
 
+  /// The place of the value that comes next.
   [[nodiscard]] std::string pointer() const {
     std::string text;
     for (const Level& level : open_) {
       text += '/';
-      text += level.value->is_array() ? fmt::format("{}", level.value->size())
-                                      : pointer_token(level.key);
+      if (!level.value->is_array()) {
+        text += pointer_token(level.key);
+      } else {
+        // An element that is still open stands in its array already.
+        const bool holds_next = &level == &open_.back();
+        text += fmt::format("{}", level.value->size() - (holds_next ? 0 : 1));
+      }
     }
     return text;
   }
@@ -165,7 +203,12 @@ class Builder : public nlohmann::json_sax<Json> {
       return &level.value->back();
     }
     if (level.key_stands_twice) {
-      problems_.add(pointer(), compact_json(value), "this key once; it stands here a second time");
+      // An object or list is empty as yet.
+      problems_.add(pointer(),
+                    value.is_object()  ? "an object"
+                    : value.is_array() ? "a list"
+                                       : compact_json(value),
+                    "this key once; it stands here a second time");
     }
     auto& members = level.value->get_ref<Json::object_t&>();
     // Appends without looking for the key again, which would make a long object slow.

@@ -266,7 +266,7 @@ Record<T>& pair(Record<T>& record, const std::string& key, Eigen::Vector2d T::*m
           at.expect("a pair of numbers in mm");
         }
       },
-      [member](const T& object) { return std::optional<Json>(Json::array({(object.*member)[0], (object.*member)[1]})); });
+      [member](const T& object) { return std::optional<Json>(Json::array({(object.*member)[0] + 0.0, (object.*member)[1] + 0.0})); });
 }
 
 const Record<MapPoint>& point_record() {

@@ -29,6 +29,14 @@ std::size_t slips_between(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// `left` for `left_mm`: the unit is what people leave out.
+bool is_without_unit(std::string_view word, std::string_view candidate) {
+  return !word.empty() && candidate.size() > word.size() && candidate[word.size()] == '_' &&
+         std::equal(word.begin(), word.end(), candidate.begin(), [](char a, char b) {
+           return lower(a) == lower(b);
+         });
+}
+
 }  // namespace
 
 void Problems::add(std::string place, std::string_view value, std::string expected) {
@@ -109,7 +117,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   std::string best;
   std::size_t fewest = most_slips + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t slips = slips_between(word, candidate);
+    const std::size_t slips = is_without_unit(word, candidate) ? 0 : slips_between(word, candidate);
     if (slips < fewest && slips < candidate.size()) {
       fewest = slips;
       best = candidate;

@@ -52,7 +52,8 @@ class Problems {
 /// `line 4, column 12`, both from 1; the column counts bytes.
 [[nodiscard]] std::string line_and_column(std::size_t line, std::size_t column);
 [[nodiscard]] std::string line_and_column_of(std::string_view text, std::size_t offset);
-/// The candidate with the fewest typing slips; empty where none is near.
+/// The candidate with the fewest typing slips, or the word with the unit that it lacks; empty where
+/// none is near.
 [[nodiscard]] std::string nearest(std::string_view word,
                                   const std::vector<std::string>& candidates);
 /// `a, b, c`

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/map/measured_area.hpp"
 #include "grid/map/spatial_blocks.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -21,8 +22,8 @@ using model::Setting;
 constexpr int kMaximumPasses = 25;
 /// Below a hundredth of a sigma a further pass changes no length by more than some 1e-4 mm.
 constexpr double kSettledSigmas = 1e-3;
-/// Huber's constant for two degrees of freedom: 95 % efficient on clean data.
-constexpr double kHuberDistance = 2.2;
+/// 95 % of good points are nearer (chi with two degrees of freedom): those keep their full weight.
+constexpr double kHuberDistance = 2.4477;
 /// Passes with soft weights only, so that several bad points cannot hide each other.
 constexpr int kSoftPasses = 4;
 
@@ -76,14 +77,20 @@ JointFitFailure unreachable(const LengthPoint& point, model::PoseFailure failure
                       model::explain(failure))};
 }
 
-/// About 1.7 coefficients a point, so that noise-free points can be met; the penalty makes more of them harmless.
-interp::BsplineBasis basis_for(const interp::Rectangle& domain, std::size_t points) {
-  const double wanted = 1.7 * static_cast<double>(points);
-  const double aspect = std::clamp(domain.width() / domain.height(), 0.25, 4.0);
-  const auto intervals = [](double columns, int most) {
-    return std::clamp(static_cast<int>(std::ceil(columns)) - 3, 3, most);
+/// Intervals a little wider than the square that each point has to itself: three more coefficients than intervals on each
+/// axis still let noise-free points be met; the penalty makes
+/// what is too many of them harmless, and beyond some 200 a surface more would only cost time. The smoother surface is for
+/// points that are met closely, and closer ones show.
+interp::BsplineBasis basis_for(const interp::Rectangle& domain, const std::vector<LengthPoint>& points,
+                               int bending_order) {
+  std::vector<model::BedPoint> marks;
+  for (const LengthPoint& point : points) marks.push_back(point.mark);
+  const double widening = bending_order == 2 ? 1.2 : 0.8;
+  const double spacing_mm = widening * 2.0 * MeasuredArea(marks, domain).edge_mm();
+  const auto intervals = [spacing_mm](double length_mm, int most) {
+    return std::clamp(static_cast<int>(std::ceil(length_mm / spacing_mm)), 3, most);
   };
-  return {domain, intervals(std::sqrt(wanted * aspect), 12), intervals(std::sqrt(wanted / aspect), 8)};
+  return {domain, intervals(domain.width(), 12), intervals(domain.height(), 8)};
 }
 
 class JointFitter {
@@ -91,7 +98,7 @@ class JointFitter {
   explicit JointFitter(const JointFitInput& input)
       : input_(input),
         unknowns_(input.machine, input.sheet),
-        basis_(basis_for(input.domain, input.points.size())),
+        basis_(basis_for(input.domain, input.points, input.bending_order)),
         columns_{unknowns_.size(), basis_.size()},
         theta_(Eigen::VectorXd::Zero(unknowns_.size())),
         weights_(Eigen::VectorXd::Ones(static_cast<Eigen::Index>(input.points.size()))),
@@ -101,7 +108,9 @@ class JointFitter {
 
  private:
   tl::expected<void, JointFitFailure> linearise();
-  tl::expected<void, JointFitFailure> solve(bool correct_covariance);
+  /// Choosing the smoothing costs some twenty times a solution.
+  enum class Smoothing { choose, keep };
+  tl::expected<void, JointFitFailure> solve(Smoothing smoothing, bool correct_covariance);
   void measure_distances();
   [[nodiscard]] bool update_weights(int pass);
   [[nodiscard]] interp::PenalisedProblem problem() const;
@@ -183,32 +192,35 @@ interp::PenalisedProblem JointFitter::problem() const {
   problem.prior_mean.head(columns_.settings) =
       problem.prior_precision.topLeftCorner(columns_.settings, columns_.settings).ldlt().solve(pull);
 
-  const Eigen::MatrixXd planes = basis_.plane_coefficients();
-  const Eigen::MatrixXd to_plane = (planes.transpose() * planes).ldlt().solve(planes.transpose());
-  const Eigen::MatrixXd plane_precision = to_plane.transpose() * to_plane / (kPlaneSigmaMm * kPlaneSigmaMm);
+  const Eigen::MatrixXd free = basis_.polynomial_coefficients(input_.bending_order - 1);
+  const Eigen::MatrixXd to_free = (free.transpose() * free).ldlt().solve(free.transpose());
+  const Eigen::MatrixXd free_precision = to_free.transpose() * to_free / (kFreePartSigmaMm * kFreePartSigmaMm);
   for (model::Side side : model::kSides) {
     problem.prior_precision(columns_.scale(side), columns_.scale(side)) = 1.0 / (kScaleSigma * kScaleSigma);
     problem.prior_precision.block(columns_.spline(side), columns_.spline(side), basis_.size(), basis_.size()) =
-        plane_precision;
+        free_precision;
   }
 
   // One smoothness for both chains: what bends one surface bends the other.
   interp::Penalty penalty;
   penalty.first_column = columns_.spline(model::Side::left);
   penalty.matrix = Eigen::MatrixXd::Zero(2 * basis_.size(), 2 * basis_.size());
-  penalty.matrix.topLeftCorner(basis_.size(), basis_.size()) = basis_.thin_plate_penalty();
+  penalty.matrix.topLeftCorner(basis_.size(), basis_.size()) =
+      basis_.bending_penalty(input_.bending_order);
   penalty.matrix.bottomRightCorner(basis_.size(), basis_.size()) =
       penalty.matrix.topLeftCorner(basis_.size(), basis_.size());
-  penalty.rank = 2 * basis_.thin_plate_rank();
+  penalty.rank = 2 * basis_.bending_rank(input_.bending_order);
   problem.penalties = {std::move(penalty)};
   problem.noise = input_.noise_scale;
   return problem;
 }
 
-tl::expected<void, JointFitFailure> JointFitter::solve(bool correct_covariance) {
+tl::expected<void, JointFitFailure> JointFitter::solve(Smoothing smoothing, bool correct_covariance) {
   interp::FitOptions options;
   options.correct_covariance = correct_covariance;
-  auto fit = interp::fit_penalised(problem(), options);
+  auto fit = smoothing == Smoothing::choose
+                 ? interp::fit_penalised(problem(), options)
+                 : interp::fit_with_smoothing(problem(), fit_.lambda, fit_.sigma2, options);
   if (!fit) {
     const bool rank = fit.error().reason == interp::FitFailure::kRankDeficient;
     return tl::unexpected(JointFitFailure{rank ? JointFitFailure::Reason::rank_deficient
@@ -278,20 +290,23 @@ bool JointFitter::update_weights(int pass) {
 }
 
 tl::expected<JointFit, JointFitFailure> JointFitter::run() {
+  Smoothing smoothing = Smoothing::choose;
   for (int pass = 0; pass < kMaximumPasses; ++pass) {
     if (auto done = linearise(); !done) return tl::unexpected(done.error());
-    if (auto done = solve(false); !done) return tl::unexpected(done.error());
+    if (auto done = solve(smoothing, false); !done) return tl::unexpected(done.error());
     const Eigen::VectorXd next = fit_.coefficients.head(columns_.settings);
     double step = 0.0;
     for (Eigen::Index i = 0; i < next.size(); ++i) {
       step = std::max(step, std::abs(next[i] - theta_[i]) / unknowns_.sigma(i));
     }
     theta_ = next;
-    const bool reweighted = update_weights(pass);
-    if (pass > kSoftPasses && step < kSettledSigmas && !reweighted) break;
+    const bool settled = !update_weights(pass) && step < kSettledSigmas && pass > kSoftPasses;
+    if (settled && smoothing == Smoothing::choose) break;
+    // Chosen at the start, once the bad points are out, and whenever all else has settled.
+    smoothing = settled || pass == kSoftPasses ? Smoothing::choose : Smoothing::keep;
   }
   if (auto done = linearise(); !done) return tl::unexpected(done.error());
-  if (auto done = solve(true); !done) return tl::unexpected(done.error());
+  if (auto done = solve(Smoothing::choose, true); !done) return tl::unexpected(done.error());
   measure_distances();
   return result();
 }

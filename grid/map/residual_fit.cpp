@@ -225,6 +225,20 @@ MapContents contents_of(const MeasuredGrid& grid, const JointFitInput& input, co
   return map;
 }
 
+/// Readings with all their digits, as a simulator or a very good measurement gives them, bear a smoother surface than
+/// noisy ones. It is taken where it foretells left-out points a fifth better; then `input` says so.
+void prefer_smoother(JointFitInput& input, JointFit& joint) {
+  constexpr double kClearlyBetter = 0.8;
+  JointFitInput smoother = input;
+  smoother.bending_order = 3;
+  auto fit = fit_jointly(smoother);
+  if (!fit) return;
+  const double before = held_out_accuracy(joint).leave_one_out.chain.rms_mm;
+  if (held_out_accuracy(*fit).leave_one_out.chain.rms_mm > kClearlyBetter * before) return;
+  input = std::move(smoother);
+  joint = *std::move(fit);
+}
+
 }  // namespace
 
 tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid) {
@@ -238,6 +252,7 @@ tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid)
   JointFitInput input = input_of(grid, *points);
   auto joint = fit_jointly(input);
   if (!joint) return tl::unexpected(translate(joint.error()));
+  if (!grid.noise) prefer_smoother(input, *joint);
   std::string source = grid.noise ? "stated" : "fit";
   if (!grid.noise) {
     if (const auto repeats = noise_from_repeats(*joint, input.noise)) {

@@ -16,7 +16,8 @@ run("building" ${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run("running" ${WORK_DIR}/build/consumer)
 message("${output}")
 
-# Every installed header must stand on its own feet: nothing may reach for a file that was not installed.
+# Every installed header must stand on its own feet: nothing may reach for a file that was not installed, nor for a
+# library that the package does not ask for.
 file(GLOB_RECURSE headers RELATIVE ${WORK_DIR}/prefix/include/chaintrue ${WORK_DIR}/prefix/include/chaintrue/*.hpp)
 foreach(header ${headers})
   file(STRINGS ${WORK_DIR}/prefix/include/chaintrue/${header} includes REGEX "^#include \"")
@@ -26,4 +27,8 @@ foreach(header ${headers})
       message(FATAL_ERROR "${header} includes \"${included}\", which is not installed")
     endif()
   endforeach()
+  file(STRINGS ${WORK_DIR}/prefix/include/chaintrue/${header} foreign REGEX "^#include <(nlohmann|libalglib|CLI)/")
+  if(foreign)
+    message(FATAL_ERROR "${header}: ${foreign}, but the package does not need that library")
+  endif()
 endforeach()

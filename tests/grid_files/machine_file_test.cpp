@@ -55,9 +55,14 @@ TEST(MachineFile, ReportsEveryProblemAtOnce) {
   replace("\"height_mm\": 1219.2", "\"height_mm\": NaN");
   const std::string message = message_of(text);
   EXPECT_THAT(message, HasSubstr("machine.json: /sled/mas_kg: found 11.6, expected \"mass_kg\"?"));
-  EXPECT_THAT(message, HasSubstr("machine.json: /sprocket/teeth: found \"ten\", expected a whole number"));
-  EXPECT_THAT(message, HasSubstr("machine.json: /feed: found \"overtop\", expected one of \"over_top\", \"off_bottom\""));
-  EXPECT_THAT(message, HasSubstr("machine.json: /bed/height_mm: found NaN, expected a number in mm"));
+  EXPECT_THAT(message,
+              HasSubstr("machine.json: /sprocket/teeth: found \"ten\", expected a whole number"));
+  EXPECT_THAT(
+      message,
+      HasSubstr(
+          "machine.json: /feed: found \"overtop\", expected one of \"over_top\", \"off_bottom\""));
+  EXPECT_THAT(message,
+              HasSubstr("machine.json: /bed/height_mm: found NaN, expected a number in mm"));
 }
 
 }  // namespace

@@ -156,10 +156,12 @@ TEST(Reml, ArrowAndDenseAgree) {
 
 TEST(Reml, FindsTheMinimumAGridFinds) {
   const Joint joint = joint_problem(30, false);
-  const auto fit = fit_penalised(joint.problem).value();
+  FitOptions plain;
+  plain.prior = SmoothingPrior::kNone;
+  const auto fit = fit_penalised(joint.problem, plain).value();
   double best = 1e300;
-  for (double a = -12; a <= 12; a += 0.25) {
-    for (double b = -12; b <= 12; b += 0.25) {
+  for (double a = -12; a <= 12; a += 1.0) {
+    for (double b = -12; b <= 12; b += 1.0) {
       const Eigen::Vector2d lambda(std::exp(a), std::exp(b));
       best = std::min(best, minus_two_log_reml(joint.problem, lambda, 1.0).value());
     }
@@ -221,12 +223,19 @@ TEST(Reml, APlaneIsLeftToTheNullSpace) {
   }
   problem.add_rows(design, response);
   problem.penalties.push_back({0, basis.thin_plate_penalty(), basis.thin_plate_rank()});
-  const auto fit = fit_penalised(problem);
+  FitOptions plain;
+  plain.prior = SmoothingPrior::kNone;
+  const auto fit = fit_penalised(problem, plain);
   ASSERT_TRUE(fit.has_value());
   EXPECT_EQ(fit->ends[0], SmoothingEnd::kStiff);
   EXPECT_NEAR(fit->edf, 3.0, 0.01);  // lambda stops ten decades above balance
   // Even so the field is not claimed to vanish: averaging over lambda keeps some of its variance.
   EXPECT_GT(fit->corrected_covariance.trace(), 1.05 * fit->covariance.trace());
+  // The prior that avoids the boundary keeps a little of the field itself.
+  const auto kept = fit_penalised(problem);
+  ASSERT_TRUE(kept.has_value());
+  EXPECT_EQ(kept->ends[0], SmoothingEnd::kInside);
+  EXPECT_GT(kept->edf, 3.05);
 }
 
 }  // namespace

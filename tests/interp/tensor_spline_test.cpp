@@ -2,45 +2,328 @@
 #include "interp/tensor_spline.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
+#include <libalglib/interpolation.h>
+#include <Eigen/Dense>
+
+#include "interp/planner_nodes.hpp"
+#include "tests/interp/truths.hpp"
 
 namespace chaintrue::interp {
 namespace {
 
-std::vector<double> steps(double low, double step, int count) {
-  std::vector<double> nodes;
-  for (int i = 0; i < count; ++i) {
-    nodes.push_back(low + step * i);
+using truths::even;
+using truths::kBed;
+using truths::sample;
+
+constexpr std::uint64_t kSeed = 41;
+
+// One-dimensional reference that shares nothing with the spline under test: all 4 (n - 1) power
+// coefficients at once, from interpolation, continuity and the two end conditions, by full
+// pivoting.
+double reference_1d(const std::vector<double>& x,
+                    const Eigen::VectorXd& f,
+                    const AxisEnds& ends,
+                    double at) {
+  const auto cells = static_cast<Eigen::Index>(x.size()) - 1;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(4 * cells, 4 * cells);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(4 * cells);
+  Eigen::Index row = 0;
+  const auto h = [&](Eigen::Index i) {
+    return x[static_cast<std::size_t>(i + 1)] - x[static_cast<std::size_t>(i)];
+  };
+  const auto derivative = [&](Eigen::Index cell, double t, int order, double sign) {
+    for (int k = order; k < 4; ++k) {
+      double factor = sign;
+      for (int m = 0; m < order; ++m) factor *= k - m;
+      a(row, 4 * cell + k) += factor * std::pow(t, k - order);
+    }
+  };
+  for (Eigen::Index i = 0; i < cells; ++i) {
+    derivative(i, 0.0, 0, 1.0);
+    b(row++) = f(i);
+    derivative(i, h(i), 0, 1.0);
+    b(row++) = f(i + 1);
   }
-  return nodes;
-}
-
-// The measured surface that the first proposal of this method was tried on.
-double proposal(double x, double y) {
-  constexpr double kPi = std::numbers::pi;
-  return (2.0 * std::cos(kPi * x / 4800.0) - std::sin(kPi * y / 4800.0) + 0.8) * 1000.0;
-}
-
-template <class Function>
-Eigen::MatrixXd sample(const std::vector<double>& x, const std::vector<double>& y, Function f) {
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(x.size()), static_cast<Eigen::Index>(y.size()));
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    for (std::size_t j = 0; j < y.size(); ++j) {
-      values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = f(x[i], y[j]);
+  for (Eigen::Index i = 0; i + 1 < cells; ++i) {
+    for (int order = 1; order < 3; ++order, ++row) {
+      derivative(i, h(i), order, 1.0);
+      derivative(i + 1, 0.0, order, -1.0);
     }
   }
-  return values;
+  const auto end = [&](EndCondition condition, Eigen::Index cell, Eigen::Index inner, double t) {
+    switch (condition) {
+      case EndCondition::kNotAKnot:
+        derivative(cell, 0.0, 3, 1.0);
+        derivative(inner, 0.0, 3, -1.0);
+        break;
+      case EndCondition::kNatural:
+        derivative(cell, t, 2, 1.0);
+        break;
+      case EndCondition::kParabolic:
+        derivative(cell, t, 3, 1.0);
+        break;
+      case EndCondition::kClamped:
+        derivative(cell, t, 1, 1.0);
+        break;
+    }
+    ++row;
+  };
+  end(ends.low, 0, 1, 0.0);
+  end(ends.high, cells - 1, cells - 2, h(cells - 1));
+  const Eigen::VectorXd c = a.fullPivLu().solve(b);
+  Eigen::Index cell = 0;
+  while (cell + 1 < cells && at > x[static_cast<std::size_t>(cell + 1)]) ++cell;
+  const double t = at - x[static_cast<std::size_t>(cell)];
+  return c(4 * cell) + t * (c(4 * cell + 1) + t * (c(4 * cell + 2) + t * c(4 * cell + 3)));
+}
+
+double reference_2d(const std::vector<double>& x,
+                    const std::vector<double>& y,
+                    const Eigen::MatrixXd& f,
+                    const TensorEnds& ends,
+                    double at_x,
+                    double at_y) {
+  Eigen::VectorXd column(f.cols());
+  for (Eigen::Index j = 0; j < f.cols(); ++j) {
+    column(j) = reference_1d(x, f.col(j), ends.x, at_x);
+  }
+  return reference_1d(y, column, ends.y, at_y);
 }
 
 TEST(TensorSpline, AnswersTheProposalsOwnExample) {
-  const auto x = steps(0, 400, 7);
-  const auto y = steps(0, 300, 5);
-  const TensorSpline surface(x, y, sample(x, y, proposal));
+  const auto x = even(0, 2400, 7);
+  const auto y = even(0, 1200, 5);
+  const TensorSpline surface(x, y, sample(x, y, truths::proposal));
   // Octave 7.3 interp2(..., 'spline') and SciPy 1.10 RectBivariateSpline(...).ev print 2665.422998.
   EXPECT_NEAR(surface.value(100, 200), 2665.422998, 1e-6);
-  EXPECT_NEAR(proposal(100, 200) - surface.value(100, 200), -0.231343, 1e-6);
+  EXPECT_NEAR(truths::proposal(100, 200) - surface.value(100, 200), -0.231343, 1e-6);
+  // ALGLIB 3.19 and GSL 2.7.1 on the same grid.
+  const TensorEnds parabolic = {{EndCondition::kParabolic, EndCondition::kParabolic},
+                                {EndCondition::kParabolic, EndCondition::kParabolic}};
+  const TensorEnds natural = {{EndCondition::kNatural, EndCondition::kNatural},
+                              {EndCondition::kNatural, EndCondition::kNatural}};
+  const Eigen::MatrixXd z = sample(x, y, truths::proposal);
+  EXPECT_NEAR(TensorSpline(x, y, z, parabolic).value(100, 200), 2664.808680, 1e-6);
+  EXPECT_NEAR(TensorSpline(x, y, z, natural).value(100, 200), 2659.051508, 1e-6);
+}
+
+TEST(TensorSpline, EqualsAnIndependentSolverForEveryPairOfEnds) {
+  SCOPED_TRACE(kSeed);
+  truths::Random random(kSeed);
+  const EndCondition all[] = {EndCondition::kNotAKnot,
+                              EndCondition::kNatural,
+                              EndCondition::kParabolic,
+                              EndCondition::kClamped};
+  for (const EndCondition low : all) {
+    for (const EndCondition high : all) {
+      const auto x = random.nodes(7, -1.2, 1.2);
+      const auto y = random.nodes(4, -0.6, 0.6);
+      const TensorEnds ends = {{low, high}, {high, low}};
+      const Eigen::MatrixXd z = sample(x, y, [&](double, double) { return random.uniform(-1, 1); });
+      const TensorSpline surface(x, y, z, ends);
+      for (int k = 0; k < 10; ++k) {
+        const double px = random.uniform(-1.2, 1.2);
+        const double py = random.uniform(-0.6, 0.6);
+        // Two solvers of condition below 1e5 on values of order one.
+        EXPECT_NEAR(surface.value(px, py), reference_2d(x, y, z, ends, px, py), 1e-10);
+        EXPECT_NEAR(surface.value(px, py),
+                    surface.cardinal_weights(px, py).cwiseProduct(z).sum(),
+                    1e-11);  // rounding of sums of 28 terms
+      }
+    }
+  }
+}
+
+TEST(TensorSpline, ParabolicEndsAreAlglibs) {
+  SCOPED_TRACE(kSeed);
+  truths::Random random(kSeed + 1);
+  for (const auto& [nx, ny] : {std::pair{7, 4}, {3, 5}, {2, 2}, {25, 13}}) {
+    const auto x = random.nodes(nx, kBed.x_min, kBed.x_max);
+    const auto y = random.nodes(ny, kBed.y_min, kBed.y_max);
+    const Eigen::MatrixXd z = sample(x, y, [&](double, double) { return random.uniform(0, 3000); });
+    const TensorEnds ends = {{EndCondition::kParabolic, EndCondition::kParabolic},
+                             {EndCondition::kParabolic, EndCondition::kParabolic}};
+    const TensorSpline surface(x, y, z, ends);
+    alglib::real_1d_array ax, ay, az;
+    ax.setcontent(nx, x.data());
+    ay.setcontent(ny, y.data());
+    az.setcontent(nx * ny, z.data());
+    alglib::spline2dinterpolant peer;
+    alglib::spline2dbuildbicubicv(ax, nx, ay, ny, az, 1, peer);
+    for (int k = 0; k < 50; ++k) {
+      const double px = random.uniform(kBed.x_min, kBed.x_max);
+      const double py = random.uniform(kBed.y_min, kBed.y_max);
+      double f = 0, fx = 0, fy = 0, fxy = 0;
+      alglib::spline2ddiff(peer, px, py, f, fx, fy, fxy);
+      const ValueGradient ours = surface.at(px, py);
+      EXPECT_NEAR(ours.value, f, 1e-9);  // 3000 mm in doubles: 5e-13 a digit
+      EXPECT_NEAR(ours.dx, fx, 1e-9);
+      EXPECT_NEAR(ours.dy, fy, 1e-9);
+    }
+  }
+}
+
+TEST(TensorSpline, NotAKnotReproducesEveryBicubicAlsoOutside) {
+  SCOPED_TRACE(kSeed);
+  truths::Random random(kSeed + 2);
+  Eigen::Matrix4d c;
+  for (Eigen::Index i = 0; i < 16; ++i) c(i) = random.uniform(-1, 1);
+  const auto powers = [](double t) { return Eigen::Vector4d(1, t, t * t, t * t * t); };
+  const auto slopes = [](double t) { return Eigen::Vector4d(0, 1, 2 * t, 3 * t * t); };
+  const auto cubic = [&](double x, double y) { return powers(x).dot(c * powers(y)); };
+  const auto x = random.nodes(6, -1, 1);
+  const auto y = random.nodes(4, -1, 1);
+  const TensorSpline surface(x, y, sample(x, y, cubic));
+  for (int k = 0; k < 100; ++k) {
+    const double px = random.uniform(-1.5, 1.5);
+    const double py = random.uniform(-1.5, 1.5);
+    const ValueGradient z = surface.at(px, py);
+    EXPECT_NEAR(z.value, cubic(px, py), 1e-11);  // rounding, amplified outside
+    EXPECT_NEAR(z.dx, slopes(px).dot(c * powers(py)), 1e-11);
+    EXPECT_NEAR(z.dy, powers(px).dot(c * slopes(py)), 1e-11);
+  }
+}
+
+TEST(TensorSpline, ClampedWithItsOwnSlopesReproducesEveryBicubic) {
+  const auto f = [](double x, double y) { return (1 + x - x * x * x) * (2 - y * y + y * y * y); };
+  const auto fx = [](double x, double y) { return (1 - 3 * x * x) * (2 - y * y + y * y * y); };
+  const auto fy = [](double x, double y) { return (1 + x - x * x * x) * (-2 * y + 3 * y * y); };
+  const std::vector<double> x = {-1, -0.2, 0.3, 1.1};
+  const std::vector<double> y = {-0.5, 0.1, 0.4, 0.9};
+  EdgeSlopes slopes;
+  const auto along = [&](auto g, bool vertical, double at) {
+    Eigen::VectorXd s(4);
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      s(i) = vertical ? g(at, y[k]) : g(x[k], at);
+    }
+    return s;
+  };
+  slopes.x_low = along(fx, true, x.front());
+  slopes.x_high = along(fx, true, x.back());
+  slopes.y_low = along(fy, false, y.front());
+  slopes.y_high = along(fy, false, y.back());
+  const TensorEnds ends = {{EndCondition::kClamped, EndCondition::kClamped},
+                           {EndCondition::kClamped, EndCondition::kClamped}};
+  const TensorSpline surface(x, y, sample(x, y, f), ends, slopes);
+  for (double px = -1; px <= 1.1; px += 0.13) {
+    for (double py = -0.5; py <= 0.9; py += 0.11) {
+      EXPECT_NEAR(surface.value(px, py), f(px, py), 1e-13);  // rounding
+    }
+  }
+}
+
+TEST(TensorSpline, TwoAndThreeNodesGiveTheLineAndTheParabola) {
+  const auto f = [](double x, double y) { return (1 + 2 * x) * (3 - y + 0.5 * y * y); };
+  const std::vector<double> x = {-1, 2};
+  const std::vector<double> y = {0, 0.7, 2};
+  const TensorSpline surface(x, y, sample(x, y, f));
+  for (double px = -1; px <= 2; px += 0.3) {
+    for (double py = 0; py <= 2; py += 0.2) {
+      EXPECT_NEAR(surface.value(px, py), f(px, py), 1e-13);  // rounding
+    }
+  }
+}
+
+TEST(TensorSpline, SecondDerivativesAreContinuousAcrossNodes) {
+  truths::Random random(kSeed + 3);
+  const auto x = random.nodes(6, 0, 5);
+  const auto y = random.nodes(5, 0, 4);
+  const Eigen::MatrixXd z = sample(x, y, [&](double, double) { return random.uniform(-1, 1); });
+  const TensorSpline surface(x, y, z);
+  constexpr double kStep = 1e-6;
+  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
+    const double at = x[i];
+    const double left = (surface.at(at, 1.3).dx - surface.at(at - kStep, 1.3).dx) / kStep;
+    const double right = (surface.at(at + kStep, 1.3).dx - surface.at(at, 1.3).dx) / kStep;
+    EXPECT_NEAR(left, right, 1e-3);  // third derivatives of order 100 times the step, twice
+  }
+}
+
+// A machine without sag, interpolated directly. rows x columns, largest error of either chain.
+double direct_error(const std::vector<double>& x, const std::vector<double>& y) {
+  double worst = 0.0;
+  for (const double side : {-1.0, 1.0}) {
+    const auto truth = [&](double px, double py) { return truths::wrapped_chain(px, py, side); };
+    const TensorSpline surface(x, y, sample(x, y, truth));
+    for (const double px : even(kBed.x_min, kBed.x_max, 241)) {
+      for (const double py : even(kBed.y_min, kBed.y_max, 121)) {
+        worst = std::max(worst, std::abs(surface.value(px, py) - truth(px, py)));
+      }
+    }
+  }
+  return worst;
+}
+
+struct Sampling {
+  int rows, columns;
+  double even_mm, chebyshev_mm;
+};
+
+class DirectInterpolation : public testing::TestWithParam<Sampling> {};
+
+TEST_P(DirectInterpolation, ErrsAsMuchAsTheOutsideStudyFound) {
+  const Sampling& s = GetParam();
+  const double plain =
+      direct_error(even(kBed.x_min, kBed.x_max, s.columns), even(kBed.y_min, kBed.y_max, s.rows));
+  // The study's figures have three digits.
+  EXPECT_NEAR(plain, s.even_mm, 0.005);
+  const double chebyshev = direct_error(chebyshev_lobatto(kBed.x_min, kBed.x_max, s.columns),
+                                        chebyshev_lobatto(kBed.y_min, kBed.y_max, s.rows));
+  EXPECT_LE(chebyshev, s.chebyshev_mm);
+  RecordProperty("even_um", static_cast<int>(1000 * plain));
+  RecordProperty("chebyshev_um", static_cast<int>(1000 * chebyshev));
+}
+
+INSTANTIATE_TEST_SUITE_P(Grids,
+                         DirectInterpolation,
+                         testing::Values(Sampling{4, 7, 4.21, 1.85},
+                                         Sampling{5, 9, 1.78, 0.62},
+                                         Sampling{7, 13, 0.50, 0.08}),
+                         [](const testing::TestParamInfo<Sampling>& grid) {
+                           return std::to_string(grid.param.rows) + "x" +
+                                  std::to_string(grid.param.columns);
+                         });
+
+template <class Action>
+std::string message_of(Action action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no exception";
+}
+
+TEST(TensorSpline, RefusesWhatIsNoGrid) {
+  const Eigen::MatrixXd z = Eigen::MatrixXd::Zero(3, 2);
+  EXPECT_EQ(message_of([&] { TensorSpline({0, 1}, {0, 1}, z); }), "3 x 2 values for 2 x 2 nodes");
+  EXPECT_EQ(message_of([&] {
+              TensorSpline({0, 1, 1}, {0, 1}, z);
+            }),
+            "nodes of a spline axis must increase: node 1 is 1, node 2 is 1");
+  EXPECT_EQ(message_of([&] {
+              TensorSpline({0}, {0, 1}, z);
+            }),
+            "a spline axis needs at least 2 nodes, has 1");
+  EXPECT_EQ(message_of([&] {
+              TensorSpline({0, 1, NAN}, {0, 1}, z);
+            }),
+            "node 2 of a spline axis is nan");
+  Eigen::MatrixXd hole = z;
+  hole(1, 1) = NAN;
+  EXPECT_EQ(message_of([&] {
+              TensorSpline({0, 1, 2}, {0, 1}, hole);
+            }),
+            "a value of the grid is not finite");
+  EdgeSlopes slopes;
+  slopes.x_low = Eigen::VectorXd::Zero(3);
+  EXPECT_EQ(message_of([&] {
+              TensorSpline({0, 1, 2}, {0, 1}, z, {}, slopes);
+            }),
+            "slopes along the edge x_low: 3 given, its axis has 2 nodes");
 }
 
 }  // namespace

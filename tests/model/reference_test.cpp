@@ -129,14 +129,20 @@ TEST(Reference, ThreeDimensionalSag) {
   for (const char* name : {"table_3d_over_top.json", "table_3d_off_bottom.json"}) {
     const nlohmann::json table = reference_table(name);
     const auto kinematics = make_kinematics(parameters_of(table["params"]), Model::elastic_3d);
+    const auto plane = make_kinematics(parameters_of(table["params"]));
+    double most = 0.0;
     ASSERT_EQ(table["bed"].size(), 117u);
     for (const auto& r : table["bed"]) {
       expect_round_trip(
           *kinematics, r, {number(r["h_3d"][0]), number(r["h_3d"][1])}, kBedTolerance);
       const PoseResult pose = kinematics->inverse(point_of(r));
+      most = std::max(most, pose->lengths.right_mm - plane->inverse(point_of(r))->lengths.right_mm);
       EXPECT_NEAR(pose->chains.left.out_of_sheet_n, number(r["NL"]), 1e-12);
       EXPECT_NEAR(pose->chains.right.out_of_sheet_n, number(r["NR"]), 1e-12);
     }
+    // What the plane's model leaves out, at the lower corners; less off the bottom, where chains
+    // hang flatter.
+    EXPECT_NEAR(most, std::string(name) == "table_3d_over_top.json" ? 0.48 : 0.42, 0.005);
   }
 }
 
@@ -152,8 +158,7 @@ TEST(Reference, StressMachines) {
     Eigen::Matrix2d e;
     e << number(r["jac"]["dLdx"]), number(r["jac"]["dLdy"]), number(r["jac"]["dRdx"]),
         number(r["jac"]["dRdy"]);
-    // Light sleds at the edge lose a digit or two in H.
-    EXPECT_LE((j - e).cwiseAbs().maxCoeff(), 1e-11 * e.cwiseAbs().maxCoeff());
+    EXPECT_LE((j - e).cwiseAbs().maxCoeff(), kJacobianTolerance * e.cwiseAbs().maxCoeff());
   }
 }
 

@@ -186,16 +186,17 @@ TEST(Page, RefusesAChartThatDoesNotExist) {
             "no chart named \"pie\" is embedded in the report library");
 }
 
-TEST(MapReportPage, RefusesABedWithoutExtent) {
+TEST(MapReportPage, RefusesASheetWithoutExtent) {
   MapReport report = sample_report();
-  report.bed_width_mm = 0.0;
-  EXPECT_THAT(message_of([&report] { (void)page_of(report); }), HasSubstr("a bed with an extent"));
+  report.sheet.x_max_mm = report.sheet.x_min_mm;
+  EXPECT_THAT(message_of([&report] { (void)page_of(report); }),
+              HasSubstr("a sheet with an extent"));
 }
 
 TEST(MapReportPage, LeavesOutWhatIsNotKnown) {
   MapReport report;
   report.name = "only a verdict";
-  report.bed_width_mm = report.bed_height_mm = 1000.0;
+  report.sheet = {0.0, 1000.0, 0.0, 1000.0};
   EXPECT_TRUE(page_of(report).sections.empty());
 }
 

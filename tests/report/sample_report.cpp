@@ -38,18 +38,19 @@ std::vector<ReportPoint> sample_points() {
       point.x_mm = -1100.0 + 2200.0 * column / 6 + 4.0 * normal();
       point.y_mm = -500.0 + 1000.0 * row / 3 + 4.0 * normal();
       const double u = point.x_mm / kBedWidthMm, v = point.y_mm / kBedHeightMm;
-      point.after = {kNoiseMm * normal(), kNoiseMm * normal()};
-      point.before = {6.0 * u - 2.0 * u * v + point.after.x_mm,
-                      1.5 + 9.0 * u * u - 4.0 * v + point.after.y_mm};
-      point.held_out = ToolVector{1.5 * point.after.x_mm + 0.05 * normal(),
-                                  1.5 * point.after.y_mm + 0.05 * normal()};
-      point.held_out_sigma_mm = 0.2 + 0.2 * (u * u + v * v);
+      const ToolVector after{kNoiseMm * normal(), kNoiseMm * normal()};
+      point.after = after;
+      point.before =
+          ToolVector{6.0 * u - 2.0 * u * v + after.x_mm, 1.5 + 9.0 * u * u - 4.0 * v + after.y_mm};
+      point.held_out =
+          ToolVector{1.5 * after.x_mm + 0.05 * normal(), 1.5 * after.y_mm + 0.05 * normal()};
+      point.held_out_sigmas = std::hypot(after.x_mm, after.y_mm) / kNoiseMm;
       points.push_back(point);
     }
   }
   points[9].is_bad = true;
   points[9].held_out = ToolVector{1.2, -0.7};
-  points[9].after = {0.9, -0.6};
+  points[9].after = ToolVector{0.9, -0.6};
   return points;
 }
 
@@ -76,8 +77,7 @@ MapReport sample_report() {
   MapReport report;
   report.name = "workshop grid";
   report.machine_name = "classic Maslow, 28 points, sheet as placed";
-  report.bed_width_mm = kBedWidthMm;
-  report.bed_height_mm = kBedHeightMm;
+  report.sheet = {-kBedWidthMm / 2, kBedWidthMm / 2, -kBedHeightMm / 2, kBedHeightMm / 2};
   report.verdict =
       "Inside the measured points the tool will land within 0.25 mm (rms) of where the drawing "
       "says; as the machine was "
@@ -90,10 +90,14 @@ MapReport sample_report() {
                     {"3.9 mm", "as the machine was stated, rms"},
                     {"0.21 mm", "noise of the readings"}};
   report.steps = {
-      {"machine as stated", 3.91, 6.2, 2.8, 3.1, "all 28 points"},
-      {"machine calibrated", 0.44, 0.93, 0.31, 0.33, "leave-one-out"},
-      {"with the surface", 0.25, 0.52, 0.19, 0.18, "leave-one-out"},
-      {"noise of the readings", 0.21, {}, 0.15, 0.15, "as stated: 0.2 mm a chain, 0.3 mm a mark"}};
+      {ErrorStep::Kind::before, "machine as stated", 3.91, 6.2, "at the 28 points"},
+      {ErrorStep::Kind::after, "machine calibrated", 0.44, 0.93, "points left out one at a time"},
+      {ErrorStep::Kind::after, "with the map", 0.25, 0.52, "points left out one at a time"},
+      {ErrorStep::Kind::reference,
+       "noise of the readings",
+       0.21,
+       {},
+       "as stated: 0.2 mm a chain, 0.3 mm a mark"}};
   report.points = sample_points();
   report.error_map = sample_error_map();
   report.noise_floor_mm = 0.21;

@@ -111,7 +111,8 @@ void add_groundcontrol(CLI::App& import, Run& run) {
   verb->footer(
       "What the settings do not say is assumed, and said so here and in the file.\n\n"
       "Example:\n"
-      "  build/chaintrue import groundcontrol fixtures/good/groundcontrol.ini -o machine.json");
+      "  build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \\\n"
+      "    -o machine.json");
   verb->callback([command, &run] { run = [command] { return import_groundcontrol(*command); }; });
 }
 
@@ -123,7 +124,8 @@ void add_import(CLI::App& app, Run& run) {
   verb->require_subcommand(1);
   verb->footer(
       "Example:\n"
-      "  build/chaintrue import groundcontrol fixtures/good/groundcontrol.ini -o machine.json");
+      "  build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \\\n"
+      "    -o machine.json");
   add_optical(*verb, run);
   add_groundcontrol(*verb, run);
 }

@@ -61,6 +61,10 @@ struct Move {
   Point to;
   std::optional<Arc> arc;  ///< for MoveKind::arc
   FeedRate feed;           ///< meaningless for rapids
+  /// Whether the program itself says where X or Y, and Z, go. A first move that does not leaves the
+  /// axis where it is.
+  bool names_xy = false;
+  bool names_z = false;
   /// Degrees that A, B and C turn by; such axes do not exist on a two-chain router.
   std::array<double, 3> turn_deg{};
 };

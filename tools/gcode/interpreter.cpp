@@ -93,7 +93,30 @@ Result<void> Interpreter::step(Place place) {
                             dialect_.step_budget));
 }
 
+void Interpreter::note_once(NoteOnce which, std::size_t line) {
+  struct Text {
+    std::string_view name;
+    const char* sentence;
+  };
+  static constexpr Text kTexts[] = {
+      {"dotted_code",
+       "the classic Maslow firmware reads G91.1 as G91 and G90.1 as G90; the compensated file "
+       "holds neither"},
+      {"dwell_unit",
+       "G4 counts P in seconds here, in milliseconds on the classic Maslow firmware; P passes "
+       "unchanged"},
+      {"deletable_line",
+       "a line begins with a slash; it is executed, as with the block delete switch off"},
+  };
+  bool& noted = noted_[static_cast<std::size_t>(which)];
+  if (noted) return;
+  noted = true;
+  const Text& text = kTexts[static_cast<std::size_t>(which)];
+  sink_.note({line, text.name, text.sentence});
+}
+
 Result<AfterBlock> Interpreter::execute(const Block& block, const std::vector<CommentText>& texts) {
+  if (block.deletable) note_once(NoteOnce::deletable_line, block.line);
   const auto motion = motion_to_be(block);
   if (!motion) return tl::unexpected(motion.error());
   CHAINTRUE_GCODE_TRY(check_assignments(block));
@@ -359,6 +382,7 @@ Result<void> Interpreter::dwell(const Block& block) {
     return refuse(
         ProblemName::missing_word, block.start(), "G4 needs its time as P, not below zero");
   }
+  note_once(NoteOnce::dwell_unit, block.line);
   return pass(block, with_value("G4 P", block.value('p')));
 }
 
@@ -370,8 +394,10 @@ void Interpreter::set_modes(const Block& block) {
   }
   if (const GCode* distance = block.code(GGroup::distance))
     modes_.incremental = distance->tenths == 910;
-  if (const GCode* centres = block.code(GGroup::arc_distance))
+  if (const GCode* centres = block.code(GGroup::arc_distance)) {
     modes_.absolute_centres = centres->tenths == 901;
+    note_once(NoteOnce::dotted_code, block.line);
+  }
   if (block.is(GGroup::motion, 800)) modes_.motion = 800;
   if (const GCode* retract = block.code(GGroup::retract))
     modes_.retract_to_r = retract->tenths == 990;

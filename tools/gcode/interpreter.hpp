@@ -90,6 +90,7 @@ class Interpreter {
     double sine = 0.0;
   };
   struct Sticky {
+    int plane = 170;
     double start = 0.0;  ///< height where the row of cycles began
     double r = 0.0;      ///< as written, in mm
     double depth = 0.0;
@@ -97,6 +98,8 @@ class Interpreter {
     double q = 0.0;
   };
   struct Cycle;
+  /// Remarks that are made once a program.
+  enum class NoteOnce { dotted_code, dwell_unit, deletable_line };
 
   // interpreter.cpp: the order of execution.
   Result<void> comments(const Block& block, const std::vector<CommentText>& texts);
@@ -111,6 +114,7 @@ class Interpreter {
   Result<void> pass(const Block& block, std::string text);
   Result<AfterBlock> after(const Block& block) const;
   void assign(const Block& block);
+  void note_once(NoteOnce which, std::size_t line);
   [[nodiscard]] Result<void> check_assignments(const Block& block) const;
   [[nodiscard]] std::string written_out(std::string_view text) const;
 
@@ -168,6 +172,7 @@ class Interpreter {
   std::uint64_t steps_ = 0;
   std::size_t call_level_ = 0;
   bool home_known_[2] = {false, false};
+  bool noted_[3] = {false, false, false};
   bool z_unknown_ = false;  ///< after probing
 };
 

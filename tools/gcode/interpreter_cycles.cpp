@@ -44,7 +44,10 @@ Result<void> Interpreter::cycle_move(const Block& block,
   program[cycle.second] = to[1];
   program[cycle.normal] = to[2];
   const Axes machine = to_machine(program);
-  CHAINTRUE_GCODE_TRY(sink_.move(basic_move(block.line, kind, machine)));
+  Move move = basic_move(block.line, kind, machine);
+  move.names_xy = true;
+  move.names_z = true;
+  CHAINTRUE_GCODE_TRY(sink_.move(move));
   machine_ = machine;
   z_unknown_ = false;
   return {};
@@ -68,9 +71,11 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
                   "after probing only the machine knows where a cycle starts");
   }
   const bool again = modes_.motion == motion;
-  const bool within = modes_.motion == 730 || (modes_.motion >= 810 && modes_.motion <= 890);
-  // G98 goes back to where the row of cycles began.
+  const bool within = (modes_.motion == 730 || (modes_.motion >= 810 && modes_.motion <= 890)) &&
+                      sticky_.plane == modes_.plane;
+  // G98 goes back to where the row of cycles in this plane began.
   if (!within) sticky_.start = cycle.program[cycle.normal];
+  sticky_.plane = modes_.plane;
   const auto sticky = [&](char letter, double& kept, bool is_length) -> bool {
     if (block.has(letter)) kept = is_length ? length(block, letter) : block.value(letter);
     return block.has(letter) || again;

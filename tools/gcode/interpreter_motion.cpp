@@ -32,6 +32,13 @@ PlaneAxes plane_axes(int plane) {
   return {0, 1, 2};
 }
 
+void name_axes(const Block& block, Move& move) {
+  const bool changes_xy = move.to.x_mm != move.from.x_mm || move.to.y_mm != move.from.y_mm;
+  move.names_xy = changes_xy || move.arc || block.has('x') || block.has('y') || block.has('@') ||
+                  block.has('^');
+  move.names_z = move.to.z_mm != move.from.z_mm || block.has('z');
+}
+
 }  // namespace
 
 Move Interpreter::basic_move(std::size_t line, MoveKind kind, const Axes& to) const {
@@ -126,7 +133,9 @@ Result<void> Interpreter::straight(const Block& block, MoveKind kind, const Axes
         "after probing only the machine knows its height, so Z cannot step from it (G91) here");
   }
   if (block.has('z')) z_unknown_ = false;
-  CHAINTRUE_GCODE_TRY(sink_.move(basic_move(block.line, kind, machine)));
+  Move move = basic_move(block.line, kind, machine);
+  name_axes(block, move);
+  CHAINTRUE_GCODE_TRY(sink_.move(move));
   machine_ = machine;
   return {};
 }
@@ -211,6 +220,7 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
   Move move = basic_move(block.line, MoveKind::arc, *machine);
   move.arc = arc;
   if (block.has('z')) z_unknown_ = false;
+  name_axes(block, move);
   CHAINTRUE_GCODE_TRY(sink_.move(move));
   machine_ = *machine;
   return {};

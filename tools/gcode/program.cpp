@@ -8,43 +8,45 @@
 #include "tools/gcode/flow.hpp"
 
 namespace chaintrue::gcode {
-namespace {
 
-class Runner {
+class Program::Runner {
  public:
-  Runner(LineSource& source, const Dialect& dialect, Sink& sink, const BeforeLine& before_line)
-      : interpreter_(dialect, sink),
-        flow_(source, interpreter_),
-        sink_(sink),
-        before_line_(before_line) {}
+  Runner(LineSource& source, const Dialect& dialect, Sink& sink)
+      : interpreter_(dialect, sink), source_(source), flow_(source, interpreter_), sink_(sink) {}
 
-  Result<ProgramSummary> run() {
+  Result<bool> step() {
+    if (ended_) return false;
     SourceLine raw;
-    while (!ended_) {
-      const auto more = flow_.next(raw);
-      if (!more) return tl::unexpected(more.error());
-      if (!*more) break;
-      summary_.lines = raw.number;
-      if (before_line_ && !before_line_(raw.number, interpreter_)) return summary_;
-      CHAINTRUE_GCODE_TRY(line(raw));
+    const auto more = flow_.next(raw);
+    if (!more) return tl::unexpected(more.error());
+    if (!*more) {
+      CHAINTRUE_GCODE_TRY(end_of_file());
+      return false;
     }
-    if (!ended_) {
-      CHAINTRUE_GCODE_TRY(flow_.finish({summary_.lines, 0}));
-      if (opened_by_percent_) {
-        sink_.note({summary_.lines,
-                    "no_closing_percent",
-                    "the file begins with % but does not end with it"});
-      } else {
-        sink_.note({summary_.lines,
-                    "no_program_end",
-                    "the program has neither M2, M30 nor %; LinuxCNC would refuse it"});
-      }
-      CHAINTRUE_GCODE_TRY(sink_.end(summary_.lines, ""));
-    }
-    return summary_;
+    summary_.lines = raw.number;
+    CHAINTRUE_GCODE_TRY(line(raw));
+    return !ended_;
   }
 
+  const ProgramSummary& summary() const { return summary_; }
+  const Interpreter& interpreter() const { return interpreter_; }
+  std::size_t next_line() const { return source_.position().lines_before + 1; }
+
  private:
+  Result<void> end_of_file() {
+    CHAINTRUE_GCODE_TRY(flow_.finish({summary_.lines, 0}));
+    if (opened_by_percent_) {
+      sink_.note({summary_.lines,
+                  "no_closing_percent",
+                  "the file begins with % but does not end with it"});
+    } else {
+      sink_.note({summary_.lines,
+                  "no_program_end",
+                  "the program has neither M2, M30 nor %; LinuxCNC would refuse it"});
+    }
+    return end(summary_.lines, "");
+  }
+
   Result<void> line(const SourceLine& raw) {
     const std::size_t first = raw.text.find_first_not_of(" \t");
     if (first == std::string_view::npos) return {};
@@ -57,6 +59,7 @@ class Runner {
     std::size_t at = 0;
     if (peek(at) == '/') {
       if (interpreter_.dialect().skip_deletable_blocks) return {};
+      block_.deletable = true;
       ++at;
     }
     if (peek(at) == 'n') CHAINTRUE_GCODE_TRY(line_number(at));
@@ -121,9 +124,9 @@ class Runner {
   }
 
   Interpreter interpreter_;
+  LineSource& source_;
   Flow flow_;
   Sink& sink_;
-  const BeforeLine& before_line_;
   CleanLine line_;
   Block block_;
   ProgramSummary summary_;
@@ -132,13 +135,28 @@ class Runner {
   bool ended_ = false;
 };
 
-}  // namespace
+Program::Program(LineSource& source, const Dialect& dialect, Sink& sink)
+    : runner_(std::make_unique<Runner>(source, dialect, sink)) {}
+
+Program::~Program() = default;
+
+Result<bool> Program::step() { return runner_->step(); }
+const ProgramSummary& Program::summary() const { return runner_->summary(); }
+const Interpreter& Program::interpreter() const { return runner_->interpreter(); }
+std::size_t Program::next_line() const { return runner_->next_line(); }
 
 Result<ProgramSummary> run_program(LineSource& source,
                                    const Dialect& dialect,
                                    Sink& sink,
                                    const BeforeLine& before_line) {
-  return Runner(source, dialect, sink, before_line).run();
+  Program program(source, dialect, sink);
+  for (;;) {
+    if (before_line && !before_line(program.next_line(), program.interpreter()))
+      return program.summary();
+    const auto more = program.step();
+    if (!more) return tl::unexpected(more.error());
+    if (!*more) return program.summary();
+  }
 }
 
 }  // namespace chaintrue::gcode

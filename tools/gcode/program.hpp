@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 #include "tools/gcode/events.hpp"
 #include "tools/gcode/interpreter.hpp"
@@ -36,5 +37,26 @@ using BeforeLine = std::function<bool(std::size_t line, const Interpreter&)>;
                                                  const Dialect& dialect,
                                                  Sink& sink,
                                                  const BeforeLine& before_line = {});
+
+/// The same, a line at a time.
+class Program {
+ public:
+  /// Keeps references to source and sink.
+  Program(LineSource& source, const Dialect& dialect, Sink& sink);
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  /// Executes the next line; false when the program has ended.
+  [[nodiscard]] Result<bool> step();
+  [[nodiscard]] const ProgramSummary& summary() const;
+  [[nodiscard]] const Interpreter& interpreter() const;
+  /// Of the line that step() would read, in the order of execution.
+  [[nodiscard]] std::size_t next_line() const;
+
+ private:
+  class Runner;
+  std::unique_ptr<Runner> runner_;
+};
 
 }  // namespace chaintrue::gcode

@@ -40,79 +40,84 @@ std::string number(double value, int digits) {
   return is_zero ? text.substr(1) : "\u2212" + text.substr(1);
 }
 
-std::string number_or_dash(const std::optional<double>& value, int digits) {
-  return value ? number(*value, digits) : "\u2013";
-}
+double width_mm(const Outline& outline) { return outline.x_max_mm - outline.x_min_mm; }
 
-struct Extent {
-  double x_min_mm, x_max_mm, y_min_mm, y_max_mm;
-};
-
-/// The bed, the points and their arrows, with a margin of 3 % of the bed's width.
-Extent extent_of(const MapReport& report) {
-  if (!(report.bed_width_mm > 0.0) || !(report.bed_height_mm > 0.0)) {
-    throw std::invalid_argument(fmt::format("a report needs a bed with an extent, not {} x {} mm",
-                                            report.bed_width_mm,
-                                            report.bed_height_mm));
+/// The sheet and the points, with a margin of 5 % of the sheet's width.
+Outline view_of(const MapReport& report) {
+  const Outline& sheet = report.sheet;
+  if (!(width_mm(sheet) > 0.0) || !(sheet.y_max_mm > sheet.y_min_mm)) {
+    throw std::invalid_argument(
+        fmt::format("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
+                    sheet.x_min_mm,
+                    sheet.x_max_mm,
+                    sheet.y_min_mm,
+                    sheet.y_max_mm));
   }
-  Extent extent{-report.bed_width_mm / 2,
-                report.bed_width_mm / 2,
-                -report.bed_height_mm / 2,
-                report.bed_height_mm / 2};
-  const auto include = [&extent](double x_mm, double y_mm) {
-    extent.x_min_mm = std::min(extent.x_min_mm, x_mm);
-    extent.x_max_mm = std::max(extent.x_max_mm, x_mm);
-    extent.y_min_mm = std::min(extent.y_min_mm, y_mm);
-    extent.y_max_mm = std::max(extent.y_max_mm, y_mm);
-  };
-  for (const ReportPoint& point : report.points) include(point.x_mm, point.y_mm);
-  const double margin_mm = 0.03 * report.bed_width_mm;
-  return {extent.x_min_mm - margin_mm,
-          extent.x_max_mm + margin_mm,
-          extent.y_min_mm - margin_mm,
-          extent.y_max_mm + margin_mm};
+  Outline view = sheet;
+  for (const ReportPoint& point : report.points) {
+    view.x_min_mm = std::min(view.x_min_mm, point.x_mm);
+    view.x_max_mm = std::max(view.x_max_mm, point.x_mm);
+    view.y_min_mm = std::min(view.y_min_mm, point.y_mm);
+    view.y_max_mm = std::max(view.y_max_mm, point.y_mm);
+  }
+  const double margin_mm = 0.05 * width_mm(sheet);
+  return {view.x_min_mm - margin_mm,
+          view.x_max_mm + margin_mm,
+          view.y_min_mm - margin_mm,
+          view.y_max_mm + margin_mm};
 }
 
-void add_bed_signals(const MapReport& report, std::vector<Signal>& signals) {
-  const Extent extent = extent_of(report);
-  signals.insert(signals.end(),
-                 {{"x_min_mm", extent.x_min_mm},
-                  {"x_max_mm", extent.x_max_mm},
-                  {"y_min_mm", extent.y_min_mm},
-                  {"y_max_mm", extent.y_max_mm},
-                  {"bed_width_mm", report.bed_width_mm},
-                  {"bed_height_mm", report.bed_height_mm}});
+std::vector<Signal> bed_signals(const MapReport& report) {
+  const Outline view = view_of(report);
+  return {{"x_min_mm", view.x_min_mm},
+          {"x_max_mm", view.x_max_mm},
+          {"y_min_mm", view.y_min_mm},
+          {"y_max_mm", view.y_max_mm},
+          {"sheet_x_min_mm", report.sheet.x_min_mm},
+          {"sheet_x_max_mm", report.sheet.x_max_mm},
+          {"sheet_y_min_mm", report.sheet.y_min_mm},
+          {"sheet_y_max_mm", report.sheet.y_max_mm}};
+}
+
+using PointVector = std::optional<ToolVector> ReportPoint::*;
+
+bool has_any(const MapReport& report, PointVector vector) {
+  return std::any_of(report.points.begin(), report.points.end(), [vector](const ReportPoint& p) {
+    return (p.*vector).has_value();
+  });
 }
 
 /// How much a panel of arrows magnifies; arrows of zero length magnify once.
-double magnification_of(const MapReport& report, ToolVector ReportPoint::*vector) {
+double magnification_of(const MapReport& report, PointVector vector) {
   double longest_mm = 0.0;
   for (const ReportPoint& point : report.points) {
-    if (!point.is_bad) longest_mm = std::max(longest_mm, length_mm(point.*vector));
+    if (!point.is_bad && point.*vector)
+      longest_mm = std::max(longest_mm, length_mm(*(point.*vector)));
   }
-  return longest_mm > 0.0 ? round_down_125(kLongestArrow * report.bed_width_mm / longest_mm) : 1.0;
+  return longest_mm > 0.0 ? round_down_125(kLongestArrow * width_mm(report.sheet) / longest_mm)
+                          : 1.0;
 }
 
 Chart arrows_chart(const MapReport& report,
-                   ToolVector ReportPoint::*vector,
+                   PointVector vector,
                    double magnification,
                    const char* color) {
   Chart chart{.specification = "bed_arrows"};
   DataTable arrows{"arrows", {"name", "x_mm", "y_mm", "dx_mm", "dy_mm", "is_bad"}, {}};
   for (const ReportPoint& point : report.points) {
-    const ToolVector& error = point.*vector;
+    if (!(point.*vector)) continue;
+    const ToolVector& error = *(point.*vector);
     arrows.rows.push_back(
         {point.name, point.x_mm, point.y_mm, error.x_mm, error.y_mm, point.is_bad});
   }
-  chart.data = {std::move(arrows)};
-  add_bed_signals(report, chart.signals);
-  const double key_mm = round_down_125(kLongestArrow * report.bed_width_mm / magnification);
-  chart.signals.insert(
-      chart.signals.end(),
-      {{"magnification", magnification},
-       {"key_mm", key_mm},
-       {"key_text", fmt::format("{:g} mm, drawn {:g} times as long", key_mm, magnification)},
-       {"color", std::string(color)}});
+  chart.data.push_back(std::move(arrows));
+  chart.signals = bed_signals(report);
+  const double key_mm = round_down_125(kLongestArrow * width_mm(report.sheet) / magnification);
+  chart.signals.push_back({"magnification", magnification});
+  chart.signals.push_back({"key_mm", key_mm});
+  chart.signals.push_back(
+      {"key_text", fmt::format("{:g} mm, drawn {:g} times as long", key_mm, magnification)});
+  chart.signals.push_back({"color", std::string(color)});
   return chart;
 }
 
@@ -121,21 +126,21 @@ Section before_after_section(const MapReport& report) {
   const double coarse = magnification_of(report, &ReportPoint::before);
   const double fine = magnification_of(report, &ReportPoint::after);
   Chart before = arrows_chart(report, &ReportPoint::before, coarse, kBeforeColor);
-  before.title = "Before: the machine as stated";
+  before.title = "Before: " + report.before_what;
   before.caption =
       "Each arrow runs from where the tool should be to where it lands. Hover or tap a point for "
       "its values.";
   Chart after = arrows_chart(report, &ReportPoint::after, coarse, kAfterColor);
-  after.title = "After: calibrated, with the surface; same scale";
+  after.title = "After: with the map, same scale";
   after.caption = "What is left at the points that the map was made from.";
   section.blocks.push_back(ChartRow{{std::move(before), std::move(after)}});
   if (fine >= 2.0 * coarse) {
     Chart close = arrows_chart(report, &ReportPoint::after, fine, kAfterColor);
     close.title = "After, under the magnifying glass";
     close.caption = fmt::format(
-        "The same arrows as above right, {:g} times larger. Random directions are noise; "
-        "neighbours that point the same "
-        "way would be something that the map has missed.",
+        "The same arrows, {:g} times larger. Random directions are noise; neighbours that point "
+        "the same way would be "
+        "something that the map has missed.",
         fine / coarse);
     section.blocks.push_back(std::move(close));
   }
@@ -143,34 +148,21 @@ Section before_after_section(const MapReport& report) {
 }
 
 Section steps_section(const MapReport& report) {
+  static constexpr const char* kColorOfKind[] = {kBeforeColor, kAfterColor, kNeutralColor};
   Section section{"What each step gains", {}};
   Chart chart{.specification = "error_steps", .title = "Error at the tool, rms"};
   DataTable steps{"steps", {"what", "rms_mm", "max_text", "color"}, {}};
-  Table table{{{"step"},
-               {"tool rms, mm", true},
-               {"tool worst, mm", true},
-               {"left chain rms, mm", true},
-               {"right chain rms, mm", true},
-               {"found by"}},
-              {},
-              ""};
-  for (std::size_t i = 0; i < report.steps.size(); ++i) {
-    const ErrorStep& step = report.steps[i];
-    const char* color = i == 0 ? kBeforeColor : kAfterColor;
-    if (!step.max_mm) color = kNeutralColor;
+  Table table{
+      {{"error of the tool"}, {"rms, mm", true}, {"worst, mm", true}, {"what it is"}}, {}, ""};
+  for (const ErrorStep& step : report.steps) {
+    const std::string worst = step.max_mm ? number(*step.max_mm, 2) : "\u2013";
     steps.rows.push_back({step.what,
                           step.rms_mm,
-                          step.max_mm ? number(*step.max_mm, 2) + " mm" : std::string("\u2013"),
-                          std::string(color)});
-    table.rows.push_back({{step.what,
-                           number(step.rms_mm, 2),
-                           number_or_dash(step.max_mm, 2),
-                           number_or_dash(step.left_rms_mm, 2),
-                           number_or_dash(step.right_rms_mm, 2),
-                           step.note},
-                          false});
+                          step.max_mm ? worst + " mm" : worst,
+                          std::string(kColorOfKind[static_cast<std::size_t>(step.kind)])});
+    table.rows.push_back({{step.what, number(step.rms_mm, 2), worst, step.note}, false});
   }
-  chart.data = {std::move(steps)};
+  chart.data.push_back(std::move(steps));
   section.blocks.push_back(std::move(chart));
   section.blocks.push_back(std::move(table));
   return section;
@@ -178,23 +170,27 @@ Section steps_section(const MapReport& report) {
 
 Section error_map_section(const MapReport& report) {
   const ErrorMap& map = *report.error_map;
-  Chart chart{
-      .specification = "error_map",
-      .title = "Expected error over the bed",
-      .caption =
-          "One sigma at the tool, from the readings' noise carried through the fit. Cells with a "
-          "stroke lie "
-          "at or beyond the edge of the measured points: trust them less. Circles are the points."};
+  Chart chart{.specification = "error_map",
+              .title = "Expected error over the bed",
+              .caption =
+                  "One sigma at the tool, from the readings' noise carried through the fit. "
+                  "Circles are the points."};
   DataTable cells{"cells", {"x_mm", "y_mm", "error_mm", "coverage"}, {}};
   for (const ErrorCell& cell : map.cells)
     cells.rows.push_back({cell.x_mm, cell.y_mm, cell.error_mm, cell.coverage});
+  if (std::any_of(map.cells.begin(), map.cells.end(), [](const ErrorCell& cell) {
+        return cell.coverage != "inside";
+      })) {
+    chart.caption +=
+        " Cells with a stroke lie at or beyond the edge of the measured points: trust them less.";
+  }
   DataTable points{"points", {"x_mm", "y_mm"}, {}};
   for (const ReportPoint& point : report.points) points.rows.push_back({point.x_mm, point.y_mm});
-  chart.data = {std::move(cells), std::move(points)};
-  add_bed_signals(report, chart.signals);
-  chart.signals.insert(
-      chart.signals.end(),
-      {{"cell_width_mm", map.cell_width_mm}, {"cell_height_mm", map.cell_height_mm}});
+  chart.data.push_back(std::move(cells));
+  chart.data.push_back(std::move(points));
+  chart.signals = bed_signals(report);
+  chart.signals.push_back({"cell_width_mm", map.cell_width_mm});
+  chart.signals.push_back({"cell_height_mm", map.cell_height_mm});
   Section section{"Where to expect which error", {}};
   section.blocks.push_back(std::move(chart));
   return section;
@@ -258,7 +254,7 @@ Chart points_chart(const MapReport& report, const HeldOut& held_out) {
               .caption = "In the order of the file."};
   if (held_out.has_bad) chart.caption += " Points drawn as a cross were set aside by the fit.";
   DataTable points{
-      "points", {"number", "name", "x_mm", "y_mm", "error_mm", "sigma_mm", "is_bad"}, {}};
+      "points", {"number", "name", "x_mm", "y_mm", "error_mm", "sigmas", "is_bad"}, {}};
   for (std::size_t i = 0; i < report.points.size(); ++i) {
     const ReportPoint& point = report.points[i];
     if (!point.held_out) continue;
@@ -267,7 +263,7 @@ Chart points_chart(const MapReport& report, const HeldOut& held_out) {
                            point.x_mm,
                            point.y_mm,
                            length_mm(*point.held_out),
-                           point.held_out_sigma_mm,
+                           point.held_out_sigmas,
                            point.is_bad});
   }
   DataTable lines{"lines", {"value_mm", "label", "is_dashed", "is_label_below"}, {}};
@@ -301,9 +297,10 @@ Section settings_section(const MapReport& report) {
     const int digits = setting.unit == "mm" ? 2 : 3;
     std::string remark;
     if (setting.is_off) {
-      remark = fmt::format(
-          "off: further from what was stated (\u00b1 {}) than chance explains; check it",
-          number(setting.stated_sigma, setting.unit == "mm" ? 1 : 3));
+      remark = "off: further from what was stated";
+      if (setting.stated_sigma > 0.0)
+        remark += fmt::format(" (\u00b1 {})", number(setting.stated_sigma, 1));
+      remark += " than chance explains; check it";
     }
     table.rows.push_back({{setting.name,
                            number(setting.stated, digits),
@@ -330,7 +327,8 @@ Page page_of(const MapReport& report) {
             .figures = report.figures,
             .not_proved = report.not_proved,
             .provenance = report.provenance};
-  if (!report.points.empty()) page.sections.push_back(before_after_section(report));
+  if (has_any(report, &ReportPoint::before) && has_any(report, &ReportPoint::after))
+    page.sections.push_back(before_after_section(report));
   if (!report.steps.empty()) page.sections.push_back(steps_section(report));
   if (report.error_map) page.sections.push_back(error_map_section(report));
   if (const HeldOut held_out = held_out_of(report); held_out.count > 0) {

@@ -28,18 +28,26 @@ struct ToolVector {
   double y_mm = 0.0;
 };
 
+/// The sheet, or what of it was measured.
+struct Outline {
+  double x_min_mm = 0.0;
+  double x_max_mm = 0.0;
+  double y_min_mm = 0.0;
+  double y_max_mm = 0.0;
+};
+
 struct ReportPoint {
   std::string name{};  ///< "point 7"
   /// Where the tool truly stood, in the frame of the page.
   double x_mm = 0.0;
   double y_mm = 0.0;
   /// With the machine as stated.
-  ToolVector before{};
+  std::optional<ToolVector> before{};
   /// With the machine calibrated and the residual surface added.
-  ToolVector after{};
+  std::optional<ToolVector> after{};
   std::optional<ToolVector> held_out{};
-  /// One sigma expected at the tool for this held-out prediction; 0: not known.
-  double held_out_sigma_mm = 0.0;
+  /// How surprising the held-out error is, in sigmas.
+  double held_out_sigmas = 0.0;
   /// The fit gave this point little or no weight.
   bool is_bad = false;
 };
@@ -64,7 +72,7 @@ struct ReportSetting {
   double stated = 0.0;
   double calibrated = 0.0;
   double sigma = 0.0;
-  /// One sigma of what was stated.
+  /// One sigma of what was stated; 0: not said.
   double stated_sigma = 0.0;
   /// Further from what was stated than its uncertainty allows.
   bool is_off = false;
@@ -72,21 +80,19 @@ struct ReportSetting {
 
 /// One step on the way to the map, with the error at the tool that is left there.
 struct ErrorStep {
-  std::string what{};  ///< "machine as stated", "machine calibrated", "with the surface", "noise of
-                       ///< the readings"
+  enum class Kind { before, after, reference };
+  Kind kind = Kind::after;
+  std::string
+      what{};  ///< "machine as stated", "points left out one at a time", "noise of the readings"
   double rms_mm = 0.0;
   std::optional<double> max_mm{};
-  /// Rms on each chain, where that is known.
-  std::optional<double> left_rms_mm{};
-  std::optional<double> right_rms_mm{};
-  std::string note{};  ///< how it was found: "leave-one-out on 28 points"
+  std::string note{};  ///< what the figure is relative to
 };
 
 struct MapReport {
   std::string name{};
   std::string machine_name{};
-  double bed_width_mm = 0.0;
-  double bed_height_mm = 0.0;
+  Outline sheet{};
 
   std::string verdict{};
   Tone tone = Tone::good;
@@ -97,6 +103,8 @@ struct MapReport {
   /// In the order of the work; the last may be the noise floor.
   std::vector<ErrorStep> steps{};
   std::vector<ReportPoint> points{};
+  /// What the points' `before` is: "the machine as stated".
+  std::string before_what{"the machine as stated"};
   std::optional<ErrorMap> error_map{};
   /// Rms of the held-out errors, drawn as a line and a ring; 0: computed from the points.
   double held_out_rms_mm = 0.0;
@@ -109,7 +117,7 @@ struct MapReport {
 };
 
 /// Lays the report out as a page; sections without data are left out.
-/// \throws std::invalid_argument where the bed has no extent, or a number is not finite.
+/// \throws std::invalid_argument where the sheet has no extent, or a number is not finite.
 [[nodiscard]] Page page_of(const MapReport& report);
 
 }  // namespace chaintrue::report

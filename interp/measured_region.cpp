@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/measured_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace chaintrue::interp {
+namespace {
+
+double cross(const PlanePoint& o, const PlanePoint& a, const PlanePoint& b) {
+  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+// The tangent plane at the nearest measured point, continued along `near.direction`.
+ValueGradient linear(const Surface& surface, const NearestPoint& near) {
+  const ValueGradient z = surface.at(near.point.x, near.point.y);
+  const PlanePoint& n = near.direction;
+  const double outward = n.x * z.dx + n.y * z.dy;
+  ValueGradient result{z.value + near.distance * outward, z.dx, z.dy};
+  if (near.on_edge) {
+    // The foot point moves along the edge: d/dt (n . grad) by a central difference.
+    const Rectangle domain = surface.domain();
+    const double step = 1e-4 * std::max(domain.width(), domain.height());
+    const PlanePoint t{-n.y, n.x};
+    const auto outward_at = [&](double s) {
+      const ValueGradient beside = surface.at(near.point.x + s * t.x, near.point.y + s * t.y);
+      return n.x * beside.dx + n.y * beside.dy;
+    };
+    const double turn = near.distance * (outward_at(step) - outward_at(-step)) / (2.0 * step);
+    result.dx += turn * t.x;
+    result.dy += turn * t.y;
+  }
+  return result;
+}
+
+ValueGradient clamped(const Surface& surface, const NearestPoint& near) {
+  const ValueGradient z = surface.at(near.point.x, near.point.y);
+  if (!near.on_edge) {
+    return {z.value, 0.0, 0.0};
+  }
+  const PlanePoint t{-near.direction.y, near.direction.x};
+  const double along = t.x * z.dx + t.y * z.dy;
+  return {z.value, along * t.x, along * t.y};
+}
+
+}  // namespace
+
+ConvexHull::ConvexHull(const std::vector<PlanePoint>& points) {
+  std::vector<PlanePoint> sorted = points;
+  for (const PlanePoint& p : sorted) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+      throw std::invalid_argument(fmt::format("a point of the region is ({}, {})", p.x, p.y));
+    }
+  }
+  std::ranges::sort(sorted, [](const PlanePoint& a, const PlanePoint& b) {
+    return a.x != b.x ? a.x < b.x : a.y < b.y;
+  });
+  const auto half = [this](auto begin, auto end) {
+    const std::size_t base = corners_.size();
+    for (auto it = begin; it != end; ++it) {
+      while (corners_.size() >= base + 2 &&
+             cross(corners_[corners_.size() - 2], corners_.back(), *it) <= 0.0) {
+        corners_.pop_back();
+      }
+      corners_.push_back(*it);
+    }
+    corners_.pop_back();  // the other half begins with it
+  };
+  if (sorted.size() >= 3) {
+    half(sorted.begin(), sorted.end());
+    half(sorted.rbegin(), sorted.rend());
+  }
+  const double span = sorted.empty() ? 0.0
+                                     : std::hypot(sorted.back().x - sorted.front().x,
+                                                  sorted.back().y - sorted.front().y);
+  if (corners_.size() < 3 || !(area() > 1e-12 * span * span)) {
+    throw std::invalid_argument(
+        fmt::format("{} points on one line enclose no region", points.size()));
+  }
+}
+
+bool ConvexHull::contains(double x, double y) const {
+  const PlanePoint p{x, y};
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    if (!(cross(corners_[i], corners_[(i + 1) % corners_.size()], p) >= 0.0)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+NearestPoint ConvexHull::nearest(double x, double y) const {
+  NearestPoint best{{x, y}, 0.0, {0.0, 0.0}, false};
+  if (contains(x, y)) {
+    return best;
+  }
+  best.distance = HUGE_VAL;
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const PlanePoint& a = corners_[i];
+    const PlanePoint& b = corners_[(i + 1) % corners_.size()];
+    const double ex = b.x - a.x;
+    const double ey = b.y - a.y;
+    const double s = ((x - a.x) * ex + (y - a.y) * ey) / (ex * ex + ey * ey);
+    const double t = std::clamp(s, 0.0, 1.0);
+    const PlanePoint foot{a.x + t * ex, a.y + t * ey};
+    const double distance = std::hypot(x - foot.x, y - foot.y);
+    if (distance < best.distance) {
+      best = {foot, distance, {}, s > 0.0 && s < 1.0};
+      if (best.on_edge) {
+        // The edge's own normal: the difference of two near points has no digits left.
+        const double length = std::hypot(ex, ey);
+        best.direction = {ey / length, -ex / length};
+      } else if (distance > 0.0) {
+        best.direction = {(x - foot.x) / distance, (y - foot.y) / distance};
+      }
+    }
+  }
+  return best;
+}
+
+double ConvexHull::area() const {
+  double twice = 0.0;
+  for (std::size_t i = 0; i + 1 < corners_.size(); ++i) {
+    twice += cross(corners_.front(), corners_[i], corners_[i + 1]);
+  }
+  return 0.5 * twice;
+}
+
+std::string_view to_string(PointStatus status) {
+  switch (status) {
+    case PointStatus::kInside:
+      return "inside";
+    case PointStatus::kEdge:
+      return "edge";
+    case PointStatus::kExtrapolated:
+      return "extrapolated";
+    case PointStatus::kOutside:
+      return "outside";
+  }
+  throw std::logic_error("unknown status");
+}
+
+RegionAnswer evaluate(const Surface& surface,
+                      const ConvexHull& hull,
+                      const RegionPolicy& policy,
+                      const PlanePoint& at) {
+  if (!(policy.edge_width >= 0.0) || !(policy.fade_width > 0.0)) {
+    throw std::invalid_argument(
+        fmt::format("an edge of width {} and a fade of {}", policy.edge_width, policy.fade_width));
+  }
+  if (!std::isfinite(at.x) || !std::isfinite(at.y)) {
+    return {{}, PointStatus::kOutside};
+  }
+  const NearestPoint near = hull.nearest(at.x, at.y);
+  if (near.distance == 0.0) {
+    return {surface.at(at.x, at.y), PointStatus::kInside};
+  }
+  const bool edge = near.distance <= policy.edge_width;
+  const PointStatus status = edge ? PointStatus::kEdge : PointStatus::kExtrapolated;
+  switch (policy.outside) {
+    case OutsidePolicy::kRefuse:
+      return edge ? RegionAnswer{linear(surface, near), status}
+                  : RegionAnswer{{}, PointStatus::kOutside};
+    case OutsidePolicy::kLinear:
+      return {linear(surface, near), status};
+    case OutsidePolicy::kClamp:
+      return {clamped(surface, near), status};
+    case OutsidePolicy::kFade: {
+      ValueGradient z = linear(surface, near);
+      const double s =
+          std::clamp((near.distance - policy.edge_width) / policy.fade_width, 0.0, 1.0);
+      const double weight = (1.0 - s) * (1.0 - s) * (1.0 + 2.0 * s);
+      const double fall = -6.0 * s * (1.0 - s) / policy.fade_width;
+      z = {weight * z.value,
+           weight * z.dx + fall * near.direction.x * z.value,
+           weight * z.dy + fall * near.direction.y * z.value};
+      return {z, status};
+    }
+  }
+  throw std::logic_error("unknown outside policy");
+}
+
+}  // namespace chaintrue::interp

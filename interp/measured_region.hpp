@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// \file
+/// Where a surface rests on measurements, and what it answers where it does not.
+///
+/// The measured region is the convex hull of the points. Outside it a surface is asked through a
+/// policy, and every answer says how it came about; nothing is clamped silently.
+
+#include <string_view>
+#include <vector>
+
+#include "interp/compiled_pair.hpp"
+#include "interp/surface.hpp"
+
+namespace chaintrue::interp {
+
+/// The nearest point of a region and how far it is.
+struct NearestPoint {
+  PlanePoint point;
+  double distance;       ///< 0 inside
+  PlanePoint direction;  ///< unit vector from `point` outward; zero inside
+  bool on_edge;          ///< inside of an edge rather than at a corner
+};
+
+/// A convex polygon, counterclockwise. Immutable.
+class ConvexHull {
+ public:
+  /// The hull of `points` by A. M. Andrew's monotone chain (Inf. Proc. Letters 9 (1979) 216-219).
+  /// Throws std::invalid_argument where the points are not finite or lie on one line.
+  explicit ConvexHull(const std::vector<PlanePoint>& points);
+
+  [[nodiscard]] const std::vector<PlanePoint>& corners() const { return corners_; }
+  [[nodiscard]] bool contains(double x, double y) const;
+  [[nodiscard]] NearestPoint nearest(double x, double y) const;
+  [[nodiscard]] double area() const;
+
+ private:
+  std::vector<PlanePoint> corners_;
+};
+
+enum class OutsidePolicy {
+  kRefuse,  ///< no answer
+  kFade,    ///< the linear continuation times a weight that falls to zero over fade_width
+  kLinear,  ///< the tangent plane at the nearest measured point
+  kClamp,   ///< the value at the nearest measured point
+};
+
+/// How a value came about.
+enum class PointStatus {
+  kInside,        ///< in the measured region
+  kEdge,          ///< outside it by no more than edge_width: continued linearly, except by kClamp
+  kExtrapolated,  ///< further out, by the policy
+  kOutside,       ///< refused: there is no value
+};
+
+[[nodiscard]] std::string_view to_string(PointStatus status);
+
+struct RegionPolicy {
+  OutsidePolicy outside = OutsidePolicy::kFade;
+  double edge_width = 0.0;    ///< >= 0
+  double fade_width = 200.0;  ///< > 0; for kFade, counted from edge_width on
+};
+
+struct RegionAnswer {
+  ValueGradient z;  ///< zero where status is kOutside
+  PointStatus status;
+};
+
+/// `surface` at (x, y) under the policy. Continuous across the hull and through every policy's
+/// zones (kRefuse ends); kFade and kLinear are C1 across the hull's edges. The gradient beside an
+/// edge uses a difference of the surface's gradient along the edge (error about 1e-6 of a second
+/// derivative).
+[[nodiscard]] RegionAnswer evaluate(const Surface& surface,
+                                    const ConvexHull& hull,
+                                    const RegionPolicy& policy,
+                                    const PlanePoint& at);
+
+}  // namespace chaintrue::interp

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/square.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "model/controllers/payout.hpp"
+#include "model/reading_model.hpp"
+
+namespace chaintrue::model {
+namespace {
+
+double distance_mm(BedPoint a, BedPoint b) { return std::hypot(b.x_mm - a.x_mm, b.y_mm - a.y_mm); }
+
+/// How far p stands to the left of the line from a to b: outwards, for an outline that runs
+/// clockwise.
+double outwards_mm(BedPoint a, BedPoint b, BedPoint p) {
+  const double dx = b.x_mm - a.x_mm, dy = b.y_mm - a.y_mm;
+  return (dx * (p.y_mm - a.y_mm) - dy * (p.x_mm - a.x_mm)) / std::hypot(dx, dy);
+}
+
+std::array<BedPoint, 4> corners_of(const SquareTask& task) {
+  const double x = task.corner.x_mm, y = task.corner.y_mm - (task.below ? task.size_mm : 0.0);
+  const double s = task.size_mm;
+  return {{{x, y}, {x, y + s}, {x + s, y + s}, {x + s, y}}};
+}
+
+/// The corners' middle, length-weighted direction of the sides against the commanded ones.
+void place(CutSquare& square,
+           const std::array<BedPoint, 4>& commanded,
+           const std::array<BedPoint, 4>& cut) {
+  double dot = 0.0, cross = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    square.offset.x_mm += 0.25 * (cut[i].x_mm - commanded[i].x_mm);
+    square.offset.y_mm += 0.25 * (cut[i].y_mm - commanded[i].y_mm);
+    const std::size_t j = (i + 1) % 4;
+    const double ax = commanded[j].x_mm - commanded[i].x_mm,
+                 ay = commanded[j].y_mm - commanded[i].y_mm;
+    const double bx = cut[j].x_mm - cut[i].x_mm, by = cut[j].y_mm - cut[i].y_mm;
+    dot += ax * bx + ay * by;
+    cross += ax * by - ay * bx;
+  }
+  square.rotation_rad = std::atan2(cross, dot);
+}
+
+}  // namespace
+
+tl::expected<CutSquare, SquareFailure> predict_square(const Machine& machine,
+                                                      const Machine& controller_machine,
+                                                      const SquareTask& task,
+                                                      Model model) {
+  if (!(task.size_mm > 0.0 && std::isfinite(task.size_mm)) || task.points_per_side < 2) {
+    throw std::invalid_argument(
+        fmt::format("a square of size_mm = {} with {} points to a side: expected a positive size "
+                    "and two points or more",
+                    task.size_mm,
+                    task.points_per_side));
+  }
+  const auto controller = make_controller_kinematics(controller_machine);
+  const ReadingModel world(machine, model);
+  const std::array<BedPoint, 4> corners = corners_of(task);
+  CutSquare square;
+  std::array<BedPoint, 4> cut_corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const BedPoint a = corners[i], b = corners[(i + 1) % 4];
+    const std::size_t first = square.cut.size();
+    for (int n = 0; n < task.points_per_side; ++n) {
+      const double share = static_cast<double>(n) / (task.points_per_side - 1);
+      const BedPoint p{a.x_mm + share * (b.x_mm - a.x_mm), a.y_mm + share * (b.y_mm - a.y_mm)};
+      const auto lengths = controller->lengths(p);
+      if (!lengths) return tl::unexpected(SquareFailure{p, lengths.error(), true});
+      const auto tool = world.find(*lengths, p);
+      if (!tool) return tl::unexpected(SquareFailure{p, tool.error(), false});
+      square.commanded.push_back(p);
+      square.cut.push_back(tool->pose.position);
+    }
+    const BedPoint from = square.cut[first], to = square.cut.back();
+    cut_corners[i] = from;
+    CutSide& side = square.sides[i];
+    side.length_mm = distance_mm(from, to);
+    for (std::size_t n = first; n < square.cut.size(); ++n) {
+      const double bow = outwards_mm(from, to, square.cut[n]);
+      if (std::abs(bow) > std::abs(side.bow_mm)) side.bow_mm = bow;
+    }
+  }
+  square.rising_diagonal_mm = distance_mm(cut_corners[0], cut_corners[2]);
+  square.falling_diagonal_mm = distance_mm(cut_corners[1], cut_corners[3]);
+  place(square, corners, cut_corners);
+  return square;
+}
+
+}  // namespace chaintrue::model

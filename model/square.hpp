@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The test square that a person cuts and measures: what its sides, diagonals and bows will be when
+/// a controller that believes one machine drives another.
+///
+/// At each point of the commanded outline the controller pays out the chain that its own kinematics
+/// asks for; the tool goes where the true machine, with its effects, reads those lengths. Visits
+/// (hysteresis, drift) are not modelled.
+///
+/// \code
+///   const auto square = predict_square(machine, controller_machine, {.size_mm = 100, .corner =
+///   {-1040, -465}}); fmt::print("top: {:.2f} mm, bow {:.2f} mm\n",
+///   square->side(SquareSide::top).length_mm, ...);
+/// \endcode
+#pragma once
+
+#include <array>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "model/kinematics.hpp"
+#include "model/machine.hpp"
+
+namespace chaintrue::model {
+
+struct SquareTask {
+  double size_mm = 100.0;
+  /// Lower left corner, or upper left where `below`.
+  BedPoint corner{};
+  bool below = false;
+  /// Points of each side that are computed, its ends included.
+  int points_per_side = 101;
+};
+
+/// Clockwise from the lower left corner, as the seed's squares were traced.
+enum class SquareSide { left, top, right, bottom };
+inline constexpr SquareSide kSquareSides[] = {
+    SquareSide::left, SquareSide::top, SquareSide::right, SquareSide::bottom};
+
+struct CutSide {
+  double length_mm = 0.0;  ///< corner to corner
+  double bow_mm =
+      0.0;  ///< farthest from the straight line between the corners; outwards is positive
+};
+
+struct CutSquare {
+  /// The outline, side by side, clockwise; a corner ends one side and begins the next, and stands
+  /// twice.
+  std::vector<BedPoint> commanded;
+  std::vector<BedPoint> cut;
+  std::array<CutSide, 4> sides;
+  double rising_diagonal_mm = 0.0;   ///< lower left to upper right
+  double falling_diagonal_mm = 0.0;  ///< upper left to lower right
+  BedPoint offset;                   ///< the cut corners' middle less the commanded one
+  double rotation_rad = 0.0;         ///< of the cut corners, counter-clockwise
+  [[nodiscard]] const CutSide& side(SquareSide side) const {
+    return sides[static_cast<std::size_t>(side)];
+  }
+};
+
+/// Which commanded point, and why.
+struct SquareFailure {
+  BedPoint commanded;
+  PoseFailure reason = PoseFailure::not_converged;
+  bool controllers = false;  ///< the controller itself has no chain for it
+};
+
+/// \throws std::invalid_argument for a size that is no positive number, fewer than two points to a
+/// side, or machines with problems.
+[[nodiscard]] tl::expected<CutSquare, SquareFailure> predict_square(
+    const Machine& machine,
+    const Machine& controller_machine,
+    const SquareTask& task,
+    Model model = Model::elastic);
+
+}  // namespace chaintrue::model

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What few points are worth on a machine that no model describes to the end. Truth: the default machine with its motors
+// 3 mm beside where they are stated, elastic catenary, plus smooth terms of 0.8 mm that stand for what nobody modelled.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "grid/map/fit.hpp"
+#include "grid/synthetic/random.hpp"
+#include "model/reading_model.hpp"
+
+namespace chaintrue {
+namespace {
+
+using grid::CompensationMap;
+using model::BedPoint;
+using model::ChainLengths;
+
+model::Machine true_machine() {
+  model::Machine machine;
+  machine.motors = {{-1492.1, 1075.0}, {1487.0, 1070.9}};
+  return machine;
+}
+
+const model::ReadingModel& true_model() {
+  static const model::ReadingModel model(true_machine());
+  return model;
+}
+
+ChainLengths truth_at(BedPoint p) {
+  const ChainLengths machine = true_model().at(p).value().lengths;
+  return {machine.left_mm + 0.8 * std::sin(p.x_mm / 500.0 + 0.3) * std::cos(p.y_mm / 400.0),
+          machine.right_mm + 0.8 * std::cos(p.x_mm / 450.0) * std::sin(p.y_mm / 420.0 + 0.5)};
+}
+
+struct Layout {
+  int rows = 4;
+  int columns = 7;
+  double margin_mm = 0.0;
+};
+
+std::vector<BedPoint> marks(const Layout& layout) {
+  const model::Bed bed;
+  const double half_x = 0.5 * bed.width_mm - layout.margin_mm;
+  const double half_y = 0.5 * bed.height_mm - layout.margin_mm;
+  std::vector<BedPoint> result;
+  for (int iy = 0; iy < layout.rows; ++iy) {
+    for (int ix = 0; ix < layout.columns; ++ix) {
+      result.push_back({half_x * (2.0 * ix / (layout.columns - 1) - 1.0), half_y * (2.0 * iy / (layout.rows - 1) - 1.0)});
+    }
+  }
+  return result;
+}
+
+grid::MeasuredGrid measured(const std::vector<BedPoint>& places) {
+  grid::MeasuredGrid grid;
+  grid.machine = model::Machine{};
+  for (BedPoint place : places) grid.points.push_back({place, truth_at(place), std::nullopt, std::nullopt});
+  return grid;
+}
+
+CompensationMap fitted(const grid::MeasuredGrid& grid) {
+  auto map = grid::fit(grid);
+  if (!map) throw std::runtime_error(map.error().sentence);
+  return *std::move(map);
+}
+
+struct BedError {
+  double largest_mm = 0.0;
+  double rms_mm = 0.0;
+  double covered = 0.0;  ///< share of lengths within 1.96 of their sigma
+};
+
+/// Over a raster of the whole bed, both chains alike.
+BedError error_of(const CompensationMap& map) {
+  const model::Bed bed;
+  BedError error;
+  double squares = 0.0;
+  int count = 0;
+  int covered = 0;
+  for (int iy = 0; iy <= 24; ++iy) {
+    for (int ix = 0; ix <= 48; ++ix) {
+      const BedPoint p{bed.width_mm * (ix / 48.0 - 0.5), bed.height_mm * (iy / 24.0 - 0.5)};
+      const auto answer = map.query(p);
+      if (!answer) throw std::runtime_error("the map has a hole on the bed");
+      const ChainLengths truth = truth_at(p);
+      const double left = answer->lengths.left_mm - truth.left_mm;
+      const double right = answer->lengths.right_mm - truth.right_mm;
+      error.largest_mm = std::max({error.largest_mm, std::abs(left), std::abs(right)});
+      squares += left * left + right * right;
+      covered += (std::abs(left) <= 1.96 * answer->sigma.left_mm) + (std::abs(right) <= 1.96 * answer->sigma.right_mm);
+      count += 2;
+    }
+  }
+  error.rms_mm = std::sqrt(squares / count);
+  error.covered = static_cast<double>(covered) / count;
+  return error;
+}
+
+struct Figure {
+  Layout layout;
+  double exact_largest_mm;  ///< points on their marks, no noise
+  double beside_rms_mm;     ///< sled up to 20 mm beside the marks, no noise
+  double noisy_rms_mm;      ///< 0.3 mm noise on the lengths
+};
+
+void PrintTo(const Figure& figure, std::ostream* out) {
+  *out << figure.layout.rows << "x" << figure.layout.columns;
+}
+
+class ModelSurface : public testing::TestWithParam<Figure> {};
+
+TEST_P(ModelSurface, MeetsAMachineThatNoModelDescribes) {
+  const BedError error = error_of(fitted(measured(marks(GetParam().layout))));
+  fmt::print("{}x{}, points on their marks: {:.4f} mm at most, {:.4f} mm rms\n", GetParam().layout.rows,
+             GetParam().layout.columns, error.largest_mm, error.rms_mm);
+  EXPECT_LE(error.largest_mm, GetParam().exact_largest_mm);
+}
+
+TEST_P(ModelSurface, TakesTheSledWhereItStood) {
+  constexpr int kDraws = 10;
+  double rms = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    SCOPED_TRACE(draw);
+    grid::synthetic::Random random(1000 + static_cast<std::uint64_t>(draw));
+    auto places = marks(GetParam().layout);
+    for (BedPoint& place : places) {
+      place.x_mm += 40.0 * random.uniform() - 20.0;
+      place.y_mm += 40.0 * random.uniform() - 20.0;
+    }
+    rms += error_of(fitted(measured(places))).rms_mm / kDraws;
+  }
+  fmt::print("{}x{}, sled up to 20 mm beside the marks: {:.4f} mm rms\n", GetParam().layout.rows,
+             GetParam().layout.columns, rms);
+  EXPECT_LE(rms, GetParam().beside_rms_mm);
+}
+
+TEST_P(ModelSurface, IsHonestAboutNoisyLengths) {
+  constexpr int kDraws = 40;
+  double rms = 0.0;
+  double covered = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    grid::synthetic::Random random(2000 + static_cast<std::uint64_t>(draw));
+    auto grid = measured(marks(GetParam().layout));
+    for (auto& point : grid.points) {
+      point.lengths->left_mm += 0.3 * random.normal();
+      point.lengths->right_mm += 0.3 * random.normal();
+    }
+    grid.noise = grid::StatedNoise{0.3, 0.0, 15.0};
+    const BedError error = error_of(fitted(grid));
+    rms += error.rms_mm / kDraws;
+    covered += error.covered / kDraws;
+  }
+  fmt::print("{}x{}, 0.3 mm noise: {:.4f} mm rms, 95 % intervals cover {:.1f} %\n", GetParam().layout.rows,
+             GetParam().layout.columns, rms, 100.0 * covered);
+  EXPECT_LE(rms, GetParam().noisy_rms_mm);
+  EXPECT_GE(covered, 0.92);
+  EXPECT_LE(covered, 0.98);
+}
+
+INSTANTIATE_TEST_SUITE_P(FewPoints, ModelSurface,
+                         testing::Values(Figure{{4, 7}, 0.040, 0.020, 0.19}, Figure{{5, 9}, 0.010, 0.010, 0.145},
+                                         Figure{{7, 13}, 0.005, 0.004, 0.115}),
+                         [](const auto& figure) {
+                           return fmt::format("{}x{}", figure.param.layout.rows, figure.param.layout.columns);
+                         });
+
+TEST(ModelSurfaceGaps, OneMissingNodeCostsLittle) {
+  const auto whole = marks({5, 9});
+  double largest = 0.0;
+  for (std::size_t missing : {std::size_t{0}, std::size_t{8}, std::size_t{4}, std::size_t{22}, std::size_t{44}}) {
+    auto places = whole;
+    places.erase(places.begin() + static_cast<std::ptrdiff_t>(missing));
+    const CompensationMap map = fitted(measured(places));
+    const auto answer = map.query(whole[missing]);
+    ASSERT_TRUE(answer);
+    const ChainLengths truth = truth_at(whole[missing]);
+    largest = std::max({largest, std::abs(answer->lengths.left_mm - truth.left_mm),
+                        std::abs(answer->lengths.right_mm - truth.right_mm)});
+  }
+  fmt::print("5x9 with one node missing (corners, an edge, the middle): {:.4f} mm there\n", largest);
+  EXPECT_LE(largest, 0.02);
+}
+
+TEST(ModelSurfaceGaps, AGridThatEndsShortOfTheBedCarriesToItsEdge) {
+  const BedError error = error_of(fitted(measured(marks({5, 9, 100.0}))));
+  fmt::print("5x9 ending 100 mm inside the bed: {:.4f} mm at most over the bed\n", error.largest_mm);
+  EXPECT_LE(error.largest_mm, 0.05);
+}
+
+}  // namespace
+}  // namespace chaintrue

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Compensated files, run on a simulated controller and machine, keep to the intended path;
+/// uncompensated ones do not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/gcode/formula_target.hpp"
+#include "tests/gcode/program_events.hpp"
+#include "tools/gcode/compensator.hpp"
+#include "tools/gcode/moves.hpp"
+#include "tools/gcode/verifier.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+const std::filesystem::path kFolder = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "gcode";
+constexpr double kTolerance_mm = 0.05;
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+struct Compensated {
+  std::string text;
+  CompensateSummary summary;
+  Findings findings;
+};
+
+Result<Compensated> compensate(const std::string& program,
+                               const Corrector& corrector,
+                               CompensateOptions options = {},
+                               Dialect dialect = {}) {
+  Compensated result;
+  Compensator compensator(
+      corrector, std::move(options), [&](std::string_view bytes) { result.text += bytes; });
+  auto source = LineSource::from_text(program);
+  const auto summary = compensator.run(source, dialect);
+  if (!summary) return tl::unexpected(summary.error());
+  result.summary = *summary;
+  result.findings = compensator.findings();
+  return result;
+}
+
+VerifySummary verified(const std::string& original,
+                       const std::string& run,
+                       const Corrector& corrector,
+                       VerifyOptions options,
+                       Dialect dialect = {}) {
+  auto a = LineSource::from_text(original);
+  auto b = LineSource::from_text(run);
+  const auto summary = verify(a, b, corrector, dialect, options);
+  if (!summary) {
+    ADD_FAILURE() << (summary.error().in_original ? "original: " : "output: ")
+                  << summary.error().problem.message();
+    return {};
+  }
+  return *summary;
+}
+
+/// The real files that LinuxCNC and we accept, that fit the bed, and that the output language can
+/// say.
+std::vector<std::string> fitting_files() {
+  std::vector<std::string> names;
+  if (!std::filesystem::exists(kFolder)) return names;
+  Dialect dialect;
+  dialect.tools_have_no_diameter = true;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(".canon") || name == "README.md" || name == "index.tsv" ||
+        name == "hazard_oracle.md")
+      continue;
+    const auto moves = read_moves(entry.path().string(), dialect);
+    if (!moves || moves->empty()) continue;
+    const bool fits = std::all_of(moves->begin(), moves->end(), [](const Move& move) {
+      const auto turns = [](double degrees) { return degrees != 0.0; };
+      return std::fabs(move.to.x_mm) <= 1219.2 && std::fabs(move.to.y_mm) <= 609.6 &&
+             move.kind != MoveKind::probe &&
+             std::none_of(move.turn_deg.begin(), move.turn_deg.end(), turns);
+    });
+    if (fits) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace_if(
+      name.begin(),
+      name.end(),
+      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; },
+      '_');
+  return name;
+}
+
+class RealFile : public testing::TestWithParam<std::string> {
+ protected:
+  RealFile() { dialect_.tools_have_no_diameter = true; }
+  Dialect dialect_;
+  PlainKinematics kinematics_;
+};
+
+TEST_P(RealFile, IsCutWithinTheToleranceAndNotWithoutCompensation) {
+  const std::string original = read(kFolder / GetParam());
+  for (const NamedDisplacement& named : displacements()) {
+    SCOPED_TRACE(named.name);
+    const FormulaMap map(named.displacement);
+    const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::maslow_classic));
+    const auto output = compensate(original, corrector, {}, dialect_);
+    ASSERT_TRUE(output) << output.error().message();
+    ASSERT_EQ(output->findings.problem_count, 0U) << output->findings.problems.front().message();
+    VerifyOptions options;
+    const auto summary = verified(original, output->text, corrector, options, dialect_);
+    EXPECT_LE(summary.largest_mm(), kTolerance_mm)
+        << "line " << summary.feeds.original_line << " / " << summary.rapids.original_line;
+    EXPECT_EQ(summary.words_differ, "");
+    EXPECT_GT(summary.places, 0U);
+    const auto control = verified(original, original, corrector, options, dialect_);
+    EXPECT_GT(control.largest_mm(), kTolerance_mm);
+  }
+}
+
+TEST_P(RealFile, StaysItselfUnderTheIdentity) {
+  const std::string original = read(kFolder / GetParam());
+  const FormulaMap map([](model::BedPoint) { return model::BedPoint{}; });
+  const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::ideal));
+  CompensateOptions options;
+  options.tolerance_mm = 0.005;
+  options.decimals = 4;
+  const auto output = compensate(original, corrector, options, dialect_);
+  ASSERT_TRUE(output) << output.error().message();
+  auto before = LineSource::from_text(original);
+  auto after = LineSource::from_text(output->text);
+  const auto intended = read_moves(before, dialect_);
+  const auto written = read_moves(after);
+  ASSERT_TRUE(intended && written);
+  // Every end of a straight move of the original is the end of one of the output, to rounding, in
+  // order.
+  std::size_t at_output = 0;
+  for (const Move& move : *intended) {
+    if (move.arc || !move.names_xy || distance_mm(move.from, move.to) < 2e-4) continue;
+    const auto same = [&](const Move& other) {
+      // Half a unit of the fourth decimal in each of three axes, and the sum's rounding.
+      return distance_mm(other.to, move.to) < 0.5e-4 * 1.7321 + 1e-9;
+    };
+    const auto found = std::find_if(
+        written->begin() + static_cast<std::ptrdiff_t>(at_output), written->end(), same);
+    ASSERT_NE(found, written->end()) << "the end of line " << move.line << " is missing";
+    at_output = static_cast<std::size_t>(found - written->begin());
+  }
+  VerifyOptions verify_options;
+  verify_options.tolerance_mm = options.tolerance_mm;
+  EXPECT_LE(verified(original, output->text, corrector, verify_options, dialect_).largest_mm(),
+            options.tolerance_mm);
+}
+
+TEST_P(RealFile, ComesOutInTheLanguageThatEveryControllerReads) {
+  const std::string original = read(kFolder / GetParam());
+  const FormulaMap map(random_smooth_displacement(4));
+  const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::ideal));
+  const auto output = compensate(original, corrector, {}, dialect_);
+  ASSERT_TRUE(output) << output.error().message();
+  std::istringstream lines(output->text);
+  std::string before;
+  bool units = false;
+  for (std::string line; std::getline(lines, line);) {
+    SCOPED_TRACE(line);
+    ASSERT_LE(line.size(), kMaxOutputLine);
+    if (line.starts_with('(')) continue;
+    if (line == "G21 G90") {
+      units = true;
+      continue;
+    }
+    ASSERT_THAT(line, testing::Not(testing::ContainsRegex("G[0-9]+[.]|[eE]|nan|inf|-0( |$)")));
+    if (line.starts_with("G0 ") || line.starts_with("G1 ")) {
+      ASSERT_TRUE(units);
+      ASSERT_EQ(line.find('X') == std::string::npos, line.find('Y') == std::string::npos)
+          << "X and Y go together";
+      ASSERT_NE(line.find_first_of("XYZ"), std::string::npos) << "a move of nothing";
+      ASSERT_NE(line, before) << "a move of zero length";
+      before = line;
+    } else {
+      ASSERT_THAT(line,
+                  testing::ContainsRegex("^(M[0-9]+|S[0-9.]+|T[0-9]+|G4 P|G40|G43|G49|G61|G64)"));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpus, RealFile, testing::ValuesIn(fitting_files()), test_name);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RealFile);
+
+}  // namespace
+}  // namespace chaintrue::gcode

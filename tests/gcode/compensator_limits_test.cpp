@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What is not compensated, how few commands it takes, play, and the real controllers.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/gcode/formula_target.hpp"
+#include "tools/gcode/compensator.hpp"
+#include "tools/gcode/moves.hpp"
+#include "tools/gcode/verifier.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+using testing::HasSubstr;
+
+struct Outcome {
+  std::string text;
+  std::string message;  // of the first problem, empty where there is none
+  CompensateSummary summary;
+  Findings findings;
+};
+
+Outcome compensate(const std::string& program,
+                   const Corrector& corrector,
+                   CompensateOptions options = {}) {
+  Outcome result;
+  Compensator compensator(
+      corrector, std::move(options), [&](std::string_view bytes) { result.text += bytes; });
+  auto source = LineSource::from_text(program);
+  const auto summary = compensator.run(source, {});
+  result.findings = compensator.findings();
+  if (!summary) result.message = summary.error().message();
+  if (summary) result.summary = *summary;
+  if (result.message.empty() && !result.findings.problems.empty())
+    result.message = result.findings.problems.front().message();
+  return result;
+}
+
+VerifySummary verified(const std::string& original,
+                       const std::string& run,
+                       const Corrector& corrector,
+                       const VerifyOptions& options = {}) {
+  auto a = LineSource::from_text(original);
+  auto b = LineSource::from_text(run);
+  const auto summary = verify(a, b, corrector, {}, options);
+  EXPECT_TRUE(summary) << summary.error().problem.message();
+  return summary ? *summary : VerifySummary{};
+}
+
+class Limits : public testing::Test {
+ protected:
+  PlainKinematics kinematics_;
+  FormulaMap shift_{[](model::BedPoint) { return model::BedPoint{3.0, -2.0}; }};
+  Corrector corrector_{shift_, kinematics_, firmware(model::ControllerKind::maslow_classic)};
+};
+
+TEST_F(Limits, AFileThatWasCompensatedIsRefused) {
+  const auto once = compensate("G0 X10 Y10\nF100 G1 X20\nM2\n", corrector_);
+  EXPECT_EQ(once.message, "");
+  const auto twice = compensate(once.text, corrector_);
+  EXPECT_THAT(
+      twice.message,
+      HasSubstr("has been compensated before; compensate the original (already_compensated)"));
+}
+
+TEST_F(Limits, WhatCannotBeCutRightIsNamedByLine) {
+  EXPECT_EQ(compensate("G0 X0 Y0\nG0 X1500 Y0\n", corrector_).message,
+            "line 2: X1500.000 Y0.000 lies outside the map (outside_map)");
+  EXPECT_THAT(compensate("G0 X1 Y1\nG28\n", corrector_).message,
+              HasSubstr("line 2: G28 and G30 go to a place that only the machine knows"));
+  EXPECT_THAT(compensate("F9 G0 X1 Y1 Z5\nG38.2 Z-5\n", corrector_).message,
+              HasSubstr("line 2: probing needs a dotted code"));
+  EXPECT_THAT(compensate("G0 X1 Y1 A5\n", corrector_).message,
+              HasSubstr("line 1: a two-chain router has no axis A, B or C"));
+  CompensateOptions options;
+  options.largest_correction_mm = 3.0;
+  EXPECT_THAT(compensate("G0 X1 Y1\n", corrector_, options).message,
+              HasSubstr("line 1: X1.000 Y1.000 would be corrected by 3.61 mm, more than the 3 mm "
+                        "that are allowed (correction_too_large)"));
+}
+
+TEST_F(Limits, ASteepCorrectionIsRefused) {
+  const FormulaMap steep([](model::BedPoint p) { return model::BedPoint{0.08 * p.x_mm, 0.0}; });
+  const Corrector corrector(steep, kinematics_, firmware(model::ControllerKind::ideal));
+  EXPECT_THAT(compensate("G0 X0 Y0\nG0 X100\n", corrector).message,
+              HasSubstr("changes by 0.080 mm per mm, more than the 0.05"));
+}
+
+TEST_F(Limits, TargetsThatTheControllerWouldClampAreAllFound) {
+  CompensateOptions options;
+  options.clamp_box = ClampBox{1219.2, 609.6};
+  const auto outcome =
+      compensate("G0 X1217 Y0\nG0 X0 Y-608\nG0 X0 Y0\nG0 X1215 Y-607\n", corrector_, options);
+  ASSERT_EQ(outcome.findings.problem_count, 2U);
+  EXPECT_THAT(
+      outcome.findings.problems[0].message(),
+      HasSubstr(
+          "line 1: X1217.000 Y0.000 needs the command X1220.000 Y-2.000, 0.80 mm beyond the bed"));
+  EXPECT_EQ(outcome.findings.problems[1].place.line, 2U);
+}
+
+TEST_F(Limits, HomeIsAddedAndTheOutputRunsAtZero) {
+  CompensateOptions options;
+  options.home = {100.0, -50.0};
+  const auto outcome =
+      compensate("G21\nG0 X1 Y2\nG91 G0 X1\nG90 F60 G1 X0 Y0\nM2\n", corrector_, options);
+  EXPECT_THAT(outcome.text, HasSubstr("\nG0 X104 Y-50\nG0 X105 Y-50\nG1 X103 Y-52 F60\nM2\n"));
+}
+
+TEST_F(Limits, KeepsWordsCommentsAndFeedsInPlace) {
+  const auto outcome = compensate(
+      "(part)\nG21 S900 M3\nG0 Z5\nG0 X0 Y0\nT2 M6\nG1 Z-1 F90\nG4 P1\nG1 X5 Y0\nG93 X15 "
+      "F2\nG94\nG1 X16 F300 ; last\nM5\nM30\n",
+      corrector_);
+  EXPECT_EQ(outcome.message, "");
+  EXPECT_THAT(outcome.text,
+              HasSubstr("G21 G90\n(part)\nS900 M3\nG0 Z5\nG0 X3 Y-2\nT2 M6\nG1 Z-1 F90\nG4 P1\nG1 "
+                        "X8 Y-2\nG1 X18 Y-2 F20\n( last)\n"
+                        "G1 X19 Y-2 F300\nM5\nM30\n"));
+}
+
+TEST_F(Limits, NeverTouchesAnAxisThatTheProgramDoesNot) {
+  const std::string text = compensate("G0 Z5\nM3\nG0 Z6\n", corrector_).text;
+  EXPECT_THAT(text, testing::EndsWith("G21 G90\nG0 Z5\nM3\nG0 Z6\n"));
+}
+
+TEST_F(Limits, MovesThatRoundToNothingAreLeftOut) {
+  const auto outcome = compensate(
+      "G0 X1 Y1\nF9 G1 X1.0001\nG1 X1.0002\nG1 X1.0003\nG0 X1.0003\nG1 Y1.001\n", corrector_);
+  EXPECT_EQ(outcome.summary.commands, 2U);
+}
+
+/// The longest chords on the curve, found by brute force, are hardly fewer.
+TEST_F(Limits, TakesHardlyMoreCommandsThanTheToleranceNeeds) {
+  const FormulaMap map(random_smooth_displacement(5));
+  const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::ideal));
+  const double tolerance = 0.05;
+  for (const char* program : {"G0 X-1100 Y-500\nF900 G1 X1100 Y500\n",
+                              "G0 X400 Y0\nF900 G2 I-400 J0\n",
+                              "G0 X20 Y10\nF900 G3 I-15 J0 Z-3\n"}) {
+    SCOPED_TRACE(program);
+    auto source = LineSource::from_text(program);
+    const Move move = read_moves(source)->back();
+    const auto command = [&](double t) {
+      const Point p = at(move, t);
+      const auto c = corrector.command({p.x_mm, p.y_mm});
+      return Point{c->x_mm, c->y_mm, p.z_mm};
+    };
+    const auto fits = [&](double a, double b) {
+      const Point from = command(a), to = command(b);
+      for (int i = 1; i < 60; ++i) {
+        const Point p = command(a + (b - a) * i / 60.0);
+        if (distance_mm(p, between(from, to, nearest_on_line(from, to, p))) > tolerance)
+          return false;
+      }
+      return true;
+    };
+    int least = 0;
+    for (double t = 0.0; t < 1.0; ++least) {
+      double good = t, step = 1.0 / 4096.0;
+      while (good < 1.0 && fits(t, std::min(1.0, good + step))) good = std::min(1.0, good + step);
+      ASSERT_GT(good, t);
+      t = good;
+    }
+    const auto outcome = compensate(program, corrector);
+    EXPECT_LE(static_cast<double>(outcome.summary.commands - 1), 1.5 * least) << "least " << least;
+    EXPECT_LE(verified(program, outcome.text, corrector).largest_mm(), tolerance);
+  }
+}
+
+/// Chains that follow the motors only across a gap: corrected along the path's direction, the tool
+/// stays on it.
+TEST_F(Limits, PlayIsTakenUpWhereAChainTurnsAround) {
+  const FormulaMap map(random_smooth_displacement(6));
+  const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::maslow_classic));
+  const std::string program =
+      "G0 X-200 Y-200\nF600 G1 X200\nG1 Y150\nG3 X-200 Y150 I-200 J0\nG1 X-200 Y-200\nG2 X-200 "
+      "Y-200 I100 J0\nG1 X300 Y-150\n";
+  VerifyOptions verify_options;
+  verify_options.half_play_mm = {0.25, 0.3};
+  const auto ignored = compensate(program, corrector);
+  EXPECT_GT(verified(program, ignored.text, corrector, verify_options).largest_mm(), 0.2);
+  CompensateOptions options;
+  options.half_play_mm = verify_options.half_play_mm;
+  const auto corrected = compensate(program, corrector, options);
+  EXPECT_EQ(corrected.message, "");
+  EXPECT_LE(verified(program, corrected.text, corrector, verify_options).largest_mm(),
+            options.tolerance_mm);
+}
+
+/// A machine that differs from what its controller believes, by centimetres of motor position and
+/// by what the firmware leaves out.
+class RealMachine final : public TargetMap {
+ public:
+  explicit RealMachine(const model::Machine& machine)
+      : kinematics_(model::make_controller_kinematics(machine)) {}
+  [[nodiscard]] tl::expected<model::ChainLengths, TargetFailure> lengths(
+      model::BedPoint point) const override {
+    const auto found = kinematics_->lengths(point);
+    if (!found) return tl::unexpected(TargetFailure::unreachable);
+    return *found;
+  }
+  [[nodiscard]] tl::expected<TargetAnswer, TargetFailure> query(
+      model::BedPoint point) const override {
+    const auto found = lengths(point);
+    if (!found) return tl::unexpected(found.error());
+    return TargetAnswer{*found, {}, TargetStatus::inside};
+  }
+  [[nodiscard]] TargetStatus status(model::BedPoint) const override { return TargetStatus::inside; }
+  [[nodiscard]] tl::expected<model::BedPoint, TargetFailure> tool(
+      model::ChainLengths lengths) const override {
+    const auto found = kinematics_->command(lengths);
+    if (!found) return tl::unexpected(TargetFailure::unreachable);
+    return *found;
+  }
+  [[nodiscard]] BedRectangle bounds() const override { return {-1219.2, 1219.2, -609.6, 609.6}; }
+
+ private:
+  std::unique_ptr<const model::ControllerKinematics> kinematics_;
+};
+
+class RealController : public testing::TestWithParam<model::ControllerKind> {};
+
+TEST_P(RealController, HoldsTheToleranceOnATrueMachine) {
+  model::Machine truth;
+  truth.motors = {{-1484.0, 1066.0}, {1492.5, 1074.0}};
+  truth.sled.mass_kg = 10.2;
+  truth.chain.compliance_per_n = 7e-6;
+  const RealMachine map(truth);
+  model::Machine believed;
+  believed.controller.kind = GetParam();
+  const auto kinematics = model::make_controller_kinematics(believed);
+  const Corrector corrector(map, *kinematics, firmware(GetParam()));
+  const std::string program =
+      "G21 G90\nG0 Z5\nG0 X-900 Y-400\nG1 Z-3 F600\nG1 X900 F1200\nG1 Y300\nG3 X700 Y500 I-200 "
+      "J0\nG1 X-900\nG1 Y-400\nG0 Z5\nG0 X300 Y0\n"
+      "G1 Z-3\nG2 I-300 J0 Z-6\nG0 Z5\nM2\n";
+  CompensateOptions options;
+  options.largest_correction_mm = 60.0;
+  const auto outcome = compensate(program, corrector, options);
+  ASSERT_EQ(outcome.message, "");
+  const auto summary = verified(program, outcome.text, corrector);
+  EXPECT_LE(summary.largest_mm(), options.tolerance_mm);
+  EXPECT_GT(verified(program, program, corrector).largest_mm(), 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Controllers,
+                         RealController,
+                         testing::Values(model::ControllerKind::ideal,
+                                         model::ControllerKind::maslow_classic,
+                                         model::ControllerKind::holey,
+                                         model::ControllerKind::fluidnc_wallplotter),
+                         [](const auto& kind) { return std::string(firmware(kind.param).name); });
+
+/// verify sees what a faulty file does: a move left out, one too many, a wrong height, words out of
+/// order.
+TEST_F(Limits, VerifySeesEveryKindOfFault) {
+  const std::string program = "G0 X0 Y0\nM3\nF600 G1 X100\nG1 Y100\nG1 X0\nM5\nG1 Y0 Z-1\n";
+  const std::string good = compensate(program, corrector_).text;
+  EXPECT_LE(verified(program, good, corrector_).largest_mm(), 0.05);
+  const auto without = [&](const std::string& line) {
+    std::string text = good;
+    const std::size_t found = text.find(line);
+    EXPECT_NE(found, std::string::npos) << good;
+    return text.erase(found, line.size());
+  };
+  EXPECT_GT(verified(program, without("G1 X103 Y98\n"), corrector_).largest_mm(), 20.0);
+  EXPECT_GT(verified(program, good + "G1 X50 Y50\n", corrector_).largest_mm(), 20.0);
+  EXPECT_GT(verified(program, without(" Z-1"), corrector_).largest_mm(), 0.9);
+  EXPECT_EQ(verified(program, without("M5\n"), corrector_).words_differ, "missing: M5");
+}
+
+}  // namespace
+}  // namespace chaintrue::gcode

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every good file, cut off at every byte and damaged at every byte: it is refused with a message,
+// or read as something that is whole. Nothing that is read holds a value that is no number: the
+// writer refuses such a value, and every outcome is written.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "grid/files/whole_file.hpp"
+#include "tests/grid_files/fixture_files.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+constexpr std::uint64_t kSeed = 20260102;
+
+/// Long files are damaged at every so many bytes, so that the test stays short.
+constexpr std::size_t kMostPlaces = 1500;
+
+class Damage : public ::testing::TestWithParam<FixtureFile> {
+ protected:
+  void SetUp() override {
+    text_ = read_whole_file(GetParam().path);
+    step_ = 1 + text_.size() / kMostPlaces;
+  }
+
+  /// Reads and checks what every outcome must be.
+  void expect_refused_or_whole(const std::string& text, std::size_t place) const {
+    Outcome outcome;
+    ASSERT_NO_THROW(outcome = read_text(GetParam().kind, text, GetParam().path.string()))
+        << "byte " << place;
+    if (!outcome.problems.empty()) {
+      for (const std::string& problem : outcome.problems) EXPECT_FALSE(problem.empty());
+      return;
+    }
+    EXPECT_FALSE(outcome.written.empty()) << "byte " << place;
+    EXPECT_EQ(outcome.written.find("nan"), std::string::npos) << "byte " << place;
+    EXPECT_EQ(outcome.written.find("inf"), std::string::npos) << "byte " << place;
+  }
+
+  std::string text_;
+  std::size_t step_ = 1;
+};
+
+TEST_P(Damage, CutOffAnywhere) {
+  for (std::size_t place = 0; place < text_.size(); place += step_) {
+    expect_refused_or_whole(text_.substr(0, place), place);
+  }
+}
+
+TEST_P(Damage, AnotherByteAnywhere) {
+  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
+  constexpr std::string_view kTelling = "0123456789-+.,;:eE\"'{}[]#\\/ \n\r\tnN\x00\x7F\xC3\xFF";
+  std::mt19937_64 bits(kSeed);
+  for (std::size_t place = 0; place < text_.size(); place += step_) {
+    std::string damaged = text_;
+    damaged[place] = kTelling[static_cast<std::size_t>(bits() % kTelling.size())];
+    expect_refused_or_whole(damaged, place);
+  }
+}
+
+TEST_P(Damage, WordsOfNoNumberAnywhere) {
+  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
+  const std::string words[] = {"NaN",
+                               "1e999",
+                               "-Infinity",
+                               "null",
+                               "1e-999",
+                               "99999999999999999999",
+                               "",
+                               "\n",
+                               "{}",
+                               "\"\""};
+  std::mt19937_64 bits(kSeed);
+  for (std::size_t place = 0; place < text_.size(); place += step_) {
+    std::string damaged = text_;
+    const std::size_t length = std::min<std::size_t>(bits() % 8, text_.size() - place);
+    damaged.replace(place, length, words[bits() % std::size(words)]);
+    expect_refused_or_whole(damaged, place);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fixtures,
+                         Damage,
+                         ::testing::ValuesIn(fixtures_in("good")),
+                         [](const auto& tested) { return test_name_of(tested.param); });
+
+}  // namespace
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every file of fixtures/bad is refused with exactly the problems that it says of itself, and every
+// file of fixtures/good is read with exactly the warnings that it says of itself, and written the
+// same each time.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/grid_files/fixture_files.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAreArray;
+
+std::vector<::testing::Matcher<std::string>> each_with(const std::vector<std::string>& parts) {
+  std::vector<::testing::Matcher<std::string>> matchers;
+  for (const std::string& part : parts) matchers.push_back(HasSubstr(part));
+  return matchers;
+}
+
+class BadInput : public ::testing::TestWithParam<FixtureFile> {};
+
+TEST_P(BadInput, IsRefusedWithEveryProblemItHasAndNoOther) {
+  const auto expected = remarks_in(GetParam(), "expect: ");
+  ASSERT_FALSE(expected.empty()) << "the file does not say what is expected";
+  EXPECT_THAT(read_fixture(GetParam()).problems, UnorderedElementsAreArray(each_with(expected)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Fixtures,
+                         BadInput,
+                         ::testing::ValuesIn(fixtures_in("bad")),
+                         [](const auto& tested) { return test_name_of(tested.param); });
+
+class GoodInput : public ::testing::TestWithParam<FixtureFile> {};
+
+TEST_P(GoodInput, IsReadAndWrittenTheSameEachTime) {
+  const Outcome first = read_fixture(GetParam());
+  ASSERT_THAT(first.problems, IsEmpty());
+  EXPECT_THAT(first.warnings,
+              UnorderedElementsAreArray(each_with(remarks_in(GetParam(), "warn: "))));
+  EXPECT_EQ(read_fixture(GetParam()).written, first.written);
+  // What is written is a chaintrue file, whatever was read.
+  const std::string kind = first.written.find("chaintrue_grid") != std::string::npos ? "grid"
+                           : first.written.find("chaintrue_machine") != std::string::npos
+                               ? "machine"
+                               : "points";
+  const Outcome again = read_text(kind, first.written, GetParam().path.string());
+  EXPECT_THAT(again.problems, IsEmpty());
+  EXPECT_EQ(again.written, first.written);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fixtures,
+                         GoodInput,
+                         ::testing::ValuesIn(fixtures_in("good")),
+                         [](const auto& tested) { return test_name_of(tested.param); });
+
+}  // namespace
+}  // namespace chaintrue::grid::files

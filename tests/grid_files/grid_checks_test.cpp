@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laws over grids that a sound machine made: what is right is accepted, and each slip that the
+// reader knows is recognised, for any machine, any points and any noise a person would have.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "grid/files/grid_file.hpp"
+#include "model/kinematics.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kInch_mm = 25.4;
+
+/// Numbers that are the same everywhere.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : bits_(seed) {}
+  double between(double least, double most) {
+    constexpr double kUnit = 0x1p-53;
+    return least + (most - least) * static_cast<double>(bits_() >> 11U) * kUnit;
+  }
+  int whole(int least, int most) {
+    return static_cast<int>(std::floor(between(least, most + 1.0)));
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+model::Machine some_machine(Dice& dice) {
+  model::Machine machine;
+  const double half_spacing = dice.between(1300.0, 1850.0);
+  const double height = dice.between(900.0, 1150.0);
+  const double rise = dice.between(-20.0, 20.0);
+  machine.motors = {{-half_spacing, height - rise}, {half_spacing, height + rise}};
+  machine.feed = dice.whole(0, 1) == 0 ? model::Feed::over_top : model::Feed::off_bottom;
+  machine.attachment = model::Ring{dice.between(60.0, 160.0)};
+  machine.sled.mass_kg = dice.between(8.0, 15.0);
+  return machine;
+}
+
+/// A grid as a person reads it off this machine: marks missed by up to 8 mm, lengths to 0.5 mm.
+MeasuredGrid some_grid(const model::Machine& machine, Dice& dice) {
+  MeasuredGrid grid;
+  const auto kinematics =
+      model::make_kinematics(model::equilibrium_parameters(machine), model::Model::elastic);
+  const int columns = dice.whole(3, 8);
+  const int rows = dice.whole(3, 6);
+  const double half_width = dice.between(200.0, 1150.0);
+  const double half_height = dice.between(150.0, 550.0);
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      MeasuredPoint point;
+      point.mark = {half_width * (2.0 * column / (columns - 1) - 1.0) + dice.between(-8.0, 8.0),
+                    half_height * (2.0 * row / (rows - 1) - 1.0) + dice.between(-8.0, 8.0)};
+      const auto pose = kinematics->inverse(point.mark);
+      if (!pose) continue;
+      point.lengths = {pose->lengths.left_mm + dice.between(-0.5, 0.5),
+                       pose->lengths.right_mm + dice.between(-0.5, 0.5)};
+      grid.points.push_back(point);
+    }
+  }
+  return grid;
+}
+
+/// The problems' messages, or the warnings' where there is no problem.
+std::vector<std::string> said_of(const MeasuredGrid& grid, const GridOptions& options = {}) {
+  std::vector<std::string> messages;
+  try {
+    for (const Warning& warning : parse_grid(write_grid(grid), "grid.json", options).warnings) {
+      messages.push_back(warning.message());
+    }
+  } catch (const InputError& error) {
+    for (const InputProblem& problem : error.problems()) messages.push_back(problem.message());
+  }
+  return messages;
+}
+
+class GridOfAnyMachine : public ::testing::TestWithParam<int> {
+ protected:
+  void SetUp() override {
+    Dice dice(static_cast<std::uint64_t>(GetParam()));
+    machine_ = some_machine(dice);
+    grid_ = some_grid(machine_, dice);
+    ASSERT_GE(grid_.points.size(), 8U);
+  }
+  model::Machine machine_;
+  MeasuredGrid grid_;
+};
+
+TEST_P(GridOfAnyMachine, IsAcceptedWithoutAWord) {
+  EXPECT_THAT(said_of(grid_), IsEmpty());
+  grid_.machine = machine_;
+  EXPECT_THAT(said_of(grid_), IsEmpty());
+}
+
+TEST_P(GridOfAnyMachine, WithColumnsSwappedIsRecognised) {
+  for (MeasuredPoint& point : grid_.points)
+    std::swap(point.lengths->left_mm, point.lengths->right_mm);
+  EXPECT_THAT(said_of(grid_),
+              ElementsAre(HasSubstr("the columns left_mm and right_mm look swapped")));
+  grid_.machine = machine_;
+  EXPECT_THAT(said_of(grid_),
+              ElementsAre(HasSubstr("the columns left_mm and right_mm look swapped")));
+}
+
+TEST_P(GridOfAnyMachine, WithMarksInInchesIsRecognised) {
+  for (MeasuredPoint& point : grid_.points)
+    point.mark = {point.mark.x_mm / kInch_mm, point.mark.y_mm / kInch_mm};
+  EXPECT_THAT(said_of(grid_),
+              ElementsAre(HasSubstr("x_mm and y_mm look like inches, the lengths like mm")));
+}
+
+TEST_P(GridOfAnyMachine, WithLengthsInInchesIsRecognised) {
+  for (MeasuredPoint& point : grid_.points) {
+    point.lengths = {point.lengths->left_mm / kInch_mm, point.lengths->right_mm / kInch_mm};
+  }
+  EXPECT_THAT(said_of(grid_), ElementsAre(HasSubstr("look like inches")));
+}
+
+TEST_P(GridOfAnyMachine, AllInInchesIsRecognised) {
+  for (MeasuredPoint& point : grid_.points) {
+    point.mark = {point.mark.x_mm / kInch_mm, point.mark.y_mm / kInch_mm};
+    point.lengths = {point.lengths->left_mm / kInch_mm, point.lengths->right_mm / kInch_mm};
+  }
+  EXPECT_THAT(said_of(grid_), ElementsAre(HasSubstr("these look like inches (multiply by 25.4)")));
+}
+
+TEST_P(GridOfAnyMachine, WithYDownwardsIsRecognised) {
+  for (MeasuredPoint& point : grid_.points) point.mark.y_mm = -point.mark.y_mm;
+  EXPECT_THAT(said_of(grid_), ElementsAre(HasSubstr("y_mm looks counted downwards")));
+}
+
+TEST_P(GridOfAnyMachine, WithAMiscountedLinkInARepeatIsNamed) {
+  // With the machine the way between the two is known; a link is 6.35 mm, the noise allows 2 mm and
+  // a percent of the way.
+  grid_.machine = machine_;
+  MeasuredPoint again = grid_.points[3];
+  const auto kinematics =
+      model::make_kinematics(model::equilibrium_parameters(machine_), model::Model::elastic);
+  again.mark.x_mm += 9.0;
+  again.mark.y_mm -= 7.0;
+  const auto pose = kinematics->inverse(again.mark);
+  ASSERT_TRUE(pose.has_value());
+  again.lengths = pose->lengths;
+  grid_.points.push_back(again);
+  EXPECT_THAT(said_of(grid_), IsEmpty());
+  grid_.points.back().lengths->right_mm += 6.35;
+  EXPECT_THAT(said_of(grid_),
+              ElementsAre(::testing::AllOf(HasSubstr("measured also at /points/3, 11.40 mm away"),
+                                           HasSubstr("(right)"))));
+}
+
+TEST_P(GridOfAnyMachine, AHandfulIsEnoughForACheckAndStillKnowsItsSides) {
+  const GridOptions few{machine_, {}, 1};
+  grid_.points.resize(2);
+  EXPECT_THAT(said_of(grid_, few), IsEmpty());
+  EXPECT_THAT(said_of(grid_), ElementsAre(HasSubstr("found 2 points, expected at least 8 points")));
+  // The farthest point from the middle tells its sides apart.
+  grid_.points.resize(1);
+  if (std::abs(grid_.points[0].mark.x_mm) < 150.0) return;
+  std::swap(grid_.points[0].lengths->left_mm, grid_.points[0].lengths->right_mm);
+  EXPECT_THAT(said_of(grid_, few),
+              ElementsAre(HasSubstr("the columns left_mm and right_mm look swapped")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, GridOfAnyMachine, ::testing::Range(1, 41));
+
+TEST(GridFile, CommandsAndMarksInInchesAreSuspected) {
+  for (const double height : {23.5, 20.0}) {
+    MeasuredGrid grid;
+    grid.machine = model::Machine{};
+    for (int i = 0; i < 15; ++i) {
+      const model::BedPoint mark{-47.0 + 23.5 * (i % 5), -height + height * (i / 5)};
+      grid.points.push_back({mark, {}, model::BedPoint{mark.x_mm + 0.5, mark.y_mm + 0.25}, {}});
+    }
+    EXPECT_THAT(said_of(grid), ElementsAre(HasSubstr("are they in inches?"))) << height;
+  }
+}
+
+TEST(GridFile, TheMachineGivenReplacesTheGridsOwn) {
+  Dice dice(7);
+  MeasuredGrid grid = some_grid(model::Machine{}, dice);
+  grid.machine = model::Machine{};
+  model::Machine other;
+  other.name = "the other one";
+  const GridOptions options{other, StatedNoise{0.1, 0.15, 30.0}, 8};
+  const ReadGrid read = parse_grid(write_grid(grid), "grid.json", options);
+  EXPECT_EQ(read.grid.machine->name, "the other one");
+  EXPECT_EQ(read.grid.noise->length_mm, 0.1);
+  EXPECT_EQ(read.grid.noise->dof, 30.0);
+}
+
+TEST(GridFile, AMachineFileIsLookedForBesideTheGrid) {
+  const std::string good = std::string(CHAINTRUE_FIXTURES) + "/good/";
+  EXPECT_EQ(read_grid(good + "grid_with_machine_file.json").grid.machine->name, "every key");
+  // Not needed, so not looked for, where another is given.
+  const std::string text = R"({"file_type": "chaintrue_grid", "format_version": "1.0", )"
+                           R"("machine_file": "none.json", "points": []})";
+  const GridOptions options{model::Machine{}, {}, 0};
+  EXPECT_EQ(parse_grid(text, good + "x.json", options).grid.machine->name, "classic Maslow");
+}
+
+TEST(GridFile, AThousandRepeatsThatDisagreeAreNotAThousandLines) {
+  MeasuredGrid grid;
+  for (int i = 0; i < 300; ++i) {
+    const double x = 10.0 * (i % 20);
+    const double y = 10.0 * (i / 20);
+    grid.points.push_back(
+        {{x, y},
+         model::ChainLengths{1700 + 0.8 * x - 0.5 * y + (i % 2) * 60.0, 1700 - 0.8 * x - 0.5 * y},
+         {},
+         {}});
+  }
+  const auto said = said_of(grid);
+  ASSERT_EQ(said.size(), 21U);
+  EXPECT_THAT(said.back(), HasSubstr("more points disagree with their repeats"));
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/whole_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "grid/files/input_error.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class WholeFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string folder = (fs::temp_directory_path() / "chaintrue.XXXXXX").string();
+    ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+    folder_ = folder;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::size_t files_in_folder() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  fs::path folder_;
+};
+
+template <class Action>
+std::string message_of(const Action& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST_F(WholeFile, IsReadAsItWasWritten) {
+  std::string text("a\0b\r\n\xFF", 6);
+  text += std::string(200000, 'x');
+  write_whole_file(folder_ / "file", text);
+  EXPECT_EQ(read_whole_file(folder_ / "file"), text);
+  write_whole_file(folder_ / "file", "");
+  EXPECT_EQ(read_whole_file(folder_ / "file"), "");
+  EXPECT_EQ(files_in_folder(), 1U);
+}
+
+TEST_F(WholeFile, ThatCannotBeReadIsNamed) {
+  EXPECT_THAT(
+      message_of([&] { (void)read_whole_file(folder_ / "none"); }),
+      HasSubstr(
+          "none: found No such file or directory, expected a file that can be opened for reading"));
+  EXPECT_THAT(message_of([&] { (void)read_whole_file(folder_); }),
+              HasSubstr("found a directory, expected a file"));
+}
+
+TEST_F(WholeFile, ThatCannotBeWrittenLeavesNothingBehind) {
+  EXPECT_THAT(message_of([&] { write_whole_file(folder_, "x"); }),
+              HasSubstr("found a directory, expected the name of a file"));
+  EXPECT_THAT(message_of([&] { write_whole_file(folder_ / "none" / "file", "x"); }),
+              HasSubstr("found No such file or directory, expected a directory that exists"));
+  EXPECT_THAT(message_of([&] { write_whole_file("", "x"); }), HasSubstr("found an empty name"));
+  EXPECT_EQ(files_in_folder(), 0U);
+}
+
+TEST_F(WholeFile, ThatIsProtectedStaysAsItIs) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const fs::path file = folder_ / "file";
+  write_whole_file(file, "old");
+  fs::permissions(file, fs::perms::owner_read);
+  EXPECT_THAT(message_of([&] { write_whole_file(file, "new"); }),
+              HasSubstr("expected a file that may be written to"));
+  EXPECT_EQ(read_whole_file(file), "old");
+}
+
+TEST_F(WholeFile, KeepsItsRightsAndItsLink) {
+  const fs::path file = folder_ / "file";
+  const fs::path link = folder_ / "link";
+  write_whole_file(file, "old");
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
+  fs::create_symlink("file", link);
+  write_whole_file(link, "new");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(read_whole_file(file), "new");
+  EXPECT_EQ(fs::status(file).permissions(),
+            fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
+}
+
+TEST_F(WholeFile, NewOnesHaveTheRightsOfTheProcess) {
+  const mode_t mask = ::umask(027);
+  write_whole_file(folder_ / "file", "x");
+  ::umask(mask);
+  EXPECT_EQ(static_cast<unsigned>(fs::status(folder_ / "file").permissions()), 0640U);
+}
+
+TEST_F(WholeFile, DevicesAreWrittenTo) {
+  EXPECT_EQ(message_of([] { write_whole_file("/dev/null", "x"); }), "no error");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  if (fs::exists("/dev/full")) {
+    EXPECT_THAT(message_of([] { write_whole_file("/dev/full", "x"); }),
+                HasSubstr("/dev/full: found No space left on device"));
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue report as a person runs it: from the demo's grid to a page in the browser; bad input
+/// writes nothing.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tests/report/browser.hpp"
+
+namespace chaintrue::report::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr int kBadInput = 3;
+
+class ReportCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              fmt::format("chaintrue_report_{}", test->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const char* name) const { return (folder_ / name).string(); }
+  /// Runs the command, its messages going to the file "log", and returns the exit code.
+  [[nodiscard]] int run(const std::string& arguments) const {
+    const std::string command =
+        fmt::format("'{}' {} 2>'{}'", CHAINTRUE_COMMAND, arguments, path("log"));
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  [[nodiscard]] std::string text_of(const char* name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void fit_demo_grid() const {
+    ASSERT_EQ(
+        run(fmt::format(
+            "fit '{}/grids/seven_by_four.json' -o '{}'", CHAINTRUE_FIXTURES, path("map.json"))),
+        0)
+        << text_of("log");
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST_F(ReportCommand, OfTheDemoGridIsSoundInTheBrowser) {
+  fit_demo_grid();
+  ASSERT_EQ(run(fmt::format("report '{}' -o '{}'", path("map.json"), path("report.html"))), 0)
+      << text_of("log");
+  if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
+  const Visit visited = visit(text_of("report.html"));
+  EXPECT_THAT(problems_of(visited), IsEmpty());
+  // 28 marks and six second visits.
+  EXPECT_EQ(count_marks(visited, "held_out_points", "point_marks"), 34);
+}
+
+TEST_F(ReportCommand, GivesTheSameBytesForTheSameMap) {
+  fit_demo_grid();
+  ASSERT_EQ(run(fmt::format("report '{}' -o '{}'", path("map.json"), path("first.html"))), 0);
+  ASSERT_EQ(run(fmt::format("report '{}' -o - >'{}'", path("map.json"), path("second.html"))), 0);
+  EXPECT_FALSE(text_of("first.html").empty());
+  EXPECT_EQ(text_of("first.html"), text_of("second.html"));
+}
+
+TEST_F(ReportCommand, OfAFileThatIsNoMapWritesNothing) {
+  EXPECT_EQ(
+      run(fmt::format(
+          "report '{}/grids/seven_by_four.json' -o '{}'", CHAINTRUE_FIXTURES, path("report.html"))),
+      kBadInput);
+  EXPECT_THAT(text_of("log"), HasSubstr("chaintrue_map"));
+  EXPECT_FALSE(std::filesystem::exists(path("report.html")));
+}
+
+TEST_F(ReportCommand, WithoutAPlaceToWriteSaysSo) {
+  fit_demo_grid();
+  EXPECT_EQ(run(fmt::format(
+                "report '{}' -o '{}/nowhere/report.html'", path("map.json"), path("map.json"))),
+            kBadInput);
+  EXPECT_THAT(text_of("log"), HasSubstr("nowhere/report.html"));
+}
+
+}  // namespace
+}  // namespace chaintrue::report::testing

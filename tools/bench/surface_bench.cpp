@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Both chain surfaces of a hanging router, from the wrapped chain's closed form, on grids of
+// columns by rows of nodes. Peers run on the same points in the same process.
+#include <cmath>
+#include <random>
+#include <string>
+
+#include <benchmark/benchmark.h>
+#include <libalglib/interpolation.h>
+
+#include "interp/bspline_basis.hpp"
+#include "interp/compiled_pair.hpp"
+#include "interp/reml.hpp"
+#include "interp/scattered_fit.hpp"
+#include "interp/tensor_spline.hpp"
+
+namespace {
+
+using namespace chaintrue::interp;
+
+constexpr Rectangle kBed = {-1219.2, 1219.2, -609.6, 609.6};
+constexpr std::size_t kBlock = 1024;
+
+// Chain over the top of a sprocket of radius r at (side * 1500, 1060), from its 12 o'clock.
+double chain(double x, double y, double side) {
+  constexpr double kRadius = 10.1;
+  const double dx = 1500.0 - side * x;
+  const double dy = 1060.0 - y;
+  const double d = std::sqrt(dx * dx + dy * dy);
+  const double wrap = std::atan2(dy, dx) + std::asin(kRadius / d);
+  return std::sqrt(d * d - kRadius * kRadius) + kRadius * wrap;
+}
+
+struct Samples {
+  std::vector<double> x, y;
+  Eigen::MatrixXd left, right;
+};
+
+Samples sample(int nx, int ny) {
+  Samples s;
+  for (int i = 0; i < nx; ++i) s.x.push_back(kBed.x_min + kBed.width() * i / (nx - 1));
+  for (int j = 0; j < ny; ++j) s.y.push_back(kBed.y_min + kBed.height() * j / (ny - 1));
+  s.left.resize(nx, ny);
+  s.right.resize(nx, ny);
+  for (int i = 0; i < nx; ++i) {
+    for (int j = 0; j < ny; ++j) {
+      const double x = s.x[static_cast<std::size_t>(i)];
+      const double y = s.y[static_cast<std::size_t>(j)];
+      s.left(i, j) = chain(x, y, -1.0);
+      s.right(i, j) = chain(x, y, 1.0);
+    }
+  }
+  return s;
+}
+
+CompiledPair table(const Samples& s) {
+  const auto axes = std::make_shared<const TensorAxes>(s.x, s.y);
+  return CompiledPair::from_splines(TensorSpline(axes, s.left), TensorSpline(axes, s.right));
+}
+
+std::vector<PlanePoint> random_points(std::size_t count) {
+  std::mt19937_64 random(1);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  std::vector<PlanePoint> points;
+  for (std::size_t k = 0; k < count; ++k) {
+    points.push_back(
+        {kBed.x_min + kBed.width() * uniform(), kBed.y_min + kBed.height() * uniform()});
+  }
+  return points;
+}
+
+void per_point(benchmark::State& state, std::size_t points) {
+  state.counters["ns_per_point"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * static_cast<double>(points) * 1e-9,
+      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+// A serpentine over the whole bed in steps of 0.5 mm, as a tool moves.
+std::vector<PlanePoint> path_points(std::size_t count) {
+  std::vector<PlanePoint> points;
+  double x = kBed.x_min;
+  double y = kBed.y_min;
+  double step = 0.5;
+  for (std::size_t k = 0; k < count; ++k) {
+    points.push_back({x, y});
+    x += step;
+    if (x > kBed.x_max || x < kBed.x_min) {
+      step = -step;
+      x += step;
+      y += 87.0;
+    }
+  }
+  return points;
+}
+
+enum class Order { kRandom, kPath };
+
+void value_gradient(
+    benchmark::State& state, int nx, int ny, bool plain, Order order = Order::kRandom) {
+  const CompiledPair surfaces = table(sample(nx, ny));
+  const auto points =
+      order == Order::kRandom ? random_points(64 * kBlock) : path_points(64 * kBlock);
+  std::vector<PairGradient> results(kBlock);
+  force_plain_instructions(plain);
+  state.SetLabel(compiled_pair_instructions());
+  for (auto _ : state) {
+    for (std::size_t first = 0; first < points.size(); first += kBlock) {
+      surfaces.at(std::span(points).subspan(first, kBlock), results);
+      benchmark::DoNotOptimize(results.data());
+      benchmark::ClobberMemory();
+    }
+  }
+  force_plain_instructions(false);
+  per_point(state, points.size());
+}
+
+struct AlglibPair {
+  alglib::spline2dinterpolant left, right;
+};
+
+AlglibPair alglib_pair(const Samples& s) {
+  const auto nx = static_cast<alglib::ae_int_t>(s.x.size());
+  const auto ny = static_cast<alglib::ae_int_t>(s.y.size());
+  alglib::real_1d_array x, y, f;
+  x.setcontent(nx, s.x.data());
+  y.setcontent(ny, s.y.data());
+  AlglibPair pair;
+  f.setcontent(nx * ny, s.left.data());
+  alglib::spline2dbuildbicubicv(x, nx, y, ny, f, 1, pair.left);
+  f.setcontent(nx * ny, s.right.data());
+  alglib::spline2dbuildbicubicv(x, nx, y, ny, f, 1, pair.right);
+  return pair;
+}
+
+void alglib_value_gradient(benchmark::State& state, int nx, int ny) {
+  const AlglibPair pair = alglib_pair(sample(nx, ny));
+  const auto points = random_points(4 * kBlock);
+  for (auto _ : state) {
+    for (const PlanePoint& p : points) {
+      double f = 0, fx = 0, fy = 0, fxy = 0;
+      alglib::spline2ddiff(pair.left, p.x, p.y, f, fx, fy, fxy);
+      benchmark::DoNotOptimize(f + fx + fy);
+      alglib::spline2ddiff(pair.right, p.x, p.y, f, fx, fy, fxy);
+      benchmark::DoNotOptimize(f + fx + fy);
+    }
+  }
+  per_point(state, points.size());
+}
+
+void build(benchmark::State& state, int nx, int ny) {
+  const Samples s = sample(nx, ny);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(table(s));
+  }
+}
+
+void alglib_build(benchmark::State& state, int nx, int ny) {
+  const Samples s = sample(nx, ny);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(alglib_pair(s));
+  }
+}
+
+void inverse(benchmark::State& state) {
+  const CompiledPair surfaces = table(sample(101, 51));
+  // A serpentine path in steps of 1 mm.
+  std::vector<std::array<double, 2>> targets;
+  for (int row = 0; row < 6; ++row) {
+    for (int i = 0; i < 2000; ++i) {
+      const double along = row % 2 == 0 ? i - 1000.0 : 999.0 - i;
+      targets.push_back(surfaces.value(along, -500.0 + 200.0 * row));
+    }
+  }
+  std::vector<InverseResult> results(targets.size());
+  for (auto _ : state) {
+    surfaces.inverse(targets, {-1000.0, -500.0}, results);
+    benchmark::DoNotOptimize(results.data());
+    benchmark::ClobberMemory();
+  }
+  double sum = 0.0;
+  int most = 0;
+  for (const InverseResult& r : results) {
+    sum += r.evaluations;
+    most = std::max(most, r.evaluations);
+  }
+  state.counters["evaluations"] = sum / static_cast<double>(results.size());
+  state.counters["most_evaluations"] = most;
+  per_point(state, targets.size());
+}
+
+double smooth(double x, double y) { return 0.8 * std::sin(x / 500 + 0.3) * std::cos(y / 400); }
+
+std::vector<ScatteredPoint> scattered_points(std::size_t count) {
+  std::mt19937_64 random(2);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  std::vector<ScatteredPoint> points;
+  for (const PlanePoint& p : random_points(count)) {
+    // A sum of twelve uniform numbers less six is nearly normal: noise of 0.3.
+    double noise = -6.0;
+    for (int k = 0; k < 12; ++k) noise += uniform();
+    points.push_back({p.x, p.y, smooth(p.x, p.y) + 0.3 * noise, 0.3});
+  }
+  return points;
+}
+
+// One surface, with the choice of smoothing, the covariance and the left-out error of every point.
+void scattered(benchmark::State& state, std::size_t count) {
+  const auto points = scattered_points(count);
+  ScatteredOptions options;
+  options.rectangle = kBed;
+  options.noise.knowledge = NoiseKnowledge::kExact;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(fit_scattered(points, options));
+  }
+  const auto surface = fit_scattered(points, options).value();
+  double square = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const double x = kBed.x_min + kBed.width() * (i % 20 + 0.5) / 20;
+    const double y = kBed.y_min + kBed.height() * (static_cast<double>(i / 20) + 0.5) / 20;
+    const double off = surface.at(x, y).value - smooth(x, y);
+    square += off * off / 400;
+  }
+  state.counters["rms_um"] = 1000 * std::sqrt(square);
+}
+
+void alglib_scattered(benchmark::State& state, std::size_t count) {
+  const auto points = scattered_points(count);
+  alglib::real_2d_array xyz;
+  xyz.setlength(static_cast<alglib::ae_int_t>(count), 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto row = static_cast<alglib::ae_int_t>(i);
+    xyz(row, 0) = points[i].x;
+    xyz(row, 1) = points[i].y;
+    xyz(row, 2) = points[i].z;
+  }
+  for (auto _ : state) {
+    alglib::spline2dbuilder builder;
+    alglib::spline2dinterpolant spline;
+    alglib::spline2dfitreport report;
+    alglib::spline2dbuildercreate(1, builder);
+    alglib::spline2dbuildersetpoints(builder, xyz, static_cast<alglib::ae_int_t>(count));
+    alglib::spline2dbuildersetgrid(builder, 12, 6);
+    // Its smoothing is the user's to choose; one try of one value.
+    alglib::spline2dbuildersetalgoblocklls(builder, 0.1);
+    alglib::spline2dfit(builder, spline, report);
+    benchmark::DoNotOptimize(report.rmserror);
+  }
+}
+
+// Two fields and eight shared settings, as a machine's two chains: what the joint fit asks of REML.
+void joint_reml(benchmark::State& state, std::size_t count, bool corrected) {
+  constexpr Eigen::Index kShared = 8;
+  const BsplineBasis basis(kBed, 8, 4);
+  const Eigen::Index m = basis.size();
+  const auto points = scattered_points(count);
+  PenalisedProblem problem(2 * m + kShared);
+  for (const ScatteredPoint& p : points) {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, 2 * m + kShared);
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      rows.row(k).segment(k * m, m) = basis.row(p.x, p.y).transpose() / p.sigma;
+      for (Eigen::Index j = 0; j < kShared; ++j) {
+        const auto wave = static_cast<double>(j + k);
+        rows(k, 2 * m + j) = std::sin(wave * p.x / 1500 + wave * wave * p.y / 900) / p.sigma;
+      }
+    }
+    problem.add_rows(rows, Eigen::VectorXd::Constant(2, p.z / p.sigma));
+  }
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    problem.penalties.push_back({k * m, basis.thin_plate_penalty(), basis.thin_plate_rank()});
+  }
+  problem.prior_precision = Eigen::MatrixXd::Zero(2 * m + kShared, 2 * m + kShared);
+  problem.prior_precision.bottomRightCorner(kShared, kShared).setIdentity();
+  FitOptions options;
+  options.correct_covariance = corrected;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(fit_penalised(problem, options));
+  }
+}
+
+const bool registered = [] {
+  struct Size {
+    const char* name;
+    int nx, ny;
+  };
+  for (const Size& size :
+       {Size{"7x4", 7, 4}, {"7x5", 7, 5}, {"25x13", 25, 13}, {"100x50", 100, 50}}) {
+    const std::string name = size.name;
+    const int nx = size.nx;
+    const int ny = size.ny;
+    const auto add = [](const std::string& full, auto function) {
+      benchmark::RegisterBenchmark(full.c_str(), function);
+    };
+    add("surface/value_gradient/" + name,
+        [=](benchmark::State& s) { value_gradient(s, nx, ny, false); });
+    add("surface/value_gradient_path/" + name,
+        [=](benchmark::State& s) { value_gradient(s, nx, ny, false, Order::kPath); });
+    add("surface/value_gradient_plain/" + name,
+        [=](benchmark::State& s) { value_gradient(s, nx, ny, true); });
+    add("surface/alglib/value_gradient/" + name,
+        [=](benchmark::State& s) { alglib_value_gradient(s, nx, ny); });
+    add("surface/build/" + name, [=](benchmark::State& s) { build(s, nx, ny); });
+    add("surface/alglib/build/" + name, [=](benchmark::State& s) { alglib_build(s, nx, ny); });
+  }
+  benchmark::RegisterBenchmark("surface/inverse/100x50", inverse);
+  for (const std::size_t count : {200U, 2000U}) {
+    const std::string points = std::to_string(count) + "_points";
+    benchmark::RegisterBenchmark(("surface/scattered/" + points).c_str(),
+                                 [=](benchmark::State& s) { scattered(s, count); });
+    benchmark::RegisterBenchmark(("surface/alglib/scattered/" + points).c_str(),
+                                 [=](benchmark::State& s) { alglib_scattered(s, count); });
+  }
+  for (const bool corrected : {false, true}) {
+    const std::string name =
+        corrected ? "surface/joint_reml_averaged/28_points" : "surface/joint_reml/28_points";
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [=](benchmark::State& s) { joint_reml(s, 28, corrected); });
+  }
+  return true;
+}();
+
+}  // namespace

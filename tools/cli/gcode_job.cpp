@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Files, machine and messages of `chaintrue gcode`.
+#include "tools/cli/gcode_job.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "grid/files/input_error.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/map_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "tools/gcode/file_hash.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::files::InputError;
+using grid::files::InputProblem;
+
+struct KindName {
+  std::string_view name;
+  model::ControllerKind kind;
+};
+
+constexpr KindName kKinds[] = {
+    {"maslow_classic", model::ControllerKind::maslow_classic},
+    {"holey", model::ControllerKind::holey},
+    {"fluidnc_wallplotter", model::ControllerKind::fluidnc_wallplotter},
+    {"ideal", model::ControllerKind::ideal},
+};
+
+bool number(std::string_view text, double& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+}
+
+int exit_code(gcode::ProblemName name) {
+  return gcode::kind(name) == gcode::ProblemKind::bad_input ? kBadInput : kNotSupportedOrOutside;
+}
+
+void copy_file(const std::filesystem::path& from, std::FILE* to) {
+  std::ifstream file(from, std::ios::binary);
+  std::array<char, 65536> bytes{};
+  while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0) {
+    std::fwrite(bytes.data(), 1, static_cast<std::size_t>(file.gcount()), to);
+  }
+}
+
+}  // namespace
+
+gcode::Dialect GcodeOptions::dialect() const {
+  gcode::Dialect dialect;
+  dialect.skip_deletable_blocks = skip_deletable;
+  dialect.tools_have_no_diameter = tools_have_no_diameter;
+  dialect.step_budget = step_budget;
+  return dialect;
+}
+
+model::BedPoint GcodeOptions::home_mm() const {
+  const std::string_view text = home;
+  const std::size_t comma = text.find(',');
+  model::BedPoint point;
+  if (comma == std::string_view::npos || !number(text.substr(0, comma), point.x_mm) ||
+      !number(text.substr(comma + 1), point.y_mm)) {
+    throw InputError(
+        {{"--home", "", home, "two numbers in mm with a comma between, such as 120,-40"}});
+  }
+  return point;
+}
+
+GcodeMachine::GcodeMachine(const GcodeOptions& options) {
+  const std::string text = grid::files::read_whole_file(options.map);
+  gcode::FileHash hash;
+  hash.add(text);
+  map_hash_ = hash.text();
+  map_ = std::make_unique<grid::CompensationMap>(
+      grid::files::parse_map(text, grid::files::name_in_messages(options.map)));
+  target_ = std::make_unique<gcode::CompensationTarget>(
+      *map_, options.frame == "bed" ? grid::Frame::bed : grid::Frame::marks);
+  if (!options.machine.empty()) {
+    machine_ = grid::files::read_machine(options.machine);
+  } else if (const auto stated = gcode::stated_machine(*map_)) {
+    machine_ = *stated;
+  } else {
+    throw InputError({{options.map,
+                       "",
+                       "",
+                       "a map that knows its machine; this one does not, so say with --machine "
+                       "what the controller believes"}});
+  }
+  for (const KindName& kind : kKinds) {
+    if (kind.name == options.controller) machine_.controller.kind = kind.kind;
+  }
+  half_play_mm_ = gcode::half_play_mm(machine_);
+  kinematics_ = model::make_controller_kinematics(machine_);
+  corrector_ = std::make_unique<gcode::Corrector>(
+      *target_, *kinematics_, gcode::firmware(machine_.controller.kind));
+}
+
+GcodeText::GcodeText(const std::string& path) : path_(path) {
+  if (path == "-") text_ = grid::files::read_whole_file(path);
+}
+
+gcode::LineSource GcodeText::open() const {
+  if (text_) return gcode::LineSource::from_text(*text_);
+  auto source = gcode::LineSource::from_file(path_);
+  if (!source) throw InputError({{path_, "", "", source.error().sentence}});
+  return std::move(*source);
+}
+
+std::string GcodeText::hash() const {
+  gcode::FileHash hash;
+  if (text_) {
+    hash.add(*text_);
+    return hash.text();
+  }
+  std::ifstream file(path_, std::ios::binary);
+  std::array<char, 65536> bytes{};
+  while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0) {
+    hash.add({bytes.data(), static_cast<std::size_t>(file.gcount())});
+  }
+  return hash.text();
+}
+
+int report(const std::string& file, const gcode::Problem& problem) {
+  fmt::print(stderr, "{}: {}\n", grid::files::name_in_messages(file), problem.message());
+  return exit_code(problem.name);
+}
+
+int report(const std::string& file, const gcode::Findings& findings) {
+  for (const gcode::Note& note : findings.notes) {
+    fmt::print(stderr,
+               "{}: line {}: note: {}\n",
+               grid::files::name_in_messages(file),
+               note.line,
+               note.sentence);
+  }
+  if (findings.note_count > findings.notes.size()) {
+    fmt::print(stderr, "... and {} more notes\n", findings.note_count - findings.notes.size());
+  }
+  int code = kDone;
+  for (const gcode::Problem& problem : findings.problems) {
+    const int own = report(file, problem);
+    if (code == kDone) code = own;
+  }
+  if (findings.problem_count > findings.problems.size()) {
+    fmt::print(
+        stderr, "... and {} more lines\n", findings.problem_count - findings.problems.size());
+  }
+  return code;
+}
+
+PendingFile::PendingFile(const std::string& path) : path_(path) {
+  const std::filesystem::path place =
+      path == "-" ? std::filesystem::temp_directory_path() / "chaintrue_output"
+                  : std::filesystem::path(path);
+  temporary_ = place;
+  temporary_ += fmt::format(".{}.part", ::getpid());
+  if (path != "-" && std::filesystem::is_directory(place))
+    throw InputError({{path, "", "", "the name of a file, not of a folder"}});
+  file_.open(temporary_, std::ios::binary | std::ios::trunc);
+  if (!file_) throw InputError({{path, "", "", "a place that can be written to"}});
+}
+
+PendingFile::~PendingFile() {
+  if (temporary_.empty()) return;
+  file_.close();
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+}
+
+void PendingFile::write(std::string_view bytes) {
+  file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+void PendingFile::commit() {
+  file_.close();
+  if (!file_) throw InputError({{path_, "", "", "room for the whole file"}});
+  if (path_ == "-") {
+    copy_file(temporary_, stdout);
+    std::filesystem::remove(temporary_);
+  } else {
+    std::error_code error;
+    std::filesystem::rename(temporary_, path_, error);
+    if (error)
+      throw InputError({{path_, "", "", "a place that can be written to: " + error.message()}});
+  }
+  temporary_.clear();
+}
+
+}  // namespace chaintrue::cli

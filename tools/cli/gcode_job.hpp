@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What the verbs of `chaintrue gcode` share: options, the map with its controller, the program's
+/// text, messages.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "grid/map/compensation_map.hpp"
+#include "tools/cli/verb.hpp"
+#include "tools/gcode/compensation_target.hpp"
+#include "tools/gcode/compensator.hpp"
+
+namespace chaintrue::cli {
+
+struct GcodeOptions {
+  std::string program;
+  std::string other;  ///< verify: the file that is run
+  std::string map;
+  std::string machine;
+  std::string controller;
+  std::string frame = "marks";
+  std::string home = "0,0";
+  std::string output = "-";
+  std::string report;  ///< compensate: a page with a picture
+  double tolerance_mm = 0.05;
+  double every_mm = 10.0;
+  double largest_correction_mm = 30.0;
+  double steepest_correction = 0.05;
+  int decimals = 3;
+  std::uint64_t step_budget = gcode::Dialect{}.step_budget;
+  bool keep_rapids_whole = false;
+  bool home_is_zero = false;
+  bool skip_deletable = false;
+  bool tools_have_no_diameter = false;
+  bool json = false;
+
+  [[nodiscard]] gcode::Dialect dialect() const;
+  /// Of --home. \throws InputError where it is no pair of numbers.
+  [[nodiscard]] model::BedPoint home_mm() const;
+};
+
+/// Map, machine and controller, which belong together.
+class GcodeMachine {
+ public:
+  /// \throws InputError for bad files, or where neither map nor --machine says what the controller
+  /// believes.
+  explicit GcodeMachine(const GcodeOptions& options);
+  [[nodiscard]] const gcode::CompensationTarget& target() const { return *target_; }
+  [[nodiscard]] const gcode::Corrector& corrector() const { return *corrector_; }
+  [[nodiscard]] const model::Machine& machine() const { return machine_; }
+  [[nodiscard]] const std::string& map_hash() const { return map_hash_; }
+  /// Of the machine that the map was extended with.
+  [[nodiscard]] model::ChainLengths half_play_mm() const { return half_play_mm_; }
+
+ private:
+  std::unique_ptr<grid::CompensationMap> map_;
+  std::unique_ptr<gcode::CompensationTarget> target_;
+  model::Machine machine_;
+  std::unique_ptr<const model::ControllerKinematics> kinematics_;
+  std::unique_ptr<gcode::Corrector> corrector_;
+  std::string map_hash_;
+  model::ChainLengths half_play_mm_;
+};
+
+/// A program's lines; standard input for "-", which is kept in memory. \throws InputError where it
+/// cannot be read.
+class GcodeText {
+ public:
+  explicit GcodeText(const std::string& path);
+  [[nodiscard]] gcode::LineSource open() const;
+  [[nodiscard]] std::string hash() const;
+
+ private:
+  std::string path_;
+  std::optional<std::string> text_;
+};
+
+/// Prints a problem to stderr as `file: line 3: ...`; gives the exit code that its kind has.
+int report(const std::string& file, const gcode::Problem& problem);
+/// Prints all findings and how many there are beyond those kept; the exit code of the first, or
+/// kDone.
+int report(const std::string& file, const gcode::Findings& findings);
+
+/// A file that appears whole or not at all; "-" is standard output, written at commit().
+class PendingFile {
+ public:
+  /// \throws InputError where it cannot be written.
+  explicit PendingFile(const std::string& path);
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+  void write(std::string_view bytes);
+  /// \throws InputError where not everything could be written.
+  void commit();
+
+ private:
+  std::string path_;
+  std::filesystem::path temporary_;
+  std::ofstream file_;
+};
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/square_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace chaintrue::cli {
+namespace {
+
+// The picture, in its own units.
+constexpr double kWide = 640.0, kHigh = 700.0, kSide = 400.0, kLeft = 120.0, kTop = 110.0;
+constexpr double kLargestError = 0.11;  // share of the side that the largest error is drawn as
+
+/// From the bed to the picture; the cut outline is drawn about its own middle, so that shape alone
+/// shows.
+class Picture {
+ public:
+  Picture(const model::CutSquare& square, const model::SquareTask& task)
+      : square_(square),
+        scale_(kSide / task.size_mm),
+        left_(square.commanded.front().x_mm),
+        top_(square.commanded.front().y_mm + task.size_mm) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < square.cut.size(); ++i) {
+      const model::BedPoint e = error(i);
+      largest = std::max(largest, std::hypot(e.x_mm, e.y_mm));
+    }
+    // A round number of times; a perfect square (rounding alone) is drawn as it is.
+    constexpr double kRoundingMm = 1e-6;
+    magnification_ = 1.0;
+    if (largest > kRoundingMm) {
+      const double wanted = kLargestError * task.size_mm / largest;
+      const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
+      const double lead = wanted / decade;
+      magnification_ = std::max(1.0, decade * (lead >= 5.0 ? 5.0 : lead >= 2.0 ? 2.0 : 1.0));
+    }
+  }
+  [[nodiscard]] double magnification() const { return magnification_; }
+  [[nodiscard]] std::string commanded(std::size_t i) const { return at(square_.commanded[i]); }
+  [[nodiscard]] std::string cut(std::size_t i) const {
+    const model::BedPoint p = square_.commanded[i], e = error(i);
+    return at({p.x_mm + magnification_ * e.x_mm, p.y_mm + magnification_ * e.y_mm});
+  }
+
+ private:
+  [[nodiscard]] model::BedPoint error(std::size_t i) const {
+    return {square_.cut[i].x_mm - square_.commanded[i].x_mm - square_.offset.x_mm,
+            square_.cut[i].y_mm - square_.commanded[i].y_mm - square_.offset.y_mm};
+  }
+  [[nodiscard]] std::string at(model::BedPoint p) const {
+    return fmt::format(
+        "{:.2f},{:.2f}", kLeft + scale_ * (p.x_mm - left_), kTop + scale_ * (top_ - p.y_mm));
+  }
+
+  const model::CutSquare& square_;
+  double scale_, left_, top_, magnification_;
+};
+
+void text(std::string& svg,
+          double x,
+          double y,
+          std::string_view anchor,
+          std::string_view words,
+          double turn_deg = 0.0) {
+  const std::string turn =
+      turn_deg == 0.0 ? ""
+                      : fmt::format(" transform=\"rotate({:.0f} {:.1f} {:.1f})\"", turn_deg, x, y);
+  fmt::format_to(std::back_inserter(svg),
+                 "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n",
+                 x,
+                 y,
+                 anchor,
+                 turn,
+                 words);
+}
+
+}  // namespace
+
+std::string draw_square(const model::CutSquare& square, const model::SquareTask& task) {
+  using model::SquareSide;
+  const Picture picture(square, task);
+  std::string commanded, cut;
+  for (std::size_t i = 0; i < square.cut.size(); ++i) {
+    commanded += (i == 0 ? "" : " ") + picture.commanded(i);
+    cut += (i == 0 ? "" : " ") + picture.cut(i);
+  }
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\" "
+      "font-family=\"sans-serif\" font-size=\"15\" fill=\"#222222\">\n"
+      "<title>A {2:g} mm square at ({3:g}, {4:g}) mm</title>\n"
+      "<desc>Dashed: as commanded. Solid: as cut, errors drawn {5:g} times as large.</desc>\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
+      "<polygon points=\"{6}\" fill=\"none\" stroke=\"#888888\" stroke-width=\"1.5\" "
+      "stroke-dasharray=\"7 5\"/>\n"
+      "<polygon points=\"{7}\" fill=\"#0072b2\" fill-opacity=\"0.08\" stroke=\"#0072b2\" "
+      "stroke-width=\"2.5\" "
+      "stroke-linejoin=\"round\"/>\n",
+      kWide,
+      kHigh,
+      task.size_mm,
+      task.corner.x_mm,
+      task.corner.y_mm,
+      picture.magnification(),
+      commanded,
+      cut);
+  text(
+      svg,
+      kWide / 2,
+      34.0,
+      "middle",
+      fmt::format(
+          "A {:g} mm square at ({:g}, {:g}) mm", task.size_mm, task.corner.x_mm, task.corner.y_mm));
+  text(svg,
+       kWide / 2,
+       58.0,
+       "middle",
+       fmt::format("dashed: commanded · solid: cut, errors drawn {:g} times as large",
+                   picture.magnification()));
+  const auto side = [&square](SquareSide which) {
+    const model::CutSide& s = square.side(which);
+    return fmt::format("{:.2f} mm, bow {:+.2f}", s.length_mm, s.bow_mm);
+  };
+  const double middle_x = kLeft + kSide / 2, middle_y = kTop + kSide / 2;
+  text(svg, middle_x, kTop + 70.0, "middle", side(SquareSide::top));
+  text(svg, middle_x, kTop + kSide - 60.0, "middle", side(SquareSide::bottom));
+  text(svg, kLeft + 70.0, middle_y, "middle", side(SquareSide::left), -90.0);
+  text(svg, kLeft + kSide - 60.0, middle_y, "middle", side(SquareSide::right), -90.0);
+  text(svg,
+       kWide / 2,
+       kTop + kSide + 90.0,
+       "middle",
+       fmt::format("diagonals: rising {:.2f} mm, falling {:.2f} mm (commanded {:.2f})",
+                   square.rising_diagonal_mm,
+                   square.falling_diagonal_mm,
+                   task.size_mm * std::sqrt(2.0)));
+  text(svg,
+       kWide / 2,
+       kTop + kSide + 116.0,
+       "middle",
+       fmt::format("as a whole moved by ({:+.2f}, {:+.2f}) mm and turned by {:+.3f} mrad",
+                   square.offset.x_mm,
+                   square.offset.y_mm,
+                   1e3 * square.rotation_rad));
+  text(svg,
+       kWide / 2,
+       kTop + kSide + 142.0,
+       "middle",
+       "bow: the farthest that a side leaves the line between its corners, + outwards");
+  return svg + "</svg>\n";
+}
+
+}  // namespace chaintrue::cli

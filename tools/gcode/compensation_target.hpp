@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A compensation map as the target of G-code: lengths, status and inverse in the frame that the
+/// program is written in.
+#pragma once
+
+#include <optional>
+
+#include "grid/map/compensation_map.hpp"
+#include "model/machine.hpp"
+#include "tools/gcode/target_map.hpp"
+
+namespace chaintrue::gcode {
+
+class CompensationTarget final : public TargetMap {
+ public:
+  /// Keeps the reference.
+  explicit CompensationTarget(const grid::CompensationMap& map,
+                              grid::Frame frame = grid::Frame::marks)
+      : map_(map), frame_(frame) {}
+
+  [[nodiscard]] tl::expected<model::ChainLengths, TargetFailure> lengths(
+      model::BedPoint point) const override;
+  [[nodiscard]] tl::expected<TargetAnswer, TargetFailure> query(
+      model::BedPoint point) const override;
+  [[nodiscard]] TargetStatus status(model::BedPoint point) const override;
+  [[nodiscard]] tl::expected<model::BedPoint, TargetFailure> tool(
+      model::ChainLengths lengths) const override;
+  [[nodiscard]] BedRectangle bounds() const override;
+
+ private:
+  const grid::CompensationMap& map_;
+  grid::Frame frame_;
+};
+
+/// The machine that the controller believes in where a file does not say otherwise: the map's, with
+/// the settings as they were stated, not as they were calibrated. Empty for a map without a
+/// machine.
+[[nodiscard]] std::optional<model::Machine> stated_machine(const grid::CompensationMap& map);
+
+/// Half the width of the machine's direction_hysteresis, per chain; zero where it has none.
+[[nodiscard]] model::ChainLengths half_play_mm(const model::Machine& machine);
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Moves become commands.
+#include "tools/gcode/compensator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace chaintrue::gcode {
+namespace {
+
+/// The tool's path is stretched by at most this against the commanded one (steepest corrections are
+/// far smaller), so that a chord's deviation is measured in commands but promised at the tool.
+constexpr double kStretch = 1.05;
+/// Short straight moves bend by less than this share of the tolerance, by the sampled curvature and
+/// a safety of two.
+constexpr double kUncheckedShare = 0.25;
+constexpr double kCurvatureSafety = 2.0;
+/// Between nearer points rounding makes slopes of its own.
+constexpr double kSlopeBase_mm = 1.0;
+
+double chord_tolerance(const CompensateOptions& options) {
+  const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -options.decimals);
+  const double left = (options.tolerance_mm - rounding) / kStretch;
+  if (!(left > 0.0)) {
+    throw std::invalid_argument(
+        fmt::format("a tolerance of {} mm leaves nothing beside rounding to {} decimals",
+                    options.tolerance_mm,
+                    options.decimals));
+  }
+  return left;
+}
+
+bool stays(const Move& move) {
+  return !move.arc && move.from.x_mm == move.to.x_mm && move.from.y_mm == move.to.y_mm;
+}
+
+int sign(double value, int otherwise) { return value > 0.0 ? 1 : value < 0.0 ? -1 : otherwise; }
+
+}  // namespace
+
+void Findings::add(Problem problem) {
+  ++problem_count;
+  if (problems.size() < kMostKept) problems.push_back(std::move(problem));
+}
+
+void Findings::add(Note note) {
+  ++note_count;
+  if (notes.size() < kMostKept) notes.push_back(std::move(note));
+}
+
+Compensator::Compensator(const Corrector& corrector, CompensateOptions options, ByteSink out)
+    : corrector_(corrector),
+      options_(std::move(options)),
+      emitter_(std::move(out), options_.decimals),
+      segmenter_(corrector, chord_tolerance(options_)) {
+  const double curvature = kCurvatureSafety * corrector.sampled_curvature_per_mm();
+  const bool straight = corrector.firmware().chain_linear_piece_mm == 0.0;
+  if (straight) {
+    unchecked_length_mm_ =
+        std::sqrt(8.0 * kUncheckedShare * chord_tolerance(options_) / std::max(curvature, 1e-9));
+  }
+}
+
+Result<CompensateSummary> Compensator::run(LineSource& source, const Dialect& dialect) {
+  emitter_.header({options_.map_hash,
+                   options_.input_hash,
+                   corrector_.firmware().name,
+                   options_.tolerance_mm,
+                   options_.home.x_mm,
+                   options_.home.y_mm});
+  const auto program = run_program(source, dialect, *this);
+  if (!program) return tl::unexpected(program.error());
+  summary_.blocks = program->blocks;
+  summary_.commands = emitter_.commands();
+  return summary_;
+}
+
+Move Compensator::placed(const Move& move) const {
+  Move result = move;
+  const auto shift = [&](Point& point) {
+    point.x_mm += options_.home.x_mm;
+    point.y_mm += options_.home.y_mm;
+  };
+  shift(result.from);
+  shift(result.to);
+  if (result.arc) shift(result.arc->centre);
+  return result;
+}
+
+Curve Compensator::curve(const Move& move, ChainDirections directions) const {
+  return [this, &move, directions](double t) -> tl::expected<Station, CorrectionFailure> {
+    const Point target = at(move, t);
+    const auto command =
+        corrector_.command({target.x_mm, target.y_mm}, options_.half_play_mm, directions);
+    if (!command) return tl::unexpected(command.error());
+    return Station{t, target, {command->x_mm, command->y_mm, target.z_mm}};
+  };
+}
+
+void Compensator::object(const Move& move, CorrectionFailure failure, double x_mm, double y_mm) {
+  if (objected_line_ == move.line) return;
+  objected_line_ = move.line;
+  findings_.add(Problem{failure == CorrectionFailure::controller ? ProblemName::outside_controller
+                                                                 : ProblemName::outside_map,
+                        {move.line, 0},
+                        fmt::format("X{:.3f} Y{:.3f} {}", x_mm, y_mm, explain(failure))});
+}
+
+/// Holds a station against the limits.
+void Compensator::examine(const Move& move, const Station& station) {
+  const double dx = station.command.x_mm - station.target.x_mm;
+  const double dy = station.command.y_mm - station.target.y_mm;
+  const double size = std::hypot(dx, dy);
+  if (size > summary_.largest_correction_mm) {
+    summary_.largest_correction_mm = size;
+    summary_.largest_correction_line = move.line;
+  }
+  const auto once_a_line = [&](ProblemName name, std::string sentence) {
+    if (objected_line_ == move.line) return;
+    objected_line_ = move.line;
+    findings_.add(Problem{name, {move.line, 0}, std::move(sentence)});
+  };
+  if (size > options_.largest_correction_mm) {
+    once_a_line(
+        ProblemName::correction_too_large,
+        fmt::format(
+            "X{:.3f} Y{:.3f} would be corrected by {:.2f} mm, more than the {} mm that are allowed",
+            station.target.x_mm,
+            station.target.y_mm,
+            size,
+            options_.largest_correction_mm));
+  }
+  if (const auto& box = options_.clamp_box) {
+    const double beyond = std::max(std::fabs(station.command.x_mm) - box->half_width_mm,
+                                   std::fabs(station.command.y_mm) - box->half_height_mm);
+    if (beyond > 0.0) {
+      once_a_line(
+          ProblemName::outside_controller,
+          fmt::format("X{:.3f} Y{:.3f} needs the command X{:.3f} Y{:.3f}, {:.2f} mm beyond the bed "
+                      "that the controller "
+                      "clamps to without a word; enlarge the bed in its settings by {:.0f} mm",
+                      station.target.x_mm,
+                      station.target.y_mm,
+                      station.command.x_mm,
+                      station.command.y_mm,
+                      beyond,
+                      std::ceil(2.0 * beyond)));
+    }
+  }
+  if (here_) {
+    const double way = std::hypot(station.target.x_mm - here_->target.x_mm,
+                                  station.target.y_mm - here_->target.y_mm);
+    if (way >= kSlopeBase_mm && !has_play()) {
+      const double slope = std::hypot(dx - (here_->command.x_mm - here_->target.x_mm),
+                                      dy - (here_->command.y_mm - here_->target.y_mm)) /
+                           way;
+      summary_.steepest_correction = std::max(summary_.steepest_correction, slope);
+      if (slope > options_.steepest_correction) {
+        once_a_line(ProblemName::correction_too_steep,
+                    fmt::format("before X{:.3f} Y{:.3f} the correction changes by {:.3f} mm per "
+                                "mm, more than the {} that are allowed",
+                                station.target.x_mm,
+                                station.target.y_mm,
+                                slope,
+                                options_.steepest_correction));
+      }
+    }
+  }
+  if (corrector_.map().status({station.target.x_mm, station.target.y_mm}) ==
+      TargetStatus::extrapolated) {
+    findings_.add(Note{move.line,
+                       "extrapolated",
+                       fmt::format("X{:.3f} Y{:.3f} lies outside the measured points: the "
+                                   "correction there is extrapolated",
+                                   station.target.x_mm,
+                                   station.target.y_mm)});
+  }
+}
+
+Result<void> Compensator::emit(const Move& move, double feed, const Station& station) {
+  examine(move, station);
+  if (here_ && options_.on_command) options_.on_command(move, *here_, station);
+  here_ = station;
+  // What is written after a problem is thrown away.
+  if (findings_.problem_count > 0) return {};
+  const bool named_z = move.names_z;
+  const auto written = emitter_.command(move.kind == MoveKind::rapid,
+                                        move.line,
+                                        model::BedPoint{station.command.x_mm, station.command.y_mm},
+                                        named_z ? std::optional(station.target.z_mm) : std::nullopt,
+                                        feed);
+  if (!written) return tl::unexpected(written.error());
+  return {};
+}
+
+/// The running directions of the chains behind t; a chain that does not run keeps its direction.
+ChainDirections Compensator::directions_at(const Move& move,
+                                           double t,
+                                           ChainDirections otherwise) const {
+  const double step = std::min(1.0, 0.01 / std::max(length_mm(move), 0.01));
+  const double from = std::clamp(t, 0.0, 1.0 - step);
+  const Point a = at(move, from);
+  const Point b = at(move, from + step);
+  const auto before = corrector_.map().lengths({a.x_mm, a.y_mm});
+  const auto behind = corrector_.map().lengths({b.x_mm, b.y_mm});
+  if (!before || !behind) return otherwise;
+  return {sign(behind->left_mm - before->left_mm, otherwise.left),
+          sign(behind->right_mm - before->right_mm, otherwise.right)};
+}
+
+Result<void> Compensator::piece(
+    const Move& move, double feed, double from, double to, ChainDirections directions) {
+  const Curve commands = curve(move, directions);
+  Result<void> outcome;
+  const auto visit = [&](const Station& station) {
+    if (outcome) outcome = emit(move, feed, station);
+  };
+  // Without play the last command is this one's start.
+  const bool known = here_ && !has_play() && from == 0.0 && here_->target == move.from;
+  const auto start = known ? Station{0.0, here_->target, here_->command} : commands(from);
+  if (!start) {
+    const Point place = at(move, from);
+    object(move, start.error(), place.x_mm, place.y_mm);
+    return {};
+  }
+  // Where the play is taken up, the chains run while the tool stays.
+  if (has_play() && here_ && directions != directions_) visit(*start);
+  directions_ = directions;
+  const double length = (to - from) * length_mm(move);
+  const bool whole = move.kind == MoveKind::rapid && options_.keep_rapids_whole;
+  if (whole || (!move.arc && length <= unchecked_length_mm_)) {
+    const auto end = commands(to);
+    if (!end) {
+      const Point place = at(move, to);
+      object(move, end.error(), place.x_mm, place.y_mm);
+      return {};
+    }
+    visit(*end);
+    return outcome;
+  }
+  const auto done = segmenter_.run(commands, *start, to, length, visit);
+  if (!done) {
+    const Point place = here_ ? here_->target : at(move, from);
+    object(move, done.error(), place.x_mm, place.y_mm);
+  }
+  return outcome;
+}
+
+/// In pieces between the places where a chain turns around, if that matters.
+Result<void> Compensator::along(const Move& move, double feed) {
+  if (!here_ && move.kind == MoveKind::rapid) {
+    // Where the tool stands before the first move is not known, nor which way its chains ran: only
+    // its end can be right, and that as if both chains had been paid out.
+    const auto end = curve(move, directions_)(1.0);
+    if (!end) {
+      object(move, end.error(), move.to.x_mm, move.to.y_mm);
+      return {};
+    }
+    return emit(move, feed, *end);
+  }
+  if (!has_play()) return piece(move, feed, 0.0, 1.0, {});
+  constexpr double kLook_mm = 20.0;
+  const int looks =
+      static_cast<int>(std::clamp(length_mm(move) / kLook_mm, move.arc ? 16.0 : 4.0, 1e4));
+  double from = 0.0;
+  ChainDirections now = directions_at(move, 0.0, directions_);
+  for (int i = 1; i <= looks; ++i) {
+    double high = static_cast<double>(i) / looks;
+    while (directions_at(move, high, now) != now) {
+      double low = from;
+      double end = high;
+      while (end - low > 1e-9) {
+        const double middle = 0.5 * (low + end);
+        (directions_at(move, middle, now) == now ? low : end) = middle;
+      }
+      CHAINTRUE_GCODE_TRY(piece(move, feed, from, end, now));
+      now = directions_at(move, end, now);
+      from = end;
+      if (end >= high) break;
+    }
+  }
+  if (from < 1.0) return piece(move, feed, from, 1.0, now);
+  return {};
+}
+
+/// A program that cuts before it says where X and Y are starts where the controller believes to be:
+/// at zero. There the tool stands beside the program's start by the correction.
+Result<void> Compensator::go_to_assumed_start(const Move& move) {
+  note({move.line,
+        "start_assumed",
+        "the program cuts before it goes to a place in X and Y; it is taken to start at X0 Y0"});
+  Move start = move;
+  start.kind = MoveKind::rapid;
+  start.arc.reset();
+  start.to = start.from;
+  start.names_z = false;
+  return along(start, 0.0);
+}
+
+Result<void> Compensator::move(const Move& original) {
+  ++summary_.moves;
+  if (original.kind == MoveKind::probe) {
+    return refuse(ProblemName::not_emittable,
+                  {original.line, 0},
+                  "probing needs a dotted code, which some controllers misread; probe before the "
+                  "job, not within it");
+  }
+  for (const double turn : original.turn_deg) {
+    if (turn != 0.0) {
+      return refuse(ProblemName::unsupported_axis,
+                    {original.line, 0},
+                    "a two-chain router has no axis A, B or C");
+    }
+  }
+  const Move move = placed(original);
+  const double length = length_mm(move);
+  summary_.path_mm += length;
+  const double feed =
+      move.feed.mode == FeedMode::inverse_time ? length * move.feed.value : move.feed.value;
+  const bool cuts =
+      move.kind != MoveKind::rapid && (move.names_xy || move.to.z_mm < move.from.z_mm);
+  if (!here_ && cuts) CHAINTRUE_GCODE_TRY(go_to_assumed_start(move));
+  if (!move.names_xy || (stays(move) && here_)) {
+    if (!move.names_z || findings_.problem_count > 0) return {};
+    if (here_) here_->target.z_mm = here_->command.z_mm = move.to.z_mm;
+    if (length == 0.0 && move.feed.mode == FeedMode::inverse_time) return {};
+    const auto written =
+        emitter_.command(move.kind == MoveKind::rapid, move.line, std::nullopt, move.to.z_mm, feed);
+    if (!written) return tl::unexpected(written.error());
+    return {};
+  }
+  return along(move, feed);
+}
+
+Result<void> Compensator::word(const PassedWord& word) {
+  return findings_.problem_count > 0 ? Result<void>{} : emitter_.word(word);
+}
+
+Result<void> Compensator::comment(const Comment& comment) {
+  std::string_view text = comment.text;
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  if (text.starts_with(kMarker)) {
+    return refuse(ProblemName::already_compensated,
+                  {comment.line, 0},
+                  "this file has been compensated before; compensate the original");
+  }
+  if (findings_.problem_count == 0) emitter_.comment(comment);
+  return {};
+}
+
+void Compensator::note(const Note& note) {
+  if (note.name == "home_assumed" && !options_.home_is_zero) {
+    findings_.add(Problem{
+        ProblemName::unknown_home,
+        {note.line, 0},
+        "G28 and G30 go to a place that only the machine knows, and the program does not set it"});
+    return;
+  }
+  findings_.add(note);
+}
+
+Result<void> Compensator::end(std::size_t /*line*/, std::string_view word) {
+  emitter_.end(word);
+  return {};
+}
+
+}  // namespace chaintrue::gcode

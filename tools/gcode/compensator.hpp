@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The pipeline's end: events of a program in, a file out whose commands move the tool where the
+/// program wants it.
+///
+/// Error budget of a path: chord (measured against the exact map, arcs and lines alike) + rounding
+/// of the words (half a unit of the last decimal in each axis) <= tolerance. Feed rates per minute
+/// are kept; inverse time feeds become feeds per minute, so that every piece of a move takes its
+/// share of the time.
+///
+/// Nothing that would be cut wrong is written: targets outside the map, beyond what the controller
+/// clamps to, with a correction or a slope of it above the stated limits become problems, each with
+/// its line.
+///
+/// \code
+///   Corrector corrector(map, *kinematics, firmware(kind));
+///   Compensator compensator(corrector, options, [&](std::string_view bytes) { file << bytes; });
+///   const auto outcome = compensator.run(source, dialect);
+///   if (!compensator.findings().problems.empty()) discard(file);
+/// \endcode
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/gcode/emitter.hpp"
+#include "tools/gcode/program.hpp"
+#include "tools/gcode/segmenter.hpp"
+
+namespace chaintrue::gcode {
+
+struct CompensateOptions {
+  double tolerance_mm = 0.05;
+  int decimals = 3;
+  /// Added to every X and Y of the program before it is a point of the sheet.
+  model::BedPoint home;
+  /// Larger corrections than this point to a wrong map, machine or home.
+  double largest_correction_mm = 30.0;
+  /// Change of the correction per millimetre of path.
+  double steepest_correction = 0.05;
+  /// Rapids in one piece: their ends are right, their middles are not.
+  bool keep_rapids_whole = false;
+  /// G28 and G30 go to the machine's zero; otherwise they are refused unless the program says where
+  /// home is.
+  bool home_is_zero = false;
+  std::optional<ClampBox> clamp_box;
+  /// Half the width of a named direction_hysteresis, per chain.
+  model::ChainLengths half_play_mm;
+  std::string map_hash;
+  std::string input_hash;
+  /// Called for every command in X and Y, with its start and end; for pictures.
+  std::function<void(const Move&, const Station&, const Station&)> on_command;
+};
+
+/// What the run found. Problems and notes keep the first hundred of their kind, and count all.
+struct Findings {
+  static constexpr std::size_t kMostKept = 100;
+  std::vector<Problem> problems;
+  std::uint64_t problem_count = 0;
+  std::vector<Note> notes;
+  std::uint64_t note_count = 0;
+
+  void add(Problem problem);
+  void add(Note note);
+};
+
+struct CompensateSummary {
+  std::uint64_t blocks = 0;
+  std::uint64_t moves = 0;
+  std::uint64_t commands = 0;
+  double path_mm = 0.0;
+  double largest_correction_mm = 0.0;
+  std::size_t largest_correction_line = 0;
+  double steepest_correction = 0.0;
+};
+
+/// One run, not thread safe.
+class Compensator final : private Sink {
+ public:
+  /// Keeps the reference.
+  /// \throws std::invalid_argument where the tolerance leaves nothing beside the rounding.
+  Compensator(const Corrector& corrector, CompensateOptions options, ByteSink out);
+
+  /// An unexpected value is a problem of the program itself; what the map and the controller object
+  /// to is in findings().
+  [[nodiscard]] Result<CompensateSummary> run(LineSource& source, const Dialect& dialect);
+  [[nodiscard]] const Findings& findings() const { return findings_; }
+
+ private:
+  Result<void> move(const Move& move) override;
+  Result<void> word(const PassedWord& word) override;
+  Result<void> comment(const Comment& comment) override;
+  void note(const Note& note) override;
+  Result<void> end(std::size_t line, std::string_view word) override;
+
+  [[nodiscard]] Curve curve(const Move& move, ChainDirections directions) const;
+  Result<void> go_to_assumed_start(const Move& move);
+  Result<void> along(const Move& move, double feed);
+  Result<void> piece(
+      const Move& move, double feed, double from, double to, ChainDirections directions);
+  Result<void> emit(const Move& move, double feed, const Station& station);
+  void examine(const Move& move, const Station& station);
+  void object(const Move& move, CorrectionFailure failure, double x_mm, double y_mm);
+  [[nodiscard]] Move placed(const Move& move) const;
+  [[nodiscard]] ChainDirections directions_at(const Move& move,
+                                              double t,
+                                              ChainDirections otherwise) const;
+  [[nodiscard]] bool has_play() const {
+    return options_.half_play_mm.left_mm != 0.0 || options_.half_play_mm.right_mm != 0.0;
+  }
+
+  const Corrector& corrector_;
+  CompensateOptions options_;
+  Emitter emitter_;
+  Segmenter segmenter_;
+  double unchecked_length_mm_ = 0.0;
+  Findings findings_;
+  CompensateSummary summary_;
+  std::optional<Station> here_;  // empty until the program says where X and Y are
+  ChainDirections directions_;
+  std::size_t objected_line_ = 0;
+};
+
+}  // namespace chaintrue::gcode

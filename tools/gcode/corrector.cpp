@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Map and controller, one behind the other.
+#include "tools/gcode/corrector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace chaintrue::gcode {
+namespace {
+
+CorrectionFailure from(TargetFailure failure) {
+  switch (failure) {
+    case TargetFailure::outside:
+      return CorrectionFailure::outside_map;
+    case TargetFailure::unreachable:
+      return CorrectionFailure::unreachable;
+    case TargetFailure::not_converged:
+      break;
+  }
+  return CorrectionFailure::not_converged;
+}
+
+bool finite(model::BedPoint point) {
+  return std::isfinite(point.x_mm) && std::isfinite(point.y_mm);
+}
+
+}  // namespace
+
+std::string_view explain(TargetFailure failure) { return explain(from(failure)); }
+
+std::string_view explain(CorrectionFailure failure) {
+  switch (failure) {
+    case CorrectionFailure::outside_map:
+      return "lies outside the map";
+    case CorrectionFailure::unreachable:
+      return "cannot be reached by the machine";
+    case CorrectionFailure::not_converged:
+      return "has no answer in the map: the iteration did not settle";
+    case CorrectionFailure::controller:
+      break;
+  }
+  return "cannot be reached by the controller's own kinematics";
+}
+
+tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(model::BedPoint target) const {
+  return command(target, {}, {});
+}
+
+tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(
+    model::BedPoint target, model::ChainLengths half_play_mm, ChainDirections directions) const {
+  auto lengths = map_.lengths(target);
+  if (!lengths) return tl::unexpected(from(lengths.error()));
+  lengths->left_mm += directions.left * half_play_mm.left_mm;
+  lengths->right_mm += directions.right * half_play_mm.right_mm;
+  const auto result = kinematics_.command(*lengths);
+  if (!result || !finite(*result)) return tl::unexpected(CorrectionFailure::controller);
+  return *result;
+}
+
+tl::expected<model::ChainLengths, CorrectionFailure> Corrector::paid_out(
+    model::BedPoint command) const {
+  const auto lengths = kinematics_.lengths(command);
+  if (!lengths) return tl::unexpected(CorrectionFailure::controller);
+  return *lengths;
+}
+
+tl::expected<model::BedPoint, CorrectionFailure> Corrector::tool(model::BedPoint command) const {
+  const auto lengths = paid_out(command);
+  if (!lengths) return tl::unexpected(lengths.error());
+  const auto point = map_.tool(*lengths);
+  if (!point || !finite(*point)) {
+    return tl::unexpected(point ? CorrectionFailure::not_converged : from(point.error()));
+  }
+  return *point;
+}
+
+double Corrector::sampled_curvature_per_mm() const {
+  constexpr int kColumns = 24;
+  constexpr int kRows = 12;
+  const BedRectangle area = map_.bounds();
+  const double width = area.right_mm - area.left_mm;
+  const double height = area.top_mm - area.bottom_mm;
+  const double step = std::min(width, height) / (4.0 * kRows);
+  constexpr double kHalf = 0.5 * std::numbers::sqrt2;
+  constexpr double kDirections[][2] = {{1.0, 0.0}, {0.0, 1.0}, {kHalf, kHalf}, {kHalf, -kHalf}};
+  double worst = 0.0;
+  for (int i = 0; i < kColumns; ++i) {
+    for (int k = 0; k < kRows; ++k) {
+      const model::BedPoint middle{area.left_mm + width * (i + 0.5) / kColumns,
+                                   area.bottom_mm + height * (k + 0.5) / kRows};
+      const auto at_middle = command(middle);
+      for (const auto& direction : kDirections) {
+        const auto ahead =
+            command({middle.x_mm + step * direction[0], middle.y_mm + step * direction[1]});
+        const auto behind =
+            command({middle.x_mm - step * direction[0], middle.y_mm - step * direction[1]});
+        if (!at_middle || !ahead || !behind) continue;
+        const double x = ahead->x_mm - 2.0 * at_middle->x_mm + behind->x_mm;
+        const double y = ahead->y_mm - 2.0 * at_middle->y_mm + behind->y_mm;
+        worst = std::max(worst, std::hypot(x, y) / (step * step));
+      }
+    }
+  }
+  return worst;
+}
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Lines of output.
+#include "tools/gcode/emitter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace chaintrue::gcode {
+namespace {
+
+/// Up to three decimals, more only where a slow feed needs them.
+std::string feed_text(double feed) {
+  for (const int decimals : {3, 6, 9}) {
+    std::string text = fmt::format("{:.{}f}", feed, decimals);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+    if (text != "0") return text;
+  }
+  return "0.000000001";
+}
+
+/// Does not cut a UTF-8 character in two.
+std::size_t cut(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return text.size();
+  const std::size_t blank = text.rfind(' ', most - 1);
+  if (blank != std::string_view::npos && blank > most / 2) return blank + 1;
+  std::size_t end = most;
+  while (end > most - 4 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return end;
+}
+
+}  // namespace
+
+Emitter::Emitter(ByteSink out, int decimals)
+    : out_(std::move(out)), decimals_(decimals), per_mm_(1) {
+  if (decimals < 1 || decimals > 6) {
+    throw std::invalid_argument(fmt::format("an output has 1 to 6 decimals, not {}", decimals));
+  }
+  for (int i = 0; i < decimals; ++i) per_mm_ *= 10;
+}
+
+double Emitter::rounding_mm() const {
+  return 0.5 * std::numbers::sqrt2 / static_cast<double>(per_mm_);
+}
+
+std::int64_t Emitter::rounded(double value_mm) const {
+  return std::llround(value_mm * static_cast<double>(per_mm_));
+}
+
+void Emitter::append(std::string& text, char letter, std::int64_t count) const {
+  const std::int64_t whole = std::abs(count) / per_mm_;
+  std::int64_t rest = std::abs(count) % per_mm_;
+  fmt::format_to(std::back_inserter(text), " {}{}{}", letter, count < 0 ? "-" : "", whole);
+  if (rest == 0) return;
+  int digits = decimals_;
+  while (rest % 10 == 0) {
+    rest /= 10;
+    --digits;
+  }
+  fmt::format_to(std::back_inserter(text), ".{:0{}}", rest, digits);
+}
+
+void Emitter::put_line(std::string_view text) {
+  out_(text);
+  out_("\n");
+}
+
+void Emitter::flush_word() {
+  if (waiting_word_.empty()) return;
+  put_line(waiting_word_);
+  waiting_word_.clear();
+}
+
+void Emitter::header(const Header& header) {
+  put_line(fmt::format("({}; run with home at 0, 0)", kMarker));
+  put_line(fmt::format("(map {})", header.map_hash));
+  put_line(fmt::format("(input {})", header.input_hash));
+  put_line(fmt::format("(controller {}, tolerance {} mm)", header.controller, header.tolerance_mm));
+  put_line(fmt::format("(home was X{} Y{})", header.home_x_mm, header.home_y_mm));
+  put_line("G21 G90");
+}
+
+Result<bool> Emitter::command(bool rapid,
+                              std::size_t line,
+                              std::optional<model::BedPoint> xy,
+                              std::optional<double> z_mm,
+                              double feed_mm_per_min) {
+  constexpr double kLargest_mm = 1e8;
+  const auto too_large = [](double value) { return !(std::fabs(value) < kLargest_mm); };
+  if ((xy && (too_large(xy->x_mm) || too_large(xy->y_mm))) || (z_mm && too_large(*z_mm)) ||
+      (!rapid && !(feed_mm_per_min > 0.0 && feed_mm_per_min < 1e12))) {
+    return refuse(ProblemName::not_emittable,
+                  {line, 0},
+                  "a coordinate or feed rate of this move is no sensible number");
+  }
+  text_.assign(rapid ? "G0" : "G1");
+  bool moves = false;
+  if (xy) {
+    const std::int64_t x = rounded(xy->x_mm);
+    const std::int64_t y = rounded(xy->y_mm);
+    if (x != x_ || y != y_) {
+      append(text_, 'X', x);
+      append(text_, 'Y', y);
+      x_ = x;
+      y_ = y;
+      moves = true;
+    }
+  }
+  if (z_mm) {
+    const std::int64_t z = rounded(*z_mm);
+    if (z != z_) {
+      append(text_, 'Z', z);
+      z_ = z;
+      moves = true;
+    }
+  }
+  if (!moves) return false;
+  if (!rapid) {
+    std::string feed = feed_text(feed_mm_per_min);
+    if (feed != feed_) {
+      fmt::format_to(std::back_inserter(text_), " F{}", feed);
+      feed_ = std::move(feed);
+    }
+  }
+  flush_word();
+  put_line(text_);
+  ++commands_;
+  return true;
+}
+
+/// S stands with the M3 behind it and T with its M6, as some controllers need them; every other
+/// word has its own line.
+Result<void> Emitter::word(const PassedWord& word) {
+  std::string_view text = word.text;
+  if (text == "G61.1") text = "G61";
+  const std::string_view code = text.substr(0, text.find(' '));
+  if (code.starts_with('G') && code.find('.') != std::string_view::npos) {
+    return refuse(
+        ProblemName::not_emittable,
+        {word.line, 0},
+        fmt::format("{} cannot be written: some controllers read only what stands before the dot",
+                    code));
+  }
+  const bool joins = waiting_line_ == word.line && !waiting_word_.empty() &&
+                     ((waiting_word_.front() == 'T' && text == "M6") ||
+                      (waiting_word_.front() == 'S' && (text == "M3" || text == "M4")));
+  if (joins) {
+    waiting_word_ += ' ';
+    waiting_word_ += text;
+    flush_word();
+    return {};
+  }
+  flush_word();
+  if (text.front() == 'S' || text.front() == 'T') {
+    waiting_word_ = text;
+    waiting_line_ = word.line;
+    return {};
+  }
+  put_line(text);
+  return {};
+}
+
+void Emitter::comment(const Comment& comment) {
+  flush_word();
+  std::string text = comment.text;
+  for (char& c : text) {
+    if (c == '(') c = '[';
+    if (c == ')') c = ']';
+    // A control character inside a comment may end the line for some readers.
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  const std::string_view open = comment.message ? "(MSG," : "(";
+  std::string_view rest = text;
+  do {
+    const std::size_t length = cut(rest, kMaxOutputLine - open.size() - 1);
+    put_line(fmt::format("{}{})", open, rest.substr(0, length)));
+    rest.remove_prefix(length);
+  } while (!rest.empty());
+}
+
+void Emitter::end(std::string_view word) {
+  flush_word();
+  if (!word.empty() && word != "%") put_line(word);
+}
+
+}  // namespace chaintrue::gcode

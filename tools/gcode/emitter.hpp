@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Writes G-code that every controller of such machines reads alike: G21 G90, G0 and G1 only, X and
+/// Y always together, no dotted codes, no exponents, no moves of zero length, at most 60 characters
+/// a line.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "model/coordinates.hpp"
+#include "tools/gcode/events.hpp"
+
+namespace chaintrue::gcode {
+
+/// Takes the next bytes of the output.
+using ByteSink = std::function<void(std::string_view)>;
+
+inline constexpr std::size_t kMaxOutputLine = 60;
+/// The first words of the first comment of every file written here.
+inline constexpr std::string_view kMarker = "compensated by chaintrue";
+
+/// What the header says, so that nobody compensates twice or with the wrong map.
+struct Header {
+  std::string map_hash;
+  std::string input_hash;
+  std::string controller;
+  double tolerance_mm = 0.0;
+  double home_x_mm = 0.0;
+  double home_y_mm = 0.0;
+};
+
+class Emitter {
+ public:
+  /// \param decimals 1 to 6.
+  Emitter(ByteSink out, int decimals);
+
+  void header(const Header& header);
+  /// One straight command. XY is empty for a move in Z alone, z where the height stays. A command
+  /// that changes nothing after rounding is left out; false then.
+  Result<bool> command(bool rapid,
+                       std::size_t line,
+                       std::optional<model::BedPoint> xy,
+                       std::optional<double> z_mm,
+                       double feed_mm_per_min);
+  Result<void> word(const PassedWord& word);
+  void comment(const Comment& comment);
+  void end(std::string_view word);
+  [[nodiscard]] std::uint64_t commands() const { return commands_; }
+  /// The largest distance that rounding can move a commanded point.
+  [[nodiscard]] double rounding_mm() const;
+
+ private:
+  void put_line(std::string_view text);
+  void flush_word();
+  std::int64_t rounded(double value_mm) const;
+  void append(std::string& text, char letter, std::int64_t count) const;
+
+  ByteSink out_;
+  int decimals_;
+  std::int64_t per_mm_;
+  std::optional<std::int64_t> x_;
+  std::optional<std::int64_t> y_;
+  std::optional<std::int64_t> z_;
+  std::string feed_;
+  std::string text_;
+  std::string waiting_word_;  // S or T, which share a line with the M word behind them
+  std::size_t waiting_line_ = 0;
+  std::uint64_t commands_ = 0;
+};
+
+}  // namespace chaintrue::gcode

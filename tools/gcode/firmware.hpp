@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// How a controller goes from one commanded point to the next: its number format, its stepping, and
+/// what it does to targets beyond its sheet. (What chain lengths it pays out for a point is
+/// model/controllers/payout.hpp.)
+///
+/// Sources: MaslowCNC/Firmware Motion.cpp (coordinatedMove, LOOPINTERVAL 10000 us, float),
+/// Kinematics.cpp
+/// (_verifyValidTarget clamps to half the bed); bdring/FluidNC WallPlotter.cpp
+/// (cartesian_to_motors: pieces of segment_length, 10 mm by default, chain lengths linear within a
+/// piece, float). The holey firmware moves as the classic one does.
+#pragma once
+
+#include <optional>
+
+#include "model/controllers/payout.hpp"
+#include "model/machine.hpp"
+
+namespace chaintrue::gcode {
+
+struct Firmware {
+  model::ControllerKind kind = model::ControllerKind::ideal;
+  const char* name = "ideal";
+  bool single_precision = false;
+  /// A new position every tick; 0: as fine as one likes.
+  double tick_s = 0.0;
+  /// Chain lengths run linearly through pieces of about this length; 0: the commanded line is
+  /// followed.
+  double chain_linear_piece_mm = 0.0;
+  /// Targets beyond half the believed bed are clamped without a word.
+  bool clamps_to_bed = false;
+};
+
+[[nodiscard]] const Firmware& firmware(model::ControllerKind kind);
+
+/// Half the width and height that the controller clamps to; empty where it does not clamp.
+struct ClampBox {
+  double half_width_mm = 0.0;
+  double half_height_mm = 0.0;
+};
+[[nodiscard]] std::optional<ClampBox> clamp_box(const model::Machine& machine);
+
+/// The commanded point that stands for where the controller is at the fraction t of a straight
+/// command: on the line, or, where it interpolates chain lengths, where equal lengths would be
+/// commanded. Empty where its own kinematics fail.
+[[nodiscard]] std::optional<model::BedPoint> on_the_way(
+    const Firmware& firmware,
+    const model::ControllerKinematics& kinematics,
+    model::BedPoint from,
+    model::BedPoint to,
+    double t);
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Points and lengths of moves.
+#include "tools/gcode/path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chaintrue::gcode {
+
+Point between(Point a, Point b, double t) {
+  return {a.x_mm + t * (b.x_mm - a.x_mm),
+          a.y_mm + t * (b.y_mm - a.y_mm),
+          a.z_mm + t * (b.z_mm - a.z_mm)};
+}
+
+double distance_mm(Point a, Point b) {
+  return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm, a.z_mm - b.z_mm);
+}
+
+double nearest_on_line(Point a, Point b, Point p) {
+  const double dx = b.x_mm - a.x_mm;
+  const double dy = b.y_mm - a.y_mm;
+  const double dz = b.z_mm - a.z_mm;
+  const double squared = dx * dx + dy * dy + dz * dz;
+  if (squared == 0.0) return 0.0;
+  const double along = dx * (p.x_mm - a.x_mm) + dy * (p.y_mm - a.y_mm) + dz * (p.z_mm - a.z_mm);
+  return std::clamp(along / squared, 0.0, 1.0);
+}
+
+Point at(const Move& move, double t) {
+  if (t <= 0.0) return move.from;
+  if (t >= 1.0) return move.to;
+  if (!move.arc) return between(move.from, move.to, t);
+  const Arc& arc = *move.arc;
+  const double radius = arc.start_radius_mm + t * (arc.end_radius_mm - arc.start_radius_mm);
+  const double angle = arc.start_angle_rad + t * arc.sweep_rad;
+  const double height = arc.start_height_mm + t * (arc.end_height_mm - arc.start_height_mm);
+  const double u = radius * std::cos(angle);
+  const double v = radius * std::sin(angle);
+  const Point& a = arc.first;
+  const Point& b = arc.second;
+  const Point normal{a.y_mm * b.z_mm - a.z_mm * b.y_mm,
+                     a.z_mm * b.x_mm - a.x_mm * b.z_mm,
+                     a.x_mm * b.y_mm - a.y_mm * b.x_mm};
+  return {arc.centre.x_mm + u * a.x_mm + v * b.x_mm + height * normal.x_mm,
+          arc.centre.y_mm + u * a.y_mm + v * b.y_mm + height * normal.y_mm,
+          arc.centre.z_mm + u * a.z_mm + v * b.z_mm + height * normal.z_mm};
+}
+
+double length_mm(const Move& move) {
+  if (!move.arc) return distance_mm(move.from, move.to);
+  const Arc& arc = *move.arc;
+  return std::hypot(0.5 * (arc.start_radius_mm + arc.end_radius_mm) * arc.sweep_rad,
+                    arc.end_height_mm - arc.start_height_mm,
+                    arc.end_radius_mm - arc.start_radius_mm);
+}
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Sampling a path.
+#include "tools/gcode/path_lengths.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace chaintrue::gcode {
+namespace {
+
+class Sampler final : public Sink {
+ public:
+  Sampler(const TargetMap& map,
+          model::BedPoint home,
+          double every_mm,
+          const std::function<void(const PathLengths&)>& write,
+          Findings& findings)
+      : map_(map), home_(home), every_mm_(every_mm), write_(write), findings_(findings) {}
+
+  Result<void> move(const Move& move) override {
+    const double length = length_mm(move);
+    const double pieces = std::max(1.0, std::ceil(length / every_mm_));
+    const double feed = move.kind == MoveKind::rapid               ? 0.0
+                        : move.feed.mode == FeedMode::inverse_time ? length * move.feed.value
+                                                                   : move.feed.value;
+    for (double i = 1.0; i <= pieces; i += 1.0) {
+      Point place = at(move, i / pieces);
+      place.x_mm += home_.x_mm;
+      place.y_mm += home_.y_mm;
+      const auto answer = map_.query({place.x_mm, place.y_mm});
+      if (answer) {
+        write_({move.line, move.kind, place, *answer, feed});
+        continue;
+      }
+      if (objected_line_ == move.line) return {};
+      objected_line_ = move.line;
+      findings_.add(Problem{
+          ProblemName::outside_map,
+          {move.line, 0},
+          fmt::format("X{:.3f} Y{:.3f} {}", place.x_mm, place.y_mm, explain(answer.error()))});
+      return {};
+    }
+    return {};
+  }
+  void note(const Note& note) override { findings_.add(note); }
+
+ private:
+  const TargetMap& map_;
+  model::BedPoint home_;
+  double every_mm_;
+  const std::function<void(const PathLengths&)>& write_;
+  Findings& findings_;
+  std::size_t objected_line_ = 0;
+};
+
+}  // namespace
+
+Result<ProgramSummary> path_lengths(LineSource& source,
+                                    const Dialect& dialect,
+                                    const TargetMap& map,
+                                    model::BedPoint home,
+                                    double every_mm,
+                                    const std::function<void(const PathLengths&)>& write,
+                                    Findings& findings) {
+  if (!(every_mm > 0.0))
+    throw std::invalid_argument(fmt::format("places every {} mm make no path", every_mm));
+  Sampler sampler(map, home, every_mm, write, findings);
+  return run_program(source, dialect, sampler);
+}
+
+}  // namespace chaintrue::gcode

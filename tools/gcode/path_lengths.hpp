@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Chain lengths along a program's path: through the end of every move, and between, no further
+/// apart than asked.
+#pragma once
+
+#include <functional>
+
+#include "tools/gcode/compensator.hpp"
+
+namespace chaintrue::gcode {
+
+struct PathLengths {
+  std::size_t line = 0;
+  MoveKind kind = MoveKind::rapid;
+  Point place;  ///< on the sheet, mm
+  TargetAnswer answer;
+  double feed_mm_per_min = 0.0;  ///< 0 for rapids
+};
+
+/// Writes a place; places off the map become problems of `findings` instead, one a line of the
+/// program.
+[[nodiscard]] Result<ProgramSummary> path_lengths(
+    LineSource& source,
+    const Dialect& dialect,
+    const TargetMap& map,
+    model::BedPoint home,
+    double every_mm,
+    const std::function<void(const PathLengths&)>& write,
+    Findings& findings);
+
+}  // namespace chaintrue::gcode

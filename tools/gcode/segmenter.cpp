@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Greedy longest chords. Deviation grows with the square of a chord's length, which predicts the
+/// next trial.
+#include "tools/gcode/segmenter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chaintrue::gcode {
+namespace {
+
+/// A chord is long enough when its deviation has this share of the tolerance: sqrt(0.85) = 0.92 of
+/// the longest.
+constexpr double kGoodEnough = 0.85;
+/// Aim of the next trial, as a share of the tolerance.
+constexpr double kAim = 0.93;
+constexpr int kMostTrials = 12;
+/// Chords are checked at least this densely: measured residual surfaces have no shorter waves.
+constexpr double kCheckEvery_mm = 30.0;
+constexpr int kFewestChecks = 5;
+/// Below this a chord is not cut further: output has three decimals.
+constexpr double kShortest_mm = 0.002;
+
+}  // namespace
+
+tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& curve,
+                                                                const Station& a,
+                                                                const Station& b,
+                                                                double length_mm) const {
+  const int checks = std::max(
+      kFewestChecks, static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEvery_mm))));
+  const bool own_way = corrector_.firmware().chain_linear_piece_mm > 0.0;
+  double worst = 0.0;
+  for (int i = 0; i < checks; ++i) {
+    // Unequal spacing, so that no wave of the surface falls between all checks.
+    const double share = (i + 0.5 + 0.118 * (i % 3 - 1)) / checks;
+    const auto station = curve(a.t + share * (b.t - a.t));
+    if (!station) return tl::unexpected(station.error());
+    const double u = nearest_on_line(a.command, b.command, station->command);
+    Point on_way = between(a.command, b.command, u);
+    if (own_way) {
+      const auto place = on_the_way(corrector_.firmware(),
+                                    corrector_.kinematics(),
+                                    {a.command.x_mm, a.command.y_mm},
+                                    {b.command.x_mm, b.command.y_mm},
+                                    u);
+      if (!place) return tl::unexpected(CorrectionFailure::controller);
+      on_way.x_mm = place->x_mm;
+      on_way.y_mm = place->y_mm;
+    }
+    worst = std::max(worst, distance_mm(station->command, on_way));
+  }
+  return worst;
+}
+
+tl::expected<void, CorrectionFailure> Segmenter::run(
+    const Curve& curve,
+    const Station& start,
+    double end,
+    double length_mm,
+    const std::function<void(const Station&)>& visit) {
+  const double per_mm = length_mm > 0.0 ? (end - start.t) / length_mm : 0.0;
+  Station a = start;
+  while (a.t < end) {
+    double reach = per_mm > 0.0 ? std::min(end, a.t + last_step_mm_ * per_mm) : end;
+    // What remains behind a station is not worth one of its own.
+    Station best;
+    double best_share = 0.0;
+    for (int trial = 0; trial < kMostTrials; ++trial) {
+      const auto b = curve(reach);
+      if (!b) return tl::unexpected(b.error());
+      const double step_mm = per_mm > 0.0 ? (reach - a.t) / per_mm : length_mm;
+      const auto deviation = deviation_mm(curve, a, *b, step_mm);
+      if (!deviation) return tl::unexpected(deviation.error());
+      const double share = *deviation / tolerance_mm_;
+      const double factor = share > 0.0 ? std::sqrt(kAim / share) : 4.0;
+      if (share <= 1.0 || step_mm <= kShortest_mm) {
+        best = *b;
+        best_share = share;
+        if (reach >= end || share >= kGoodEnough || step_mm <= kShortest_mm) break;
+        if (trial + 4 >= kMostTrials) break;
+        reach = std::min(end, a.t + (reach - a.t) * std::min(factor, 4.0));
+      } else {
+        const double shrunk = a.t + (reach - a.t) * std::clamp(factor, 0.2, 0.97);
+        if (best.t > a.t && shrunk <= best.t) break;
+        reach = shrunk;
+      }
+    }
+    if (!(best.t > a.t)) {
+      // The deviation did not shrink with the chord: take the shortest.
+      const auto b = curve(std::min(end, a.t + std::max(kShortest_mm * per_mm, 1e-12)));
+      if (!b) return tl::unexpected(b.error());
+      best = *b;
+    }
+    if (best.t < end && per_mm > 0.0 && best_share > 0.0) last_step_mm_ = (best.t - a.t) / per_mm;
+    visit(best);
+    a = best;
+  }
+  return {};
+}
+
+}  // namespace chaintrue::gcode
