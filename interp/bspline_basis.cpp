@@ -31,6 +31,10 @@ Four second_derivatives(double t) {
   return {s, 3.0 * t - 2.0, 1.0 - 3.0 * t, t};
 }
 
+Four third_derivatives(double /*t*/) { return {-1.0, 3.0, -3.0, 1.0}; }
+
+using Derivative = Four (*)(double);
+
 struct AxisSupport {
   Eigen::Index first;
   Four value;
@@ -54,10 +58,7 @@ AxisSupport axis_support(double position, double low, double step, Eigen::Index 
 
 // Integral over the axis of the product of two functions' derivatives of one order, for all pairs.
 // Products of cubics have degree six at most: four Gauss points are exact.
-Eigen::MatrixXd axis_gram(Eigen::Index columns,
-                          double step,
-                          Four (*derivative)(double),
-                          int order) {
+Eigen::MatrixXd axis_gram(Eigen::Index columns, double step, Derivative derivative, int order) {
   constexpr std::array<double, 4> kNode = {
       0.069431844202973712, 0.330009478207571868, 0.669990521792428132, 0.930568155797026288};
   constexpr std::array<double, 4> kWeight = {
@@ -170,31 +171,50 @@ ValueGradient BsplineBasis::evaluate(const Eigen::Ref<const Eigen::VectorXd>& co
   return result;
 }
 
-Eigen::MatrixXd BsplineBasis::thin_plate_penalty() const {
-  const Eigen::MatrixXd x0 = axis_gram(columns_x_, step_x_, values, 0);
-  const Eigen::MatrixXd x1 = axis_gram(columns_x_, step_x_, first_derivatives, 1);
-  const Eigen::MatrixXd x2 = axis_gram(columns_x_, step_x_, second_derivatives, 2);
-  const Eigen::MatrixXd y0 = axis_gram(columns_y_, step_y_, values, 0);
-  const Eigen::MatrixXd y1 = axis_gram(columns_y_, step_y_, first_derivatives, 1);
-  const Eigen::MatrixXd y2 = axis_gram(columns_y_, step_y_, second_derivatives, 2);
+Eigen::MatrixXd BsplineBasis::bending_penalty(int order) const {
+  if (order != 2 && order != 3) {
+    throw std::invalid_argument(
+        fmt::format("a bending penalty of order {}; known are 2 and 3", order));
+  }
+  constexpr std::array<Derivative, 4> kDerivatives = {
+      values, first_derivatives, second_derivatives, third_derivatives};
   Eigen::MatrixXd penalty = Eigen::MatrixXd::Zero(size(), size());
-  add_kronecker(penalty, 1.0, y0, x2);
-  add_kronecker(penalty, 2.0, y1, x1);
-  add_kronecker(penalty, 1.0, y2, x0);
+  double binomial = 1.0;
+  for (int in_y = 0; in_y <= order; ++in_y) {
+    const int in_x = order - in_y;
+    add_kronecker(
+        penalty,
+        binomial,
+        axis_gram(columns_y_, step_y_, kDerivatives[static_cast<std::size_t>(in_y)], in_y),
+        axis_gram(columns_x_, step_x_, kDerivatives[static_cast<std::size_t>(in_x)], in_x));
+    binomial *= static_cast<double>(order - in_y) / (in_y + 1);
+  }
   return penalty;
 }
 
-Eigen::MatrixXd BsplineBasis::plane_coefficients() const {
-  Eigen::MatrixXd planes(size(), 3);
+Eigen::MatrixXd BsplineBasis::polynomial_coefficients(int degree) const {
+  if (degree != 1 && degree != 2) {
+    throw std::invalid_argument(fmt::format("polynomials of degree {}; known are 1 and 2", degree));
+  }
+  // Marsden's identity (de Boor, chapter IX, (30)): a uniform cubic B-spline has a straight line's
+  // values at the knot averages for coefficients, and a parabola's less a third of the squared
+  // step.
+  const double step_u = 2.0 * step_x_ / rectangle_.width();
+  const double step_v = 2.0 * step_y_ / rectangle_.height();
+  Eigen::MatrixXd polynomials(size(), degree == 1 ? 3 : 6);
   for (Eigen::Index iy = 0; iy < columns_y_; ++iy) {
     for (Eigen::Index ix = 0; ix < columns_x_; ++ix) {
-      // A uniform cubic B-spline reproduces a straight line from its values at the knot averages.
-      const double u = static_cast<double>(ix - 1) * step_x_ / rectangle_.width();
-      const double v = static_cast<double>(iy - 1) * step_y_ / rectangle_.height();
-      planes.row(iy * columns_x_ + ix) << 1.0, 2.0 * u - 1.0, 2.0 * v - 1.0;
+      const double u = static_cast<double>(ix - 1) * step_u - 1.0;
+      const double v = static_cast<double>(iy - 1) * step_v - 1.0;
+      const Eigen::Index row = iy * columns_x_ + ix;
+      polynomials.row(row).head<3>() << 1.0, u, v;
+      if (degree == 2) {
+        polynomials.row(row).tail<3>() << u * u - step_u * step_u / 3.0, u * v,
+            v * v - step_v * step_v / 3.0;
+      }
     }
   }
-  return planes;
+  return polynomials;
 }
 
 }  // namespace chaintrue::interp

@@ -55,15 +55,23 @@ class BsplineBasis {
                                        double x,
                                        double y) const;
 
-  /// P with c' P c = integral over the rectangle of f_xx^2 + 2 f_xy^2 + f_yy^2 (exact). Symmetric,
-  /// positive semidefinite; its null space are the planes, so its rank is size() - 3. Unit:
-  /// 1/length^2.
-  [[nodiscard]] Eigen::MatrixXd thin_plate_penalty() const;
-  [[nodiscard]] Eigen::Index thin_plate_rank() const { return size() - 3; }
+  /// P with c' P c = integral over the rectangle of the squared derivatives of that order (exact):
+  /// 2 is the thin plate's f_xx^2 + 2 f_xy^2 + f_yy^2, 3 is f_xxx^2 + 3 f_xxy^2 + 3 f_xyy^2 +
+  /// f_yyy^2. Symmetric, positive semidefinite; its null space are the polynomials of lower degree.
+  /// Unit: length^(2 - 2 order). Throws std::invalid_argument for other orders.
+  [[nodiscard]] Eigen::MatrixXd bending_penalty(int order) const;
+  [[nodiscard]] Eigen::Index bending_rank(int order) const {
+    return size() - order * (order + 1) / 2;
+  }
 
-  /// The coefficients (size() x 3) of the planes 1, (x - x_centre) / half width, (y - y_centre) /
-  /// half height: the null space of the penalty.
-  [[nodiscard]] Eigen::MatrixXd plane_coefficients() const;
+  [[nodiscard]] Eigen::MatrixXd thin_plate_penalty() const { return bending_penalty(2); }
+  [[nodiscard]] Eigen::Index thin_plate_rank() const { return bending_rank(2); }
+
+  /// The coefficients of the polynomials up to a degree of 1 or 2, the null space of the penalties:
+  /// columns 1, u, v and, for degree 2, u^2, u v, v^2, with u = (x - x_centre) / half width and v
+  /// likewise. Throws std::invalid_argument for other degrees.
+  [[nodiscard]] Eigen::MatrixXd polynomial_coefficients(int degree) const;
+  [[nodiscard]] Eigen::MatrixXd plane_coefficients() const { return polynomial_coefficients(1); }
 
  private:
   Rectangle rectangle_;

@@ -67,7 +67,7 @@ void choose_intervals(const Rectangle& box, std::size_t points, ScatteredOptions
   if (options.intervals_x > 0 && options.intervals_y > 0) {
     return;
   }
-  const double cells = std::clamp(static_cast<double>(points) / 8.0, 32.0, 50.0);
+  const double cells = std::clamp(static_cast<double>(points) / 8.0, 32.0, 40.0);
   const double ratio = std::clamp(box.width() / box.height(), 0.125, 8.0);
   options.intervals_x = std::max(2, static_cast<int>(std::lround(std::sqrt(cells * ratio))));
   options.intervals_y = std::max(2, static_cast<int>(std::lround(std::sqrt(cells / ratio))));
@@ -104,9 +104,11 @@ class ScatteredFitter {
     // twentieth, and with no contradicted point the first round is the last.
     constexpr int kMostRounds = 5;
     tl::expected<PenalisedFit, FitRefusal> fit = solve();
+    bool judged = false;
     for (int round = 1; fit && options_.robust && round < kMostRounds; ++round) {
       leave_out_each(*fit);
-      if (!reweigh()) {
+      judged = !reweigh();
+      if (judged) {
         break;
       }
       fit = solve();
@@ -117,7 +119,9 @@ class ScatteredFitter {
                         : ScatteredRefusal::kNotConverged,
                     fit.error().sentence);
     }
-    leave_out_each(*fit);
+    if (!judged) {
+      leave_out_each(*fit);
+    }
     ScatteredSurface surface(basis_, std::move(*fit));
     judge(surface);
     const LeftOutErrors& e = surface.left_out_;

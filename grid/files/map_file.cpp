@@ -45,7 +45,7 @@ struct ModelPart {
 struct DirectPart {
   Numbers x_nodes_mm;
   Numbers y_nodes_mm;
-  std::vector<Numbers> left_mm;   // rows of constant x
+  std::vector<Numbers> left_mm;  // rows of constant x
   std::vector<Numbers> right_mm;
   interp::TensorEnds ends;
   double interpolation_sigma_mm = 0.0;
@@ -92,7 +92,8 @@ const Record<model::SheetPlacement>& sheet_record() {
       Record<model::SheetPlacement>("a sheet's placement")
           .required("x_mm", &model::SheetPlacement::x_mm, number(kPlaceMm))
           .required("y_mm", &model::SheetPlacement::y_mm, number(kPlaceMm))
-          .required("rotation_rad", &model::SheetPlacement::rotation_rad, number({"rad", -7.0, 7.0}));
+          .required(
+              "rotation_rad", &model::SheetPlacement::rotation_rad, number({"rad", -7.0, 7.0}));
   return record;
 }
 
@@ -108,7 +109,8 @@ const Record<SplinePart>& spline_record() {
           .required("coefficients_right_mm", &SplinePart::right_mm, numbers())
           .check([](const Cursor& at, SplinePart& part) {
             if (!at.clean()) return;
-            const auto size = static_cast<std::size_t>((part.x_intervals + 3) * (part.y_intervals + 3));
+            const auto size =
+                static_cast<std::size_t>((part.x_intervals + 3) * (part.y_intervals + 3));
             const std::string expected = fmt::format("{} coefficients, as the intervals say", size);
             if (part.left_mm.size() != size) at.child("coefficients_left_mm").expect(expected);
             if (part.right_mm.size() != size) at.child("coefficients_right_mm").expect(expected);
@@ -120,9 +122,12 @@ void check_model_part(const Cursor& at, ModelPart& part) {
   if (!at.clean()) return;
   const std::size_t unknowns = part.unknown_settings.size() + 2 + part.residual.left_mm.size() * 2;
   bool triangle = part.covariance_factor.size() == unknowns;
-  for (std::size_t i = 0; triangle && i < unknowns; ++i) triangle = part.covariance_factor[i].size() == i + 1;
+  for (std::size_t i = 0; triangle && i < unknowns; ++i)
+    triangle = part.covariance_factor[i].size() == i + 1;
   if (!triangle) {
-    at.child("covariance_factor").expect(fmt::format("the {} rows of a lower triangle, of 1 to {} numbers", unknowns, unknowns));
+    at.child("covariance_factor")
+        .expect(
+            fmt::format("the {} rows of a lower triangle, of 1 to {} numbers", unknowns, unknowns));
   }
 }
 
@@ -164,7 +169,9 @@ const Record<interp::TensorEnds>& ends_record() {
 }
 
 bool rises(const Numbers& values) {
-  return std::adjacent_find(values.begin(), values.end(), [](double a, double b) { return !(a < b); }) == values.end();
+  return std::adjacent_find(values.begin(), values.end(), [](double a, double b) {
+           return !(a < b);
+         }) == values.end();
 }
 
 void check_direct_part(const Cursor& at, DirectPart& part) {
@@ -173,10 +180,12 @@ void check_direct_part(const Cursor& at, DirectPart& part) {
   if (!rises(part.y_nodes_mm)) at.child("y_nodes_mm").expect("numbers that rise");
   const auto shape = [&](const std::vector<Numbers>& values) {
     return values.size() == part.x_nodes_mm.size() &&
-           std::all_of(values.begin(), values.end(),
-                       [&](const Numbers& column) { return column.size() == part.y_nodes_mm.size(); });
+           std::all_of(values.begin(), values.end(), [&](const Numbers& column) {
+             return column.size() == part.y_nodes_mm.size();
+           });
   };
-  const std::string expected = fmt::format("{} lists of {} lengths, one list for each x", part.x_nodes_mm.size(),
+  const std::string expected = fmt::format("{} lists of {} lengths, one list for each x",
+                                           part.x_nodes_mm.size(),
                                            part.y_nodes_mm.size());
   if (!shape(part.left_mm)) at.child("left_mm").expect(expected);
   if (!shape(part.right_mm)) at.child("right_mm").expect(expected);
@@ -190,38 +199,43 @@ const Record<DirectPart>& direct_part_record() {
           .required("left_mm", &DirectPart::left_mm, list(numbers(2), 2))
           .required("right_mm", &DirectPart::right_mm, list(numbers(2), 2))
           .required("ends", &DirectPart::ends, object(ends_record()))
-          .required("interpolation_sigma_mm", &DirectPart::interpolation_sigma_mm, number(kPositive))
+          .required(
+              "interpolation_sigma_mm", &DirectPart::interpolation_sigma_mm, number(kPositive))
           .check(check_direct_part);
   return record;
 }
 
 const Record<MapNoise>& noise_record() {
-  static const auto record = Record<MapNoise>("the noise that the fit went by")
-                                 .required("length_mm", &MapNoise::length_mm, number(kPositive))
-                                 .required("position_mm", &MapNoise::position_mm, number(kPositive))
-                                 .required("source", &MapNoise::source, one_of({"stated", "repeats", "fit", "assumed"}))
-                                 .required("factor_found", &MapNoise::factor_found, number(kPositive));
+  static const auto record =
+      Record<MapNoise>("the noise that the fit went by")
+          .required("length_mm", &MapNoise::length_mm, number(kPositive))
+          .required("position_mm", &MapNoise::position_mm, number(kPositive))
+          .required("source", &MapNoise::source, one_of({"stated", "repeats", "fit", "assumed"}))
+          .required("factor_found", &MapNoise::factor_found, number(kPositive));
   return record;
 }
 
 const Record<ErrorSummary>& summary_record() {
-  static const auto record = Record<ErrorSummary>("rms and maximum")
-                                 .required("rms_mm", &ErrorSummary::rms_mm, number(kPositive))
-                                 .required("maximum_mm", &ErrorSummary::maximum_mm, number(kPositive));
+  static const auto record =
+      Record<ErrorSummary>("rms and maximum")
+          .required("rms_mm", &ErrorSummary::rms_mm, number(kPositive))
+          .required("maximum_mm", &ErrorSummary::maximum_mm, number(kPositive));
   return record;
 }
 
 const Record<HeldOutError>& held_out_record() {
-  static const auto record = Record<HeldOutError>("held-out errors")
-                                 .required("chain", &HeldOutError::chain, object(summary_record()))
-                                 .required("tool", &HeldOutError::tool, object(summary_record()))
-                                 .required("tool_x_rms_mm", &HeldOutError::tool_x_rms_mm, number(kPositive))
-                                 .required("tool_y_rms_mm", &HeldOutError::tool_y_rms_mm, number(kPositive));
+  static const auto record =
+      Record<HeldOutError>("held-out errors")
+          .required("chain", &HeldOutError::chain, object(summary_record()))
+          .required("tool", &HeldOutError::tool, object(summary_record()))
+          .required("tool_x_rms_mm", &HeldOutError::tool_x_rms_mm, number(kPositive))
+          .required("tool_y_rms_mm", &HeldOutError::tool_y_rms_mm, number(kPositive));
   return record;
 }
 
 constexpr const char* kRelativeTo =
-    "leave_one_out and blocked: relative to the readings, whose noise they contain; expected_tool: one sigma, relative "
+    "leave_one_out and blocked: relative to the readings, whose noise they contain; expected_tool: "
+    "one sigma, relative "
     "to the true machine";
 
 const Record<MapAccuracy>& accuracy_record() {
@@ -257,7 +271,9 @@ template <class T>
 Record<T>& pair(Record<T>& record, const std::string& key, Eigen::Vector2d T::*member) {
   const Value<Numbers> value = list(number(kErrorMm), 2);
   return record.custom(
-      key, true, "a pair of numbers in mm",
+      key,
+      true,
+      "a pair of numbers in mm",
       [member, value](const Cursor& at, T& object) {
         const auto read = value.read(at);
         if (read && read->size() == 2) {
@@ -266,7 +282,10 @@ Record<T>& pair(Record<T>& record, const std::string& key, Eigen::Vector2d T::*m
           at.expect("a pair of numbers in mm");
         }
       },
-      [member](const T& object) { return std::optional<Json>(Json::array({(object.*member)[0] + 0.0, (object.*member)[1] + 0.0})); });
+      [member](const T& object) {
+        return std::optional<Json>(
+            Json::array({(object.*member)[0] + 0.0, (object.*member)[1] + 0.0}));
+      });
 }
 
 const Record<MapPoint>& point_record() {
@@ -274,7 +293,9 @@ const Record<MapPoint>& point_record() {
     Record<MapPoint> point("a measured point");
     const auto coordinate = [&point](const char* key, auto get) {
       point.custom(
-          key, true, "a number in mm",
+          key,
+          true,
+          "a number in mm",
           [get](const Cursor& at, MapPoint& p) {
             if (const auto value = at.number(kPlaceMm)) get(p) = *value;
           },
@@ -302,9 +323,12 @@ const Record<MirrorTest>& mirror_record() {
   static const auto record =
       Record<MirrorTest>("the mirror claim")
           .custom(
-              "points", true, "a count",
+              "points",
+              true,
+              "a count",
               [](const Cursor& at, MirrorTest& test) {
-                if (const auto count = at.integer(0, 1000000)) test.points = static_cast<std::size_t>(*count);
+                if (const auto count = at.integer(0, 1000000))
+                  test.points = static_cast<std::size_t>(*count);
               },
               [](const MirrorTest& test) { return std::optional<Json>(test.points); })
           .required("difference", &MirrorTest::difference, object(summary_record()))
@@ -329,20 +353,21 @@ void check_map(const Cursor& at, MapPart& map) {
 }
 
 const Record<MapPart>& map_record() {
-  static const auto record = Record<MapPart>("a chaintrue_map file", "chaintrue_map")
-                                 .optional("name", &MapPart::name, text())
-                                 .optional("on_machine", &MapPart::model, object(model_part_record()))
-                                 .optional("direct", &MapPart::direct, object(direct_part_record()))
-                                 .required("domain_mm", &MapPart::domain, object(rectangle_record()))
-                                 .required("hull", &MapPart::hull, list(object(place_record()), 3))
-                                 .required("edge_mm", &MapPart::edge_mm, number(kPositive))
-                                 .required("noise", &MapPart::noise, object(noise_record()))
-                                 .required("accuracy", &MapPart::accuracy, object(accuracy_record()))
-                                 .required("settings", &MapPart::settings, list(object(setting_record())))
-                                 .required("points", &MapPart::points, list(object(point_record())))
-                                 .optional("mirror", &MapPart::mirror, object(mirror_record()))
-                                 .required("notes", &MapPart::notes, list(text()))
-                                 .check(check_map);
+  static const auto record =
+      Record<MapPart>("a chaintrue_map file", "chaintrue_map")
+          .optional("name", &MapPart::name, text())
+          .optional("on_machine", &MapPart::model, object(model_part_record()))
+          .optional("direct", &MapPart::direct, object(direct_part_record()))
+          .required("domain_mm", &MapPart::domain, object(rectangle_record()))
+          .required("hull", &MapPart::hull, list(object(place_record()), 3))
+          .required("edge_mm", &MapPart::edge_mm, number(kPositive))
+          .required("noise", &MapPart::noise, object(noise_record()))
+          .required("accuracy", &MapPart::accuracy, object(accuracy_record()))
+          .required("settings", &MapPart::settings, list(object(setting_record())))
+          .required("points", &MapPart::points, list(object(point_record())))
+          .optional("mirror", &MapPart::mirror, object(mirror_record()))
+          .required("notes", &MapPart::notes, list(text()))
+          .check(check_map);
   return record;
 }
 
@@ -374,40 +399,48 @@ ModelPart part_of(const ModelSurface& surface) {
                    to_numbers(surface.residual.coefficients.right)};
   for (Eigen::Index i = 0; i < surface.covariance_factor.rows(); ++i) {
     Numbers row;
-    for (Eigen::Index j = 0; j <= i; ++j) row.push_back(seven_digits(surface.covariance_factor(i, j)));
+    for (Eigen::Index j = 0; j <= i; ++j)
+      row.push_back(seven_digits(surface.covariance_factor(i, j)));
     part.covariance_factor.push_back(std::move(row));
   }
   return part;
 }
 
 ModelSurface surface_of(const ModelPart& part) {
-  ModelSurface surface{part.machine,
-                       part.sheet,
-                       {interp::BsplineBasis(part.residual.rectangle, part.residual.x_intervals, part.residual.y_intervals),
-                        {part.residual.scale_left, part.residual.scale_right},
-                        {to_vector(part.residual.left_mm), to_vector(part.residual.right_mm)}},
-                       {},
-                       {},
-                       {}};
-  for (const std::string& word : part.unknown_settings) surface.settings.push_back(*model::setting_from_name(word));
-  surface.columns = {static_cast<Eigen::Index>(surface.settings.size()), surface.residual.basis.size()};
+  ModelSurface surface{
+      part.machine,
+      part.sheet,
+      {interp::BsplineBasis(
+           part.residual.rectangle, part.residual.x_intervals, part.residual.y_intervals),
+       {part.residual.scale_left, part.residual.scale_right},
+       {to_vector(part.residual.left_mm), to_vector(part.residual.right_mm)}},
+      {},
+      {},
+      {}};
+  for (const std::string& word : part.unknown_settings)
+    surface.settings.push_back(*model::setting_from_name(word));
+  surface.columns = {static_cast<Eigen::Index>(surface.settings.size()),
+                     surface.residual.basis.size()};
   const Eigen::Index unknowns = surface.columns.total();
   surface.covariance_factor = Eigen::MatrixXd::Zero(unknowns, unknowns);
   for (Eigen::Index i = 0; i < unknowns; ++i) {
     const Numbers& row = part.covariance_factor[static_cast<std::size_t>(i)];
-    for (Eigen::Index j = 0; j <= i; ++j) surface.covariance_factor(i, j) = row[static_cast<std::size_t>(j)];
+    for (Eigen::Index j = 0; j <= i; ++j)
+      surface.covariance_factor(i, j) = row[static_cast<std::size_t>(j)];
   }
   return surface;
 }
 
 std::vector<Numbers> to_lists(const Eigen::MatrixXd& values) {
   std::vector<Numbers> lists;
-  for (Eigen::Index i = 0; i < values.rows(); ++i) lists.push_back(to_numbers(values.row(i).transpose()));
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+    lists.push_back(to_numbers(values.row(i).transpose()));
   return lists;
 }
 
 Eigen::MatrixXd to_matrix(const std::vector<Numbers>& lists) {
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(lists.size()), static_cast<Eigen::Index>(lists.front().size()));
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(lists.size()),
+                         static_cast<Eigen::Index>(lists.front().size()));
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
     values.row(i) = to_vector(lists[static_cast<std::size_t>(i)]).transpose();
   }
@@ -415,14 +448,28 @@ Eigen::MatrixXd to_matrix(const std::vector<Numbers>& lists) {
 }
 
 MapPart part_of(const MapContents& map) {
-  MapPart part{map.name,     std::nullopt, std::nullopt, map.hull,   map.edge_mm, map.domain, map.noise,
-               map.accuracy, map.settings, map.points,   map.mirror, map.notes};
+  MapPart part{map.name,
+               std::nullopt,
+               std::nullopt,
+               map.hull,
+               map.edge_mm,
+               map.domain,
+               map.noise,
+               map.accuracy,
+               map.settings,
+               map.points,
+               map.mirror,
+               map.notes};
   if (const auto* model = std::get_if<ModelSurface>(&map.surface)) {
     part.model = part_of(*model);
   } else {
     const auto& direct = std::get<DirectSurface>(map.surface);
-    part.direct = DirectPart{direct.x_nodes_mm, direct.y_nodes_mm, to_lists(direct.lengths_mm.left),
-                             to_lists(direct.lengths_mm.right), direct.ends, direct.interpolation_sigma_mm};
+    part.direct = DirectPart{direct.x_nodes_mm,
+                             direct.y_nodes_mm,
+                             to_lists(direct.lengths_mm.left),
+                             to_lists(direct.lengths_mm.right),
+                             direct.ends,
+                             direct.interpolation_sigma_mm};
   }
   return part;
 }
@@ -461,6 +508,8 @@ CompensationMap read_map(const std::filesystem::path& path) {
   return parse_map(read_whole_file(path), name_in_messages(path));
 }
 
-std::string write_map(const CompensationMap& map) { return write_document(map_record(), part_of(map.contents())); }
+std::string write_map(const CompensationMap& map) {
+  return write_document(map_record(), part_of(map.contents()));
+}
 
 }  // namespace chaintrue::grid::files

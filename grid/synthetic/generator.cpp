@@ -189,16 +189,33 @@ Machine with_effects(const Machine& stated, const std::vector<model::AppliedEffe
   return machine;
 }
 
+SyntheticTruth truth_of(const Machine& stated, const SyntheticSpec& spec) {
+  SyntheticTruth truth;
+  truth.machine = with_effects(stated, spec.hidden);
+  truth.offsets = drawn_offsets(stated, spec);
+  for (const SettingOffset& offset : truth.offsets) {
+    offset_setting(truth.machine, truth.sheet, offset);
+  }
+  return truth;
+}
+
+ChainLengths unmodelled(const model::Bed& bed, BedPoint place) {
+  const double u = std::numbers::pi * place.x_mm / bed.width_mm;
+  const double v = std::numbers::pi * place.y_mm / bed.height_mm;
+  return {std::sin(1.3 * u + 0.4) * std::cos(1.1 * v - 0.3),
+          std::cos(1.2 * u - 0.7) * std::sin(1.4 * v + 0.2)};
+}
+
 tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
                                                          const SyntheticSpec& spec) {
   SyntheticSession session;
   SyntheticAnswer& answer = session.answer;
   answer.seed = spec.seed;
   answer.hidden = spec.hidden;
-  answer.machine = with_effects(stated, spec.hidden);
-  answer.offsets = drawn_offsets(stated, spec);
-  for (const SettingOffset& offset : answer.offsets)
-    offset_setting(answer.machine, answer.sheet, offset);
+  SyntheticTruth truth = truth_of(stated, spec);
+  answer.machine = std::move(truth.machine);
+  answer.offsets = std::move(truth.offsets);
+  answer.sheet = truth.sheet;
 
   Random mark_random(spec.seed, kMarks);
   Random order_random(spec.seed, kOrder);
@@ -220,6 +237,11 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
         UnreachableMark{visits[lengths.error().index].position, lengths.error().reason});
   }
   answer.lengths = *lengths;
+  for (std::size_t i = 0; spec.unmodelled_mm != 0.0 && i < visits.size(); ++i) {
+    const ChainLengths added = unmodelled(stated.bed, visits[i].position);
+    answer.lengths[i].left_mm += spec.unmodelled_mm * added.left_mm;
+    answer.lengths[i].right_mm += spec.unmodelled_mm * added.right_mm;
+  }
   const model::Paper paper(answer.machine);
   std::vector<BedPoint> written;
   for (const BedPoint& place : answer.places)
@@ -228,7 +250,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   session.grid.machine = stated;
   session.grid.noise = stated_noise(spec);
   session.grid.sheet = spec.sheet;
-  session.grid.points = written_down(written, *lengths, spec, answer.bad_points);
+  session.grid.points = written_down(written, answer.lengths, spec, answer.bad_points);
   for (const std::size_t point : miscounted(answer.machine, visits))
     answer.bad_points.push_back(point);
   std::sort(answer.bad_points.begin(), answer.bad_points.end());

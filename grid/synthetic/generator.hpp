@@ -74,8 +74,23 @@ struct SyntheticSpec {
   /// The sheet was placed by hand, this well: its true place is drawn and the grid says so.
   std::optional<SheetUncertainty> sheet;
   model::Model model = model::Model::elastic;
+  /// Amplitude of a smooth disturbance of both chains that no model has (unmodelled()).
+  double unmodelled_mm = 0.0;
   std::uint64_t seed = 1;
 };
+
+/// That disturbance for an amplitude of 1 mm: half a wave and a bit along each axis of the bed,
+/// another on either chain.
+[[nodiscard]] model::ChainLengths unmodelled(const model::Bed& bed, model::BedPoint place);
+
+/// The machine as it truly is: hidden effects appended, settings offset and drawn; and where its
+/// sheet lies.
+struct SyntheticTruth {
+  model::Machine machine;
+  std::vector<SettingOffset> offsets;
+  model::SheetPlacement sheet;
+};
+[[nodiscard]] SyntheticTruth truth_of(const model::Machine& stated, const SyntheticSpec& spec);
 
 /// What was hidden.
 struct SyntheticAnswer {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What few points are worth on a machine that no model describes to the end. Truth: the default machine with its motors
-// 3 mm beside where they are stated, elastic catenary, plus smooth terms of 0.8 mm that stand for what nobody modelled.
+// What few points are worth on a machine that no model describes to the end. Truth: the default
+// machine with its motors 3 mm beside where they are stated, elastic catenary, plus smooth terms of
+// 0.8 mm that stand for what nobody modelled.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +50,8 @@ std::vector<BedPoint> marks(const Layout& layout) {
   std::vector<BedPoint> result;
   for (int iy = 0; iy < layout.rows; ++iy) {
     for (int ix = 0; ix < layout.columns; ++ix) {
-      result.push_back({half_x * (2.0 * ix / (layout.columns - 1) - 1.0), half_y * (2.0 * iy / (layout.rows - 1) - 1.0)});
+      result.push_back({half_x * (2.0 * ix / (layout.columns - 1) - 1.0),
+                        half_y * (2.0 * iy / (layout.rows - 1) - 1.0)});
     }
   }
   return result;
@@ -58,7 +60,8 @@ std::vector<BedPoint> marks(const Layout& layout) {
 grid::MeasuredGrid measured(const std::vector<BedPoint>& places) {
   grid::MeasuredGrid grid;
   grid.machine = model::Machine{};
-  for (BedPoint place : places) grid.points.push_back({place, truth_at(place), std::nullopt, std::nullopt});
+  for (BedPoint place : places)
+    grid.points.push_back({place, truth_at(place), std::nullopt, std::nullopt});
   return grid;
 }
 
@@ -91,7 +94,8 @@ BedError error_of(const CompensationMap& map) {
       const double right = answer->lengths.right_mm - truth.right_mm;
       error.largest_mm = std::max({error.largest_mm, std::abs(left), std::abs(right)});
       squares += left * left + right * right;
-      covered += (std::abs(left) <= 1.96 * answer->sigma.left_mm) + (std::abs(right) <= 1.96 * answer->sigma.right_mm);
+      covered += (std::abs(left) <= 1.96 * answer->sigma.left_mm) +
+                 (std::abs(right) <= 1.96 * answer->sigma.right_mm);
       count += 2;
     }
   }
@@ -115,8 +119,11 @@ class ModelSurface : public testing::TestWithParam<Figure> {};
 
 TEST_P(ModelSurface, MeetsAMachineThatNoModelDescribes) {
   const BedError error = error_of(fitted(measured(marks(GetParam().layout))));
-  fmt::print("{}x{}, points on their marks: {:.4f} mm at most, {:.4f} mm rms\n", GetParam().layout.rows,
-             GetParam().layout.columns, error.largest_mm, error.rms_mm);
+  fmt::print("{}x{}, points on their marks: {:.4f} mm at most, {:.4f} mm rms\n",
+             GetParam().layout.rows,
+             GetParam().layout.columns,
+             error.largest_mm,
+             error.rms_mm);
   EXPECT_LE(error.largest_mm, GetParam().exact_largest_mm);
 }
 
@@ -133,8 +140,10 @@ TEST_P(ModelSurface, TakesTheSledWhereItStood) {
     }
     rms += error_of(fitted(measured(places))).rms_mm / kDraws;
   }
-  fmt::print("{}x{}, sled up to 20 mm beside the marks: {:.4f} mm rms\n", GetParam().layout.rows,
-             GetParam().layout.columns, rms);
+  fmt::print("{}x{}, sled up to 20 mm beside the marks: {:.4f} mm rms\n",
+             GetParam().layout.rows,
+             GetParam().layout.columns,
+             rms);
   EXPECT_LE(rms, GetParam().beside_rms_mm);
 }
 
@@ -154,40 +163,50 @@ TEST_P(ModelSurface, IsHonestAboutNoisyLengths) {
     rms += error.rms_mm / kDraws;
     covered += error.covered / kDraws;
   }
-  fmt::print("{}x{}, 0.3 mm noise: {:.4f} mm rms, 95 % intervals cover {:.1f} %\n", GetParam().layout.rows,
-             GetParam().layout.columns, rms, 100.0 * covered);
+  fmt::print("{}x{}, 0.3 mm noise: {:.4f} mm rms, 95 % intervals cover {:.1f} %\n",
+             GetParam().layout.rows,
+             GetParam().layout.columns,
+             rms,
+             100.0 * covered);
   EXPECT_LE(rms, GetParam().noisy_rms_mm);
   EXPECT_GE(covered, 0.92);
   EXPECT_LE(covered, 0.98);
 }
 
-INSTANTIATE_TEST_SUITE_P(FewPoints, ModelSurface,
-                         testing::Values(Figure{{4, 7}, 0.040, 0.020, 0.19}, Figure{{5, 9}, 0.010, 0.010, 0.145},
+INSTANTIATE_TEST_SUITE_P(FewPoints,
+                         ModelSurface,
+                         testing::Values(Figure{{4, 7}, 0.040, 0.020, 0.19},
+                                         Figure{{5, 9}, 0.010, 0.010, 0.145},
                                          Figure{{7, 13}, 0.005, 0.004, 0.115}),
                          [](const auto& figure) {
-                           return fmt::format("{}x{}", figure.param.layout.rows, figure.param.layout.columns);
+                           return fmt::format(
+                               "{}x{}", figure.param.layout.rows, figure.param.layout.columns);
                          });
 
 TEST(ModelSurfaceGaps, OneMissingNodeCostsLittle) {
   const auto whole = marks({5, 9});
   double largest = 0.0;
-  for (std::size_t missing : {std::size_t{0}, std::size_t{8}, std::size_t{4}, std::size_t{22}, std::size_t{44}}) {
+  for (std::size_t missing :
+       {std::size_t{0}, std::size_t{8}, std::size_t{4}, std::size_t{22}, std::size_t{44}}) {
     auto places = whole;
     places.erase(places.begin() + static_cast<std::ptrdiff_t>(missing));
     const CompensationMap map = fitted(measured(places));
     const auto answer = map.query(whole[missing]);
     ASSERT_TRUE(answer);
     const ChainLengths truth = truth_at(whole[missing]);
-    largest = std::max({largest, std::abs(answer->lengths.left_mm - truth.left_mm),
+    largest = std::max({largest,
+                        std::abs(answer->lengths.left_mm - truth.left_mm),
                         std::abs(answer->lengths.right_mm - truth.right_mm)});
   }
-  fmt::print("5x9 with one node missing (corners, an edge, the middle): {:.4f} mm there\n", largest);
+  fmt::print("5x9 with one node missing (corners, an edge, the middle): {:.4f} mm there\n",
+             largest);
   EXPECT_LE(largest, 0.02);
 }
 
 TEST(ModelSurfaceGaps, AGridThatEndsShortOfTheBedCarriesToItsEdge) {
   const BedError error = error_of(fitted(measured(marks({5, 9, 100.0}))));
-  fmt::print("5x9 ending 100 mm inside the bed: {:.4f} mm at most over the bed\n", error.largest_mm);
+  fmt::print("5x9 ending 100 mm inside the bed: {:.4f} mm at most over the bed\n",
+             error.largest_mm);
   EXPECT_LE(error.largest_mm, 0.05);
 }
 

@@ -307,6 +307,23 @@ TEST(Generator, WritesThePaperInTheSheetsFrame) {
   }
 }
 
+TEST(Generator, AddsADisturbanceThatNoModelHas) {
+  SyntheticSpec spec;
+  const SyntheticSession plain = session_of(spec);
+  spec.unmodelled_mm = 0.8;
+  const SyntheticSession disturbed = session_of(spec);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < plain.grid.points.size(); ++i) {
+    const double added =
+        disturbed.grid.points[i].lengths->left_mm - plain.grid.points[i].lengths->left_mm;
+    // Rounding of lengths of 3000 mm.
+    EXPECT_NEAR(added, 0.8 * unmodelled(model::Bed{}, plain.answer.places[i]).left_mm, 1e-12);
+    largest = std::max(largest, std::abs(added));
+  }
+  EXPECT_GT(largest, 0.4);
+  EXPECT_LE(largest, 0.8);
+}
+
 TEST(Generator, NamesTheMarkThatCannotBeReached) {
   SyntheticSpec spec;
   spec.design.kind = DesignKind::given;

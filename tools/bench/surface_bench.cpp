@@ -75,9 +75,31 @@ void per_point(benchmark::State& state, std::size_t points) {
       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-void value_gradient(benchmark::State& state, int nx, int ny, bool plain) {
+// A serpentine over the whole bed in steps of 0.5 mm, as a tool moves.
+std::vector<PlanePoint> path_points(std::size_t count) {
+  std::vector<PlanePoint> points;
+  double x = kBed.x_min;
+  double y = kBed.y_min;
+  double step = 0.5;
+  for (std::size_t k = 0; k < count; ++k) {
+    points.push_back({x, y});
+    x += step;
+    if (x > kBed.x_max || x < kBed.x_min) {
+      step = -step;
+      x += step;
+      y += 87.0;
+    }
+  }
+  return points;
+}
+
+enum class Order { kRandom, kPath };
+
+void value_gradient(
+    benchmark::State& state, int nx, int ny, bool plain, Order order = Order::kRandom) {
   const CompiledPair surfaces = table(sample(nx, ny));
-  const auto points = random_points(64 * kBlock);
+  const auto points =
+      order == Order::kRandom ? random_points(64 * kBlock) : path_points(64 * kBlock);
   std::vector<PairGradient> results(kBlock);
   force_plain_instructions(plain);
   state.SetLabel(compiled_pair_instructions());
@@ -270,6 +292,8 @@ const bool registered = [] {
     };
     add("surface/value_gradient/" + name,
         [=](benchmark::State& s) { value_gradient(s, nx, ny, false); });
+    add("surface/value_gradient_path/" + name,
+        [=](benchmark::State& s) { value_gradient(s, nx, ny, false, Order::kPath); });
     add("surface/value_gradient_plain/" + name,
         [=](benchmark::State& s) { value_gradient(s, nx, ny, true); });
     add("surface/alglib/value_gradient/" + name,

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/sweep_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "grid/files/json_reader.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/machine_record.hpp"
+#include "grid/files/whole_file.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+namespace fs = std::filesystem;
+using model::Model;
+using sweep::EffectsLevel;
+using sweep::GridLevel;
+using sweep::NoiseLevel;
+using sweep::SweepSpec;
+using sweep::UseLevel;
+using synthetic::DesignKind;
+
+struct StatedMachine {
+  std::string name;
+  std::string machine_file;
+  std::string stated_file;
+  Model model = Model::elastic;
+  double unmodelled_mm = 0.0;
+};
+
+/// The file as it stands.
+struct StatedSweep {
+  SweepSpec spec;
+  std::vector<StatedMachine> machines;
+};
+
+std::optional<GridLevel> parse_size(const std::string& text, int least) {
+  GridLevel size;
+  const char* const end = text.data() + text.size();
+  const auto [middle, first_error] = std::from_chars(text.data(), end, size.columns);
+  if (first_error != std::errc{} || middle == end || *middle != 'x') return std::nullopt;
+  const auto [last, second_error] = std::from_chars(middle + 1, end, size.rows);
+  constexpr int kMost = 1000;
+  const bool in_range =
+      size.columns >= least && size.rows >= least && size.columns <= kMost && size.rows <= kMost;
+  if (second_error != std::errc{} || last != end || !in_range) return std::nullopt;
+  return size;
+}
+
+Value<GridLevel> grid_size(int least) {
+  const std::string expected = fmt::format("columns x rows, each {} to 1000, as in \"7x4\"", least);
+  return {[expected, least](const Cursor& at) -> std::optional<GridLevel> {
+            const auto word = at.text();
+            if (!word) return std::nullopt;
+            const auto size = parse_size(*word, least);
+            if (!size) at.expect(expected);
+            return size;
+          },
+          [](const GridLevel& size) { return Json(fmt::format("{}x{}", size.columns, size.rows)); },
+          expected};
+}
+
+const Record<NoiseLevel>& noise_record() {
+  static const auto record =
+      Record<NoiseLevel>("a noise")
+          .required("length_mm", &NoiseLevel::length_mm, number({"mm", 0.0, 100.0}))
+          .required("position_mm", &NoiseLevel::position_mm, number({"mm", 0.0, 100.0}));
+  return record;
+}
+
+const Record<StatedMachine>& stated_machine_record() {
+  static const auto record =
+      Record<StatedMachine>("a machine")
+          .required("name", &StatedMachine::name, text())
+          .required("machine_file", &StatedMachine::machine_file, text())
+          .sparse("stated_file", &StatedMachine::stated_file, text())
+          .optional("model",
+                    &StatedMachine::model,
+                    choice<Model>({{"straight", Model::straight},
+                                   {"wrap", Model::wrap},
+                                   {"firmware", Model::firmware},
+                                   {"one_shot", Model::one_shot},
+                                   {"inextensible", Model::inextensible},
+                                   {"elastic", Model::elastic},
+                                   {"elastic_3d", Model::elastic_3d}}))
+          .optional("unmodelled_mm", &StatedMachine::unmodelled_mm, number({"mm", 0.0, 100.0}));
+  return record;
+}
+
+const Record<EffectsLevel>& effects_record() {
+  static const auto record =
+      Record<EffectsLevel>("hidden effects")
+          .required("name", &EffectsLevel::name, text())
+          .required("effects", &EffectsLevel::effects, list(object(effect_record())));
+  return record;
+}
+
+const Record<UseLevel>& use_record() {
+  static const auto record =
+      Record<UseLevel>("a machine that the map is used on")
+          .required("name", &UseLevel::name, text())
+          .sparse("effects", &UseLevel::effects, list(object(effect_record())))
+          .optional("another_of_the_build", &UseLevel::another_of_the_build, boolean());
+  return record;
+}
+
+/// A field of the specification inside the file as it stands.
+template <class V>
+void add_to(Record<StatedSweep>& record,
+            const std::string& key,
+            bool is_required,
+            V SweepSpec::*member,
+            Value<V> value) {
+  record.custom(
+      key,
+      is_required,
+      value.expected,
+      [member, value](const Cursor& at, StatedSweep& stated) {
+        if (auto read = value.read(at)) stated.spec.*member = std::move(*read);
+      },
+      [member, value](const StatedSweep& stated) {
+        return std::optional<Json>(value.write(stated.spec.*member));
+      });
+}
+
+Record<StatedSweep> make_record() {
+  auto record = Record<StatedSweep>("a chaintrue_sweep file", "chaintrue_sweep");
+  add_to(record, "name", true, &SweepSpec::name, text());
+  add_to(record, "question", false, &SweepSpec::question, text());
+  record.custom(
+      "seed",
+      false,
+      "a whole number from 0",
+      [](const Cursor& at, StatedSweep& stated) {
+        if (const auto seed = at.integer(0, 2'000'000'000))
+          stated.spec.seed = static_cast<std::uint64_t>(*seed);
+      },
+      [](const StatedSweep& stated) { return std::optional<Json>(stated.spec.seed); });
+  add_to(record, "repetitions", true, &SweepSpec::repetitions, integer(1, 1'000'000));
+  add_to(record, "repeats", false, &SweepSpec::repeats, integer(0, 10'000));
+  add_to(record, "draw_settings", false, &SweepSpec::draw_settings, boolean());
+  const auto raster = grid_size(1);
+  record.custom(
+      "evaluation",
+      false,
+      raster.expected,
+      [raster](const Cursor& at, StatedSweep& stated) {
+        if (const auto size = raster.read(at)) {
+          stated.spec.evaluation_columns = size->columns;
+          stated.spec.evaluation_rows = size->rows;
+        }
+      },
+      [raster](const StatedSweep& stated) {
+        return std::optional<Json>(
+            raster.write({stated.spec.evaluation_columns, stated.spec.evaluation_rows}));
+      });
+  add_to(record, "grids", false, &SweepSpec::grids, list(grid_size(2), 1));
+  add_to(record,
+         "spacings",
+         false,
+         &SweepSpec::spacings,
+         list(choice<DesignKind>(
+                  {{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}}),
+              1));
+  add_to(record, "noises", false, &SweepSpec::noises, list(object(noise_record()), 1));
+  add_to(record, "jitters_mm", false, &SweepSpec::jitters_mm, list(number({"mm", 0.0, 1000.0}), 1));
+  add_to(record,
+         "surfaces",
+         false,
+         &SweepSpec::surfaces,
+         list(choice<SurfaceKind>(
+                  {{"residual", SurfaceKind::residual}, {"direct", SurfaceKind::direct}}),
+              1));
+  record.required("machines", &StatedSweep::machines, list(object(stated_machine_record()), 1));
+  add_to(record, "effects", false, &SweepSpec::effects, list(object(effects_record()), 1));
+  add_to(record, "used_on", false, &SweepSpec::uses, list(object(use_record()), 1));
+  return record;
+}
+
+const Record<StatedSweep>& sweep_record() {
+  static const auto record = make_record();
+  return record;
+}
+
+void fill_defaults(SweepSpec& spec) {
+  if (spec.grids.empty()) spec.grids = {GridLevel{}};
+  if (spec.spacings.empty()) spec.spacings = {DesignKind::regular};
+  if (spec.noises.empty()) spec.noises = {NoiseLevel{}};
+  if (spec.jitters_mm.empty()) spec.jitters_mm = {0.0};
+  if (spec.surfaces.empty()) spec.surfaces = {SurfaceKind::residual};
+  if (spec.effects.empty()) spec.effects = {{"none", {}}};
+  if (spec.uses.empty()) spec.uses = {{"the same machine", {}, false}};
+}
+
+model::Machine machine_beside(const fs::path& file, const std::string& name, Problems& problems) {
+  try {
+    return read_machine(file.parent_path() / name);
+  } catch (const InputError& error) {
+    problems.add_all(error);
+    return {};
+  }
+}
+
+void read_machines(const fs::path& path, StatedSweep& stated, Problems& problems) {
+  for (const StatedMachine& from : stated.machines) {
+    sweep::MachineLevel level{from.name, {}, {}, from.model, from.unmodelled_mm};
+    level.truth = machine_beside(path, from.machine_file, problems);
+    level.stated =
+        from.stated_file.empty() ? level.truth : machine_beside(path, from.stated_file, problems);
+    stated.spec.machines.push_back(level);
+  }
+}
+
+/// Every effect must be able to act on every machine it meets.
+void check_effects(const SweepSpec& spec, Problems& problems) {
+  const auto check = [&](const std::string& list,
+                         std::size_t index,
+                         const std::vector<model::AppliedEffect>& effects) {
+    for (const sweep::MachineLevel& level : spec.machines) {
+      model::Machine machine = level.truth;
+      machine.effects = effects;
+      for (const model::MachineProblem& problem : model::effects::problems_of_effects(machine)) {
+        const std::string place = fmt::format("/{}/{}{}", list, index, problem.parameter);
+        if (!problems.at_or_below(place)) problems.add(place, problem.value, problem.expected);
+      }
+    }
+  };
+  for (std::size_t i = 0; i < spec.effects.size(); ++i)
+    check("effects", i, spec.effects[i].effects);
+  for (std::size_t i = 0; i < spec.uses.size(); ++i) check("used_on", i, spec.uses[i].effects);
+}
+
+// FNV-1a, 64 bits.
+std::uint64_t hash_of(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+Json median_and_worst(const std::vector<sweep::CellResult>& done,
+                      double sweep::CellResult::*member) {
+  std::vector<double> values;
+  for (const sweep::CellResult& result : done) values.push_back(result.*member);
+  return {{"median", median(values)}, {"worst", *std::max_element(values.begin(), values.end())}};
+}
+
+}  // namespace
+
+ReadSweep read_sweep(const fs::path& path) {
+  Problems problems(name_in_messages(path));
+  StatedSweep stated = read_document(sweep_record(), read_whole_file(path), problems);
+  fill_defaults(stated.spec);
+  read_machines(path, stated, problems);
+  problems.throw_if_any();
+  check_effects(stated.spec, problems);
+  problems.throw_if_any();
+  std::string depends_on = write_document(sweep_record(), stated);
+  for (const sweep::MachineLevel& level : stated.spec.machines) {
+    depends_on += write_machine(level.truth) + write_machine(level.stated);
+  }
+  return {stated.spec, hash_of(depends_on)};
+}
+
+std::string sweep_summary_head(const SweepSpec& spec) {
+  return fmt::format(
+      "{{\n  \"file_type\": \"chaintrue_sweep_summary\",\n  \"format_version\": \"1.0\",\n  "
+      "\"name\": {},\n"
+      "  \"question\": {},\n  \"repetitions\": {},\n  \"combinations\": [\n",
+      compact_json(spec.name),
+      compact_json(spec.question),
+      spec.repetitions);
+}
+
+std::string sweep_summary_line(const SweepSpec& spec,
+                               const sweep::Levels& levels,
+                               const std::vector<sweep::CellResult>& repetitions) {
+  Json line = Json::object();
+  for (std::size_t factor = 0; factor < sweep::kFactors; ++factor) {
+    line[std::string(sweep::kFactorNames[factor])] = level_name(spec, factor, levels[factor]);
+  }
+  const GridLevel& grid = spec.grids[levels[sweep::kFactors - 1]];
+  line["points"] = grid.columns * grid.rows;
+  std::vector<sweep::CellResult> done;
+  for (const sweep::CellResult& result : repetitions) {
+    if (result.status == sweep::CellStatus::done) done.push_back(result);
+  }
+  line["done"] = done.size();
+  if (!done.empty()) {
+    line["chain_rms_mm"] = median_and_worst(done, &sweep::CellResult::chain_rms_mm);
+    line["chain_max_mm"] = median_and_worst(done, &sweep::CellResult::chain_max_mm);
+    line["tool_rms_mm"] = median_and_worst(done, &sweep::CellResult::tool_rms_mm);
+    line["tool_max_mm"] = median_and_worst(done, &sweep::CellResult::tool_max_mm);
+    line["expected_tool_rms_mm"] = median_and_worst(done, &sweep::CellResult::expected_tool_rms_mm);
+  }
+  return "    " + compact_json(line);
+}
+
+std::string sweep_summary_tail() { return "  ]\n}\n"; }
+
+}  // namespace chaintrue::grid::files

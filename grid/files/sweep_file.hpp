@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue_sweep files: the specification of a sweep, and the lines of its summary.
+///
+///   { "file_type": "chaintrue_sweep", "format_version": "1.0",
+///     "name": "how many points", "question": "How many points do I need?",
+///     "seed": 1, "repetitions": 50, "repeats": 6, "draw_settings": true,
+///     "evaluation": "40x25",                                      // raster that maps are held
+///     against the truth on "grids": ["4x3", "7x4"], "spacings": ["regular", "chebyshev"],
+///     "noises": [{"length_mm": 0.2, "position_mm": 0.3}], "jitters_mm": [8], "surfaces":
+///     ["residual", "direct"], "machines": [{"name": "classic", "machine_file":
+///     "../machines/classic.json",
+///                   "stated_file": "...", "model": "elastic", "unmodelled_mm": 0.8}],
+///     "effects": [{"name": "none", "effects": []}],
+///     "used_on": [{"name": "the same machine", "effects": [], "another_of_the_build": false}] }
+///
+/// Every list but `machines` may be left out; paths are relative to the file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "grid/sweep/sweep_spec.hpp"
+
+namespace chaintrue::grid::files {
+
+struct ReadSweep {
+  sweep::SweepSpec spec;
+  /// Of everything that the results depend on, machines included.
+  std::uint64_t hash = 0;
+};
+
+/// \throws InputError with every problem of the file.
+[[nodiscard]] ReadSweep read_sweep(const std::filesystem::path& path);
+
+/// The pieces of summary.json, written one after the other: head, a line a combination with commas
+/// between, tail.
+[[nodiscard]] std::string sweep_summary_head(const sweep::SweepSpec& spec);
+[[nodiscard]] std::string sweep_summary_line(const sweep::SweepSpec& spec,
+                                             const sweep::Levels& levels,
+                                             const std::vector<sweep::CellResult>& repetitions);
+[[nodiscard]] std::string sweep_summary_tail();
+
+}  // namespace chaintrue::grid::files

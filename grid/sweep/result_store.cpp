@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/sweep/result_store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include "grid/files/input_error.hpp"
+
+namespace chaintrue::grid::sweep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMagic = 0x31534c4c45435443U;  // "CTCELLS1"
+constexpr std::size_t kWords = 8;
+// cell, status, five values, checksum
+using Record = std::array<std::uint64_t, kWords>;
+constexpr std::size_t kRecordBytes = sizeof(Record);
+
+std::uint64_t checksum(const Record& record) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (std::size_t i = 0; i + 1 < kWords; ++i) {
+    hash = (hash ^ record[i]) * 0x100000001b3U;
+    hash ^= hash >> 29U;
+  }
+  return hash;
+}
+
+Record record_of(std::uint64_t cell, const CellResult& r) {
+  Record record{cell,
+                static_cast<std::uint64_t>(r.status),
+                std::bit_cast<std::uint64_t>(r.chain_rms_mm),
+                std::bit_cast<std::uint64_t>(r.chain_max_mm),
+                std::bit_cast<std::uint64_t>(r.tool_rms_mm),
+                std::bit_cast<std::uint64_t>(r.tool_max_mm),
+                std::bit_cast<std::uint64_t>(r.expected_tool_rms_mm),
+                0};
+  record.back() = checksum(record);
+  return record;
+}
+
+CellResult result_of(const Record& record) {
+  CellResult r;
+  r.status = static_cast<CellStatus>(record[1]);
+  r.chain_rms_mm = std::bit_cast<double>(record[2]);
+  r.chain_max_mm = std::bit_cast<double>(record[3]);
+  r.tool_rms_mm = std::bit_cast<double>(record[4]);
+  r.tool_max_mm = std::bit_cast<double>(record[5]);
+  r.expected_tool_rms_mm = std::bit_cast<double>(record[6]);
+  return r;
+}
+
+Record header_of(std::uint64_t spec_hash) {
+  Record header{kMagic, spec_hash};
+  header.back() = checksum(header);
+  return header;
+}
+
+[[noreturn]] void refuse(const fs::path& path,
+                         const std::string& value,
+                         const std::string& expected) {
+  throw files::InputError({{path.string(), "", value, expected}});
+}
+
+bool read_record(std::istream& in, Record& record) {
+  in.read(reinterpret_cast<char*>(record.data()), kRecordBytes);
+  return in.gcount() == static_cast<std::streamsize>(kRecordBytes);
+}
+
+fs::path parts_of(const fs::path& directory) { return directory / "parts"; }
+
+}  // namespace
+
+PartWriter::PartWriter(const fs::path& directory, const std::string& name, std::uint64_t spec_hash)
+    : path_(parts_of(directory) / (name + ".cells")) {
+  std::error_code error;
+  fs::create_directories(parts_of(directory), error);
+  const bool exists = fs::exists(path_, error);
+  const std::uintmax_t size = exists ? fs::file_size(path_, error) : 0;
+  if (exists && size % kRecordBytes != 0)
+    fs::resize_file(path_, size / kRecordBytes * kRecordBytes, error);
+  file_.reset(std::fopen(path_.c_str(), "ab"));
+  if (!file_) refuse(path_, "", "a folder that can be written to");
+  if (size < kRecordBytes) {
+    const Record header = header_of(spec_hash);
+    if (std::fwrite(header.data(), kRecordBytes, 1, file_.get()) != 1 ||
+        std::fflush(file_.get()) != 0) {
+      refuse(path_, "", "room on the disk");
+    }
+  }
+}
+
+void PartWriter::append(std::uint64_t cell, const CellResult& result) {
+  const Record record = record_of(cell, result);
+  if (std::fwrite(record.data(), kRecordBytes, 1, file_.get()) != 1 ||
+      std::fflush(file_.get()) != 0) {
+    refuse(path_, "", "room on the disk");
+  }
+}
+
+ResultStore::ResultStore(fs::path directory, std::uint64_t spec_hash, std::uint64_t cells)
+    : directory_(std::move(directory)),
+      spec_hash_(spec_hash),
+      done_(static_cast<std::size_t>(cells)) {
+  read_parts([&](std::uint64_t cell, const CellResult&) {
+    if (cell < done_.size() && !done_[static_cast<std::size_t>(cell)]) {
+      done_[static_cast<std::size_t>(cell)] = true;
+      ++finished_;
+    }
+  });
+}
+
+void ResultStore::read_parts(
+    const std::function<void(std::uint64_t, const CellResult&)>& visit) const {
+  std::vector<fs::path> parts;
+  if (fs::is_directory(parts_of(directory_))) {
+    for (const auto& entry : fs::directory_iterator(parts_of(directory_))) {
+      if (entry.path().extension() == ".cells") parts.push_back(entry.path());
+    }
+  }
+  std::sort(parts.begin(), parts.end());
+  for (const fs::path& part : parts) {
+    std::ifstream in(part, std::ios::binary);
+    Record record;
+    if (!read_record(in, record)) continue;  // stopped before its first record
+    if (record != header_of(spec_hash_)) {
+      refuse(part,
+             "cells of another sweep",
+             "an empty folder, or one that holds parts of this very specification");
+    }
+    while (read_record(in, record)) {
+      if (record.back() == checksum(record)) visit(record[0], result_of(record));
+    }
+  }
+}
+
+void ResultStore::for_each(
+    const std::function<void(std::uint64_t, const CellResult&)>& visit) const {
+  if (!complete()) {
+    throw std::logic_error(
+        fmt::format("sweep: {} of {} cells are missing", cells() - finished_, cells()));
+  }
+  // Sorted on disk: the record of a cell stands at its number.
+  const fs::path sorted = directory_ / "cells.sorted.tmp";
+  {
+    std::ofstream out(sorted, std::ios::binary | std::ios::trunc);
+    read_parts([&](std::uint64_t cell, const CellResult& result) {
+      if (cell >= cells()) return;
+      const Record record = record_of(cell, result);
+      out.seekp(static_cast<std::streamoff>(cell * kRecordBytes));
+      out.write(reinterpret_cast<const char*>(record.data()), kRecordBytes);
+    });
+    if (!out.flush()) refuse(sorted, "", "room on the disk");
+  }
+  std::ifstream in(sorted, std::ios::binary);
+  Record record;
+  for (std::uint64_t cell = 0; cell < cells(); ++cell) {
+    if (!read_record(in, record) || record[0] != cell)
+      throw std::logic_error("sweep: the sorted cells are torn");
+    visit(cell, result_of(record));
+  }
+  in.close();
+  fs::remove(sorted);
+}
+
+}  // namespace chaintrue::grid::sweep

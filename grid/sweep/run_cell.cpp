@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "grid/sweep/sweep_spec.hpp"
+
+namespace chaintrue::grid::sweep {
+namespace {
+
+using model::BedPoint;
+using synthetic::SyntheticSpec;
+
+// Random streams of a sweep's own, apart from the generator's.
+constexpr std::uint64_t kSessionStream = 1U << 20U;
+constexpr std::uint64_t kOtherMachineStream = 1U << 21U;
+
+std::uint64_t seed_of(const SweepSpec& spec, std::uint64_t stream, std::uint64_t repetition) {
+  synthetic::Random random(spec.seed, stream + (repetition << 24U));
+  return random.bits();
+}
+
+SyntheticSpec session_spec(const SweepSpec& spec, const Levels& at, std::uint64_t repetition) {
+  const MachineLevel& machine = spec.machines[at[0]];
+  SyntheticSpec session;
+  session.design.kind = spec.spacings[at[4]];
+  session.design.columns = spec.grids[at[7]].columns;
+  session.design.rows = spec.grids[at[7]].rows;
+  session.repeats = spec.repeats;
+  session.jitter_mm = spec.jitters_mm[at[5]];
+  session.noise.length_mm = spec.noises[at[6]].length_mm;
+  session.noise.position_mm = spec.noises[at[6]].position_mm;
+  session.hidden = spec.effects[at[1]].effects;
+  session.draw_settings = spec.draw_settings;
+  session.model = machine.model;
+  session.unmodelled_mm = machine.unmodelled_mm;
+  session.seed = seed_of(spec, kSessionStream, repetition);
+  return session;
+}
+
+// The machine on which the map is used.
+model::Machine used_machine(const SweepSpec& spec,
+                            const Levels& at,
+                            std::uint64_t repetition,
+                            SyntheticSpec session) {
+  const UseLevel& use = spec.uses[at[2]];
+  if (use.another_of_the_build) session.seed = seed_of(spec, kOtherMachineStream, repetition);
+  session.hidden.insert(session.hidden.end(), use.effects.begin(), use.effects.end());
+  return truth_of(spec.machines[at[0]].truth, session).machine;
+}
+
+// i-th of `count` positions over a span about 0.
+double raster(double span, int i, int count) {
+  return count == 1 ? 0.0 : span * (static_cast<double>(i) / (count - 1) - 0.5);
+}
+
+class ErrorSum {
+ public:
+  void add(const Eigen::Vector2d& chain_mm, const Eigen::Vector2d& tool_mm) {
+    chain_squares_ += chain_mm.squaredNorm();
+    tool_squares_ += tool_mm.squaredNorm();
+    result_.chain_max_mm = std::max(result_.chain_max_mm, chain_mm.cwiseAbs().maxCoeff());
+    result_.tool_max_mm = std::max(result_.tool_max_mm, tool_mm.norm());
+    ++count_;
+  }
+  void miss() { missed_ = true; }
+  [[nodiscard]] CellResult result() const {
+    CellResult result = result_;
+    if (missed_) result.status = CellStatus::no_answer;
+    if (count_ > 0) {
+      result.chain_rms_mm = std::sqrt(chain_squares_ / (2.0 * count_));
+      result.tool_rms_mm = std::sqrt(tool_squares_ / count_);
+    }
+    return result;
+  }
+
+ private:
+  CellResult result_;
+  double chain_squares_ = 0.0;
+  double tool_squares_ = 0.0;
+  int count_ = 0;
+  bool missed_ = false;
+};
+
+CellResult hold_against_truth(const SweepSpec& spec,
+                              const Levels& at,
+                              const CompensationMap& map,
+                              const model::Machine& machine) {
+  const MachineLevel& level = spec.machines[at[0]];
+  const model::ReadingModel truth(machine, level.model);
+  // The marked part of the bed: whole 100 mm, as the designs have it.
+  const auto span = [](double bed_mm) {
+    return std::min(bed_mm, std::max(std::floor(bed_mm / 100.0), 1.0) * 100.0);
+  };
+  const double width = span(machine.bed.width_mm);
+  const double height = span(machine.bed.height_mm);
+  ErrorSum errors;
+  for (int row = 0; row < spec.evaluation_rows; ++row) {
+    for (int column = 0; column < spec.evaluation_columns; ++column) {
+      const BedPoint p{raster(width, column, spec.evaluation_columns),
+                       raster(height, row, spec.evaluation_rows)};
+      const auto told = map.lengths(p);
+      const auto real = truth.at(p);
+      if (!told || !real) {
+        errors.miss();
+        continue;
+      }
+      model::ChainLengths disturbed{};
+      if (level.unmodelled_mm != 0.0) disturbed = synthetic::unmodelled(machine.bed, p);
+      const Eigen::Vector2d chain{
+          told->lengths.left_mm - real->lengths.left_mm - level.unmodelled_mm * disturbed.left_mm,
+          told->lengths.right_mm - real->lengths.right_mm -
+              level.unmodelled_mm * disturbed.right_mm};
+      errors.add(chain, real->position_jacobian.inverse() * chain);
+    }
+  }
+  return errors.result();
+}
+
+}  // namespace
+
+CellResult run_cell(const SweepSpec& spec, std::uint64_t cell) {
+  const auto repetitions = static_cast<std::uint64_t>(spec.repetitions);
+  const std::uint64_t repetition = cell % repetitions;
+  const Levels at = levels_of(spec, cell / repetitions);
+  const SyntheticSpec made = session_spec(spec, at, repetition);
+  CellResult result;
+  auto session = generate(spec.machines[at[0]].truth, made);
+  if (!session) {
+    result.status = CellStatus::not_reached;
+    return result;
+  }
+  session->grid.machine = spec.machines[at[0]].stated;
+  FitOptions options;
+  options.surface = spec.surfaces[at[3]];
+  const auto map = fit(session->grid, options);
+  if (!map) {
+    result.status = CellStatus::no_map;
+    return result;
+  }
+  result = hold_against_truth(spec, at, *map, used_machine(spec, at, repetition, made));
+  result.expected_tool_rms_mm = map->contents().accuracy.expected_tool.rms_mm;
+  return result;
+}
+
+}  // namespace chaintrue::grid::sweep

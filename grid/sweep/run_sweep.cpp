@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/sweep/run_sweep.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <mutex>
+#include <optional>
+
+namespace chaintrue::grid::sweep {
+namespace {
+
+std::string part_name(const Share& share) {
+  std::string name = fmt::format("shard-{}-of-{}", share.index + 1, share.count);
+  if (share.ranks > 1) name += fmt::format("-rank-{}-of-{}", share.rank + 1, share.ranks);
+  return name;
+}
+
+// The k-th cell of a share.
+std::uint64_t cell_of(const Share& share, std::uint64_t k) {
+  return share.index + share.count * (share.rank + share.ranks * k);
+}
+
+std::uint64_t cells_of(const Share& share, std::uint64_t cells) {
+  const std::uint64_t first = cell_of(share, 0);
+  return first < cells ? (cells - first - 1) / (share.count * share.ranks) + 1 : 0;
+}
+
+}  // namespace
+
+std::uint64_t run_sweep(const SweepSpec& spec, std::uint64_t spec_hash, const SweepRun& run) {
+  const ResultStore store(run.directory, spec_hash, cells(spec));
+  const std::uint64_t total = cells_of(run.share, store.cells());
+  std::uint64_t pending = 0;
+  for (std::uint64_t k = 0; k < total; ++k) pending += store.has(cell_of(run.share, k)) ? 0 : 1;
+  if (pending == 0) return 0;
+  PartWriter writer(run.directory, part_name(run.share), spec_hash);
+  std::mutex writing;
+  std::uint64_t finished = 0;
+  std::optional<tbb::global_control> limit;
+  if (run.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<std::size_t>(run.threads));
+  }
+  tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, total, 1), [&](const auto& range) {
+    for (std::uint64_t k = range.begin(); k != range.end(); ++k) {
+      const std::uint64_t cell = cell_of(run.share, k);
+      if (store.has(cell)) continue;
+      const CellResult result = run_cell(spec, cell);
+      const std::scoped_lock lock(writing);
+      writer.append(cell, result);
+      ++finished;
+      if (run.progress) run.progress(finished, pending);
+    }
+  });
+  return finished;
+}
+
+}  // namespace chaintrue::grid::sweep

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/sweep/sweep_spec.hpp"
+
+#include <fmt/format.h>
+
+namespace chaintrue::grid::sweep {
+
+std::array<std::size_t, kFactors> level_counts(const SweepSpec& spec) {
+  return {spec.machines.size(),
+          spec.effects.size(),
+          spec.uses.size(),
+          spec.surfaces.size(),
+          spec.spacings.size(),
+          spec.jitters_mm.size(),
+          spec.noises.size(),
+          spec.grids.size()};
+}
+
+std::uint64_t combinations(const SweepSpec& spec) {
+  std::uint64_t product = 1;
+  for (const std::size_t count : level_counts(spec)) product *= count;
+  return product;
+}
+
+std::uint64_t cells(const SweepSpec& spec) {
+  return combinations(spec) * static_cast<std::uint64_t>(spec.repetitions);
+}
+
+Levels levels_of(const SweepSpec& spec, std::uint64_t combination) {
+  const auto counts = level_counts(spec);
+  Levels levels{};
+  for (std::size_t factor = kFactors; factor-- > 0;) {
+    levels[factor] = static_cast<std::size_t>(combination % counts[factor]);
+    combination /= counts[factor];
+  }
+  return levels;
+}
+
+std::string level_name(const SweepSpec& spec, std::size_t factor, std::size_t level) {
+  switch (factor) {
+    case 0:
+      return spec.machines.at(level).name;
+    case 1:
+      return spec.effects.at(level).name;
+    case 2:
+      return spec.uses.at(level).name;
+    case 3:
+      return spec.surfaces.at(level) == SurfaceKind::residual ? "residual" : "direct";
+    case 4:
+      return spec.spacings.at(level) == synthetic::DesignKind::chebyshev ? "chebyshev" : "regular";
+    case 5:
+      return fmt::format("{}", spec.jitters_mm.at(level));
+    case 6:
+      return fmt::format(
+          "{}/{}", spec.noises.at(level).length_mm, spec.noises.at(level).position_mm);
+    default:
+      return fmt::format("{}x{}", spec.grids.at(level).columns, spec.grids.at(level).rows);
+  }
+}
+
+std::string_view name(CellStatus status) {
+  switch (status) {
+    case CellStatus::done:
+      return "done";
+    case CellStatus::no_map:
+      return "no_map";
+    case CellStatus::not_reached:
+      return "not_reached";
+    case CellStatus::no_answer:
+      break;
+  }
+  return "no_answer";
+}
+
+}  // namespace chaintrue::grid::sweep

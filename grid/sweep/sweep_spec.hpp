@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a sweep asks: the product of its factors, each with some levels, so many repetitions of
+/// each combination.
+///
+/// A cell is one combination and one repetition: a session is made (grid/synthetic), a map is
+/// fitted to it, and the map is held against the truth over the bed. Repetitions draw alike in
+/// every combination, so that levels are compared on the same chances. Cells are numbered with the
+/// repetition fastest and the first factor slowest.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "grid/map/fit.hpp"
+#include "grid/synthetic/generator.hpp"
+
+namespace chaintrue::grid::sweep {
+
+struct GridLevel {
+  int columns = 7;
+  int rows = 4;
+};
+
+struct NoiseLevel {
+  double length_mm = 0.2;
+  double position_mm = 0.3;
+};
+
+/// A true machine and what its owner states of it.
+struct MachineLevel {
+  std::string name;
+  model::Machine truth;
+  model::Machine stated;
+  model::Model model = model::Model::elastic;
+  /// Of a smooth disturbance that no model has.
+  double unmodelled_mm = 0.0;
+};
+
+struct EffectsLevel {
+  std::string name;
+  std::vector<model::AppliedEffect> effects;
+};
+
+/// The machine that the finished map is used on: the one that was measured, with more effects (it
+/// has worn since), or another of the same build (its settings drawn anew).
+struct UseLevel {
+  std::string name;
+  std::vector<model::AppliedEffect> effects;
+  bool another_of_the_build = false;
+};
+
+struct SweepSpec {
+  std::string name;
+  std::string question;
+  std::uint64_t seed = 1;
+  int repetitions = 10;
+  /// Raster of the bed on which a map is held against the truth.
+  int evaluation_columns = 40;
+  int evaluation_rows = 25;
+  int repeats = 0;
+  bool draw_settings = true;
+  std::vector<GridLevel> grids;
+  std::vector<synthetic::DesignKind> spacings;
+  std::vector<NoiseLevel> noises;
+  std::vector<double> jitters_mm;
+  std::vector<SurfaceKind> surfaces;
+  std::vector<MachineLevel> machines;
+  std::vector<EffectsLevel> effects;
+  std::vector<UseLevel> uses;
+};
+
+inline constexpr std::size_t kFactors = 8;
+/// Column names of the results, in the order of numbering.
+inline constexpr std::array<std::string_view, kFactors> kFactorNames = {
+    "machine", "effects", "used_on", "surface", "spacing", "jitter_mm", "noise_mm", "grid"};
+
+/// The level of each factor, in the order of kFactorNames.
+using Levels = std::array<std::size_t, kFactors>;
+
+[[nodiscard]] std::array<std::size_t, kFactors> level_counts(const SweepSpec& spec);
+[[nodiscard]] std::uint64_t combinations(const SweepSpec& spec);
+[[nodiscard]] std::uint64_t cells(const SweepSpec& spec);
+[[nodiscard]] Levels levels_of(const SweepSpec& spec, std::uint64_t combination);
+/// Words for a level: "7x4", "0.2/0.3", "residual", a machine's name.
+[[nodiscard]] std::string level_name(const SweepSpec& spec, std::size_t factor, std::size_t level);
+
+enum class CellStatus : std::uint64_t {
+  done,         ///< every point of the raster answered
+  no_map,       ///< the fit gave none (fewer points than it needs, not a full grid, not converged)
+  not_reached,  ///< a mark that the true machine cannot reach
+  no_answer,    ///< the map did not answer everywhere
+};
+[[nodiscard]] std::string_view name(CellStatus status);
+
+/// Errors of a map over the raster. Chain: both chains alike; tool: distance from where it should
+/// be.
+struct CellResult {
+  CellStatus status = CellStatus::done;
+  double chain_rms_mm = 0.0;
+  double chain_max_mm = 0.0;
+  double tool_rms_mm = 0.0;
+  double tool_max_mm = 0.0;
+  /// What the map itself expected of the tool, rms.
+  double expected_tool_rms_mm = 0.0;
+};
+
+/// Computes one cell; pure, thread safe.
+[[nodiscard]] CellResult run_cell(const SweepSpec& spec, std::uint64_t cell);
+
+}  // namespace chaintrue::grid::sweep

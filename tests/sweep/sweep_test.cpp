@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "grid/files/input_error.hpp"
+#include "grid/files/sweep_file.hpp"
+#include "grid/sweep/run_sweep.hpp"
+
+namespace chaintrue::grid::sweep {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const std::string kSpecs = std::string(CHAINTRUE_FIXTURES) + "/sweeps/";
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+// A folder of the test's own, empty at its start.
+fs::path fresh_folder(const std::string& name) {
+  const fs::path folder = fs::path(::testing::TempDir()) / ("chaintrue_sweep_" + name);
+  fs::remove_all(folder);
+  return folder;
+}
+
+std::string results_of(const files::ReadSweep& read, const fs::path& folder) {
+  write_results(read.spec, ResultStore(folder, read.hash, cells(read.spec)), folder);
+  return text_of(folder / "results.csv") + text_of(folder / "summary.json");
+}
+
+std::string whole_run(const files::ReadSweep& read, const std::string& name, int threads) {
+  const fs::path folder = fresh_folder(name);
+  SweepRun run;
+  run.directory = folder;
+  run.threads = threads;
+  EXPECT_EQ(run_sweep(read.spec, read.hash, run), cells(read.spec));
+  return results_of(read, folder);
+}
+
+TEST(SweepSpec, NumbersCellsWithTheRepetitionFastest) {
+  const SweepSpec spec = files::read_sweep(kSpecs + "quick.json").spec;
+  EXPECT_EQ(combinations(spec), 4U);
+  EXPECT_EQ(cells(spec), 8U);
+  EXPECT_EQ(level_name(spec, 7, levels_of(spec, 0)[7]), "4x3");
+  EXPECT_EQ(level_name(spec, 7, levels_of(spec, 1)[7]), "7x4");
+  EXPECT_EQ(level_name(spec, 4, levels_of(spec, 1)[4]), "regular");
+  EXPECT_EQ(level_name(spec, 4, levels_of(spec, 2)[4]), "chebyshev");
+}
+
+TEST(SweepSpec, AllFixturesAreSound) {
+  for (const auto& entry : fs::directory_iterator(kSpecs)) {
+    SCOPED_TRACE(entry.path().string());
+    EXPECT_GT(cells(files::read_sweep(entry.path()).spec), 0U);
+  }
+}
+
+TEST(SweepSpec, ReportsEveryProblemWithItsPlace) {
+  const fs::path folder = fresh_folder("bad");
+  fs::create_directories(folder);
+  std::ofstream(folder / "bad.json")
+      << R"({"file_type": "chaintrue_sweep", "format_version": "1.0", "name": "x", "repetitions": 0, "grids": ["7"],
+             "surfaces": ["cubist"], "machines": [{"name": "m", "machine_file": "none.json"}], "colour": 1})";
+  try {
+    static_cast<void>(files::read_sweep(folder / "bad.json"));
+    FAIL() << "accepted";
+  } catch (const files::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/repetitions"));
+    EXPECT_THAT(error.what(), HasSubstr("/grids/0"));
+    EXPECT_THAT(error.what(), HasSubstr("/surfaces/0"));
+    EXPECT_THAT(error.what(), HasSubstr("/colour"));
+  }
+}
+
+TEST(SweepSpec, ChecksEffectsAgainstTheCatalogue) {
+  const fs::path folder = fresh_folder("bad_effects");
+  fs::create_directories(folder);
+  std::ofstream(folder / "bad.json")
+      << R"({"file_type": "chaintrue_sweep", "format_version": "1.0", "name": "x", "repetitions": 1,
+             "machines": [{"name": "m", "machine_file": ")" +
+             std::string(CHAINTRUE_FIXTURES) + R"(/machines/classic.json"}],
+             "effects": [{"name": "e", "effects": [{"effect": "drift", "side": "x",
+                                                    "parameters": {"rate_mm_per_visit": 0.1}}]}]})";
+  try {
+    static_cast<void>(files::read_sweep(folder / "bad.json"));
+    FAIL() << "accepted";
+  } catch (const files::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/effects/0/effects/0/side"));
+  }
+}
+
+TEST(Sweep, IsTheSameBytesForAnyNumberOfThreads) {
+  const files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
+  EXPECT_EQ(whole_run(read, "one", 1), whole_run(read, "two", 2));
+}
+
+TEST(Sweep, ShardsMergeToTheBytesOfOneRun) {
+  const files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
+  const std::string whole = whole_run(read, "whole", 2);
+  const fs::path folder = fresh_folder("shards");
+  for (std::uint64_t shard : {2U, 0U, 1U}) {
+    SweepRun run;
+    run.directory = folder;
+    run.share = {shard, 3, 0, 1};
+    EXPECT_FALSE(ResultStore(folder, read.hash, cells(read.spec)).complete());
+    run_sweep(read.spec, read.hash, run);
+  }
+  EXPECT_EQ(results_of(read, folder), whole);
+}
+
+// A run that dies at any byte of its part goes on to the same results.
+TEST(Sweep, GoesOnFromAPartTornAnywhere) {
+  const files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
+  const std::string whole = whole_run(read, "untorn", 2);
+  const fs::path part = fs::path("parts") / "shard-1-of-1.cells";
+  const std::string complete =
+      text_of(fresh_folder("none").parent_path() / "chaintrue_sweep_untorn" / part);
+  ASSERT_EQ(complete.size(), 64U * 9U);
+  for (const std::size_t length : {0U, 63U, 65U, 300U, 511U, 575U}) {
+    SCOPED_TRACE(length);
+    const fs::path folder = fresh_folder("torn");
+    fs::create_directories(folder / "parts");
+    std::ofstream(folder / part, std::ios::binary) << complete.substr(0, length);
+    SweepRun run;
+    run.directory = folder;
+    const std::uint64_t computed = run_sweep(read.spec, read.hash, run);
+    EXPECT_EQ(computed, 8U - (length < 64U ? 0U : length / 64U - 1U));
+    EXPECT_EQ(results_of(read, folder), whole);
+  }
+}
+
+TEST(Sweep, IgnoresARecordWhoseChecksumIsWrong) {
+  const files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
+  const std::string whole = whole_run(read, "sound", 2);
+  const fs::path folder = fs::path(::testing::TempDir()) / "chaintrue_sweep_sound";
+  const fs::path part = folder / "parts" / "shard-1-of-1.cells";
+  std::string bytes = text_of(part);
+  bytes[64 * 3 + 20] = static_cast<char>(bytes[64 * 3 + 20] ^ 1);
+  std::ofstream(part, std::ios::binary) << bytes;
+  EXPECT_EQ(ResultStore(folder, read.hash, cells(read.spec)).finished(), 7U);
+  SweepRun run;
+  run.directory = folder;
+  EXPECT_EQ(run_sweep(read.spec, read.hash, run), 1U);
+  EXPECT_EQ(results_of(read, folder), whole);
+}
+
+TEST(Sweep, RefusesThePartsOfAnotherSpecification) {
+  const files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
+  whole_run(read, "other", 2);
+  EXPECT_THROW(ResultStore(fs::path(::testing::TempDir()) / "chaintrue_sweep_other",
+                           read.hash + 1,
+                           cells(read.spec)),
+               files::InputError);
+}
+
+// Without noise and with the true machine stated, a map is right to what the fit's surface leaves.
+TEST(RunCell, AKnownMachineWithoutNoiseIsMappedTrue) {
+  SweepSpec spec = files::read_sweep(kSpecs + "quick.json").spec;
+  spec.draw_settings = false;
+  spec.noises = {{0.0, 0.0}};
+  spec.jitters_mm = {0.0};
+  spec.repeats = 0;
+  const CellResult result = run_cell(spec, 2);
+  EXPECT_EQ(result.status, CellStatus::done);
+  // The stated machine is the true one: nothing is left but the solvers' last digits.
+  EXPECT_LT(result.tool_max_mm, 1e-3);
+}
+
+TEST(RunCell, UsedOnAnotherMachineTheMapIsWorse) {
+  SweepSpec spec = files::read_sweep(kSpecs + "another_machine.json").spec;
+  spec.evaluation_columns = 13;
+  spec.evaluation_rows = 7;
+  double same = 0.0, other = 0.0;
+  for (std::uint64_t repetition = 0; repetition < 3; ++repetition) {
+    same += run_cell(spec, repetition).tool_rms_mm;
+    other += run_cell(spec, static_cast<std::uint64_t>(spec.repetitions) + repetition).tool_rms_mm;
+  }
+  // Motors taped to 3 mm: the other machine's map errs by millimetres, its own by tenths.
+  EXPECT_GT(other, 3.0 * same);
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::sweep

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue sweep: accuracy against the simulator over any product of factors; stopped, resumed,
+/// split and merged at will.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "grid/files/sweep_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "grid/sweep/run_sweep.hpp"
+#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/processes.hpp"
+#include "tools/cli/sweep_page.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+namespace sweep = grid::sweep;
+namespace fs = std::filesystem;
+
+struct SweepOptions {
+  std::string specification;
+  std::string directory;
+  std::string shard;
+  bool resume = false;
+  int threads = 0;
+};
+
+sweep::Share parse_shard(const std::string& text, OptionProblems& problems) {
+  sweep::Share share;
+  if (text.empty()) return share;
+  const std::size_t slash = text.find('/');
+  double index = 0.0;
+  double count = 0.0;
+  constexpr double kMost = 1e6;
+  const bool numbers = slash != std::string::npos && parse_number(text.substr(0, slash), index) &&
+                       parse_number(text.substr(slash + 1), count);
+  const auto whole = [](double n) {
+    return n == static_cast<double>(static_cast<std::int64_t>(n));
+  };
+  if (!numbers || !(index >= 1.0 && index <= count && count <= kMost) || !whole(index) ||
+      !whole(count)) {
+    problems.add("--shard", text, "shard/shards, as in 3/16");
+    return share;
+  }
+  share.index = static_cast<std::uint64_t>(index) - 1;
+  share.count = static_cast<std::uint64_t>(count);
+  return share;
+}
+
+// A line that is written over, on a terminal only.
+class Progress {
+ public:
+  void operator()(std::uint64_t finished, std::uint64_t total) {
+    if (!on_terminal_) return;
+    const auto now = Clock::now();
+    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+    if (finished < total && now - last_ < std::chrono::milliseconds(200)) return;
+    last_ = now;
+    const double left_s =
+        elapsed_s / static_cast<double>(finished) * static_cast<double>(total - finished);
+    fmt::print(stderr, "\r{} of {} cells, {:.0f} s left   ", finished, total, left_s);
+    if (finished == total) fmt::print(stderr, "\n");
+    std::fflush(stderr);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_ - std::chrono::hours(1);
+  bool on_terminal_ = isatty(STDERR_FILENO) == 1;
+};
+
+void refuse_old_results(const SweepOptions& options) {
+  const fs::path parts = fs::path(options.directory) / "parts";
+  std::error_code error;
+  if (options.resume || !fs::is_directory(parts, error) || fs::is_empty(parts, error)) return;
+  OptionProblems problems;
+  problems.add(
+      "-o", options.directory, "a new folder, or --resume to go on with the cells that are there");
+  problems.throw_if_any();
+}
+
+int assemble(const sweep::SweepSpec& spec,
+             const sweep::ResultStore& store,
+             const SweepOptions& options) {
+  if (!store.complete()) {
+    fmt::print(stderr,
+               "chaintrue sweep: {} of {} cells are finished; results.csv is written once the "
+               "parts of all shards "
+               "stand in {}/parts and `chaintrue sweep {} -o {} --resume` finds them there\n",
+               store.finished(),
+               store.cells(),
+               options.directory,
+               options.specification,
+               options.directory);
+    return kDone;
+  }
+  const auto errors = write_results(spec, store, options.directory);
+  files::write_whole_file(fs::path(options.directory) / "report.html",
+                          report::render(sweep_page(spec, errors)));
+  fmt::print(stderr,
+             "{} cells: {}/results.csv, summary.json, report.html\n",
+             store.cells(),
+             options.directory);
+  return kDone;
+}
+
+int run_sweep_verb(const SweepOptions& options) {
+  const Processes processes;
+  std::exception_ptr failure;
+  std::optional<files::ReadSweep> read;
+  sweep::SweepRun run;
+  try {
+    OptionProblems problems;
+    run.directory = options.directory;
+    run.share = parse_shard(options.shard, problems);
+    run.share.rank = processes.rank();
+    run.share.ranks = processes.count();
+    run.threads = options.threads;
+    problems.require("--threads", options.threads, 0.0, 4096.0);
+    problems.throw_if_any();
+    read = files::read_sweep(options.specification);
+    refuse_old_results(options);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  // Nobody starts before everybody has looked at the folder, and nobody gathers before everybody
+  // has finished.
+  if (processes.all(failure == nullptr)) {
+    try {
+      if (processes.rank() == 0) run.progress = Progress();
+      sweep::run_sweep(read->spec, read->hash, run);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    if (processes.all(failure == nullptr) && processes.rank() == 0) {
+      return assemble(read->spec,
+                      sweep::ResultStore(options.directory, read->hash, cells(read->spec)),
+                      options);
+    }
+  }
+  // One voice for a slip that all processes saw.
+  if (failure && processes.rank() == 0) std::rethrow_exception(failure);
+  return failure ? kBadInput : kDone;
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, Run& run) {
+  auto options = std::make_shared<SweepOptions>();
+  CLI::App* verb =
+      app.add_subcommand("sweep", "Accuracy against the simulator over any product of factors");
+  verb->add_option("specification", options->specification, "chaintrue_sweep file")->required();
+  verb->add_option("-o,--output", options->directory, "Folder for the parts and the results")
+      ->required();
+  verb->add_option("--shard", options->shard, "Only this share of the cells, as in 3/16");
+  verb->add_flag("--resume",
+                 options->resume,
+                 "Go on with the finished cells that the folder holds; merges shards too");
+  verb->add_option("--threads", options->threads, "0: all cores")->capture_default_str();
+  verb->footer(
+      "Examples:\n"
+      "  chaintrue sweep fixtures/sweeps/quick.json -o /tmp/sweep\n"
+      "  mpirun -n 4 chaintrue sweep fixtures/sweeps/quick.json -o /tmp/sweep --resume");
+  verb->callback([options, &run] { run = [options] { return run_sweep_verb(*options); }; });
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/sweep_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace chaintrue::cli {
+namespace {
+
+namespace sweep = grid::sweep;
+
+constexpr std::array<std::string_view, sweep::kFactors> kTitles = {
+    "The machine",
+    "Hidden effects",
+    "The machine that the map is used on",
+    "The surface",
+    "The spacing of the marks",
+    "How far beside the marks the sled stood, mm",
+    "Noise of length / position, mm",
+    "The grid"};
+
+double points_of(const sweep::SweepSpec& spec, std::size_t grid) {
+  return spec.grids[grid].columns * spec.grids[grid].rows;
+}
+
+report::Chart panel(const sweep::SweepSpec& spec,
+                    const std::vector<sweep::LevelError>& errors,
+                    std::size_t factor) {
+  report::DataTable lines{"lines", {"level", "points", "rms_mm", "max_mm", "cells"}, {}};
+  for (const sweep::LevelError& error : errors) {
+    if (error.factor != factor) continue;
+    const std::string level =
+        factor + 1 == sweep::kFactors ? "all" : sweep::level_name(spec, factor, error.level);
+    lines.rows.push_back({level,
+                          points_of(spec, error.grid),
+                          error.tool_rms_mm,
+                          error.tool_max_mm,
+                          static_cast<double>(error.cells)});
+  }
+  return {.specification = "sweep_lines",
+          .title = std::string(kTitles[factor]),
+          .caption =
+              "Error of the tool over the bed, rms in mm, against the number of points; all other "
+              "factors together.",
+          .data = {std::move(lines)}};
+}
+
+report::Table table(const sweep::SweepSpec& spec, const std::vector<sweep::LevelError>& errors) {
+  report::Table table;
+  table.columns = {{"factor"},
+                   {"level"},
+                   {"points", true},
+                   {"rms at the tool, mm", true},
+                   {"worst, mm", true},
+                   {"cells", true}};
+  for (const sweep::LevelError& error : errors) {
+    table.rows.push_back({{std::string(sweep::kFactorNames[error.factor]),
+                           sweep::level_name(spec, error.factor, error.level),
+                           fmt::format("{:.0f}", points_of(spec, error.grid)),
+                           fmt::format("{:.3f}", error.tool_rms_mm),
+                           fmt::format("{:.3f}", error.tool_max_mm),
+                           fmt::format("{}", error.cells)}});
+  }
+  return table;
+}
+
+}  // namespace
+
+report::Page sweep_page(const sweep::SweepSpec& spec,
+                        const std::vector<sweep::LevelError>& errors) {
+  report::Page page;
+  page.title = spec.name;
+  page.subtitle = spec.question;
+  const auto counts = sweep::level_counts(spec);
+  report::Section panels{"Error against the number of points", {}};
+  for (std::size_t factor = 0; factor < sweep::kFactors; ++factor) {
+    const bool varies = counts[factor] > 1 && factor + 1 < sweep::kFactors;
+    if (varies) panels.blocks.emplace_back(panel(spec, errors, factor));
+  }
+  if (panels.blocks.empty()) panels.blocks.emplace_back(panel(spec, errors, sweep::kFactors - 1));
+  page.verdict = fmt::format("{} cells: {} combinations, {} repetitions of each.",
+                             sweep::cells(spec),
+                             sweep::combinations(spec),
+                             spec.repetitions);
+  page.not_proved = "Made with the simulator; a real machine has errors that it does not know.";
+  page.sections.push_back(std::move(panels));
+  page.sections.push_back({"Numbers", {table(spec, errors)}});
+  return page;
+}
+
+}  // namespace chaintrue::cli

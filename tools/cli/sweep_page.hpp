@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A sweep's report: the error against the number of points, one panel a factor.
+#pragma once
+
+#include <vector>
+
+#include "grid/sweep/result_store.hpp"
+#include "tools/report/page.hpp"
+
+namespace chaintrue::cli {
+
+[[nodiscard]] report::Page sweep_page(const grid::sweep::SweepSpec& spec,
+                                      const std::vector<grid::sweep::LevelError>& errors);
+
+}  // namespace chaintrue::cli
