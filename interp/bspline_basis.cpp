@@ -58,10 +58,7 @@ AxisSupport axis_support(double position, double low, double step, Eigen::Index 
 
 // Integral over the axis of the product of two functions' derivatives of one order, for all pairs.
 // Products of cubics have degree six at most: four Gauss points are exact.
-Eigen::MatrixXd axis_gram(Eigen::Index columns,
-                          double step,
-                          Derivative derivative,
-                          int order) {
+Eigen::MatrixXd axis_gram(Eigen::Index columns, double step, Derivative derivative, int order) {
   constexpr std::array<double, 4> kNode = {
       0.069431844202973712, 0.330009478207571868, 0.669990521792428132, 0.930568155797026288};
   constexpr std::array<double, 4> kWeight = {
@@ -176,7 +173,8 @@ ValueGradient BsplineBasis::evaluate(const Eigen::Ref<const Eigen::VectorXd>& co
 
 Eigen::MatrixXd BsplineBasis::bending_penalty(int order) const {
   if (order != 2 && order != 3) {
-    throw std::invalid_argument(fmt::format("a bending penalty of order {}; known are 2 and 3", order));
+    throw std::invalid_argument(
+        fmt::format("a bending penalty of order {}; known are 2 and 3", order));
   }
   constexpr std::array<Derivative, 4> kDerivatives = {
       values, first_derivatives, second_derivatives, third_derivatives};
@@ -184,10 +182,11 @@ Eigen::MatrixXd BsplineBasis::bending_penalty(int order) const {
   double binomial = 1.0;
   for (int in_y = 0; in_y <= order; ++in_y) {
     const int in_x = order - in_y;
-    add_kronecker(penalty,
-                  binomial,
-                  axis_gram(columns_y_, step_y_, kDerivatives[static_cast<std::size_t>(in_y)], in_y),
-                  axis_gram(columns_x_, step_x_, kDerivatives[static_cast<std::size_t>(in_x)], in_x));
+    add_kronecker(
+        penalty,
+        binomial,
+        axis_gram(columns_y_, step_y_, kDerivatives[static_cast<std::size_t>(in_y)], in_y),
+        axis_gram(columns_x_, step_x_, kDerivatives[static_cast<std::size_t>(in_x)], in_x));
     binomial *= static_cast<double>(order - in_y) / (in_y + 1);
   }
   return penalty;
@@ -198,7 +197,8 @@ Eigen::MatrixXd BsplineBasis::polynomial_coefficients(int degree) const {
     throw std::invalid_argument(fmt::format("polynomials of degree {}; known are 1 and 2", degree));
   }
   // Marsden's identity (de Boor, chapter IX, (30)): a uniform cubic B-spline has a straight line's
-  // values at the knot averages for coefficients, and a parabola's less a third of the squared step.
+  // values at the knot averages for coefficients, and a parabola's less a third of the squared
+  // step.
   const double step_u = 2.0 * step_x_ / rectangle_.width();
   const double step_v = 2.0 * step_y_ / rectangle_.height();
   Eigen::MatrixXd polynomials(size(), degree == 1 ? 3 : 6);
@@ -209,7 +209,8 @@ Eigen::MatrixXd BsplineBasis::polynomial_coefficients(int degree) const {
       const Eigen::Index row = iy * columns_x_ + ix;
       polynomials.row(row).head<3>() << 1.0, u, v;
       if (degree == 2) {
-        polynomials.row(row).tail<3>() << u * u - step_u * step_u / 3.0, u * v, v * v - step_v * step_v / 3.0;
+        polynomials.row(row).tail<3>() << u * u - step_u * step_u / 3.0, u * v,
+            v * v - step_v * step_v / 3.0;
       }
     }
   }

@@ -60,7 +60,9 @@ class BsplineBasis {
   /// f_yyy^2. Symmetric, positive semidefinite; its null space are the polynomials of lower degree.
   /// Unit: length^(2 - 2 order). Throws std::invalid_argument for other orders.
   [[nodiscard]] Eigen::MatrixXd bending_penalty(int order) const;
-  [[nodiscard]] Eigen::Index bending_rank(int order) const { return size() - order * (order + 1) / 2; }
+  [[nodiscard]] Eigen::Index bending_rank(int order) const {
+    return size() - order * (order + 1) / 2;
+  }
 
   [[nodiscard]] Eigen::MatrixXd thin_plate_penalty() const { return bending_penalty(2); }
   [[nodiscard]] Eigen::Index thin_plate_rank() const { return bending_rank(2); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// A hanging two-chain router as its owner describes it: one struct a part, the same words as in a
-/// chaintrue_machine file, and the stated uncertainties. Data only; the equilibrium is in pose.hpp.
+/// chaintrue_machine file, and the stated uncertainties. Data only; the equilibrium is in kinematics.hpp.
 ///
 /// \code
 ///   Machine machine;                      // the classic Maslow on a ten-foot beam

@@ -42,32 +42,36 @@ const Record<model::BedPoint>& place_record() {
 }
 
 const Record<MapNoise>& noise_record() {
-  static const auto record = Record<MapNoise>("the noise that the fit went by")
-                                 .required("length_mm", &MapNoise::length_mm, number(kPositive))
-                                 .required("position_mm", &MapNoise::position_mm, number(kPositive))
-                                 .required("source", &MapNoise::source, one_of({"stated", "repeats", "fit", "assumed"}))
-                                 .required("factor_found", &MapNoise::factor_found, number(kPositive));
+  static const auto record =
+      Record<MapNoise>("the noise that the fit went by")
+          .required("length_mm", &MapNoise::length_mm, number(kPositive))
+          .required("position_mm", &MapNoise::position_mm, number(kPositive))
+          .required("source", &MapNoise::source, one_of({"stated", "repeats", "fit", "assumed"}))
+          .required("factor_found", &MapNoise::factor_found, number(kPositive));
   return record;
 }
 
 const Record<ErrorSummary>& summary_record() {
-  static const auto record = Record<ErrorSummary>("rms and maximum")
-                                 .required("rms_mm", &ErrorSummary::rms_mm, number(kPositive))
-                                 .required("maximum_mm", &ErrorSummary::maximum_mm, number(kPositive));
+  static const auto record =
+      Record<ErrorSummary>("rms and maximum")
+          .required("rms_mm", &ErrorSummary::rms_mm, number(kPositive))
+          .required("maximum_mm", &ErrorSummary::maximum_mm, number(kPositive));
   return record;
 }
 
 const Record<HeldOutError>& held_out_record() {
-  static const auto record = Record<HeldOutError>("held-out errors")
-                                 .required("chain", &HeldOutError::chain, object(summary_record()))
-                                 .required("tool", &HeldOutError::tool, object(summary_record()))
-                                 .required("tool_x_rms_mm", &HeldOutError::tool_x_rms_mm, number(kPositive))
-                                 .required("tool_y_rms_mm", &HeldOutError::tool_y_rms_mm, number(kPositive));
+  static const auto record =
+      Record<HeldOutError>("held-out errors")
+          .required("chain", &HeldOutError::chain, object(summary_record()))
+          .required("tool", &HeldOutError::tool, object(summary_record()))
+          .required("tool_x_rms_mm", &HeldOutError::tool_x_rms_mm, number(kPositive))
+          .required("tool_y_rms_mm", &HeldOutError::tool_y_rms_mm, number(kPositive));
   return record;
 }
 
 constexpr const char* kRelativeTo =
-    "leave_one_out and blocked: relative to the readings, whose noise they contain; expected_tool: one sigma, relative "
+    "leave_one_out and blocked: relative to the readings, whose noise they contain; expected_tool: "
+    "one sigma, relative "
     "to the true machine";
 
 const Record<MapAccuracy>& accuracy_record() {
@@ -103,7 +107,9 @@ template <class T>
 Record<T>& pair(Record<T>& record, const std::string& key, Eigen::Vector2d T::*member) {
   const Value<Numbers> value = list(number(kErrorMm), 2);
   return record.custom(
-      key, true, "a pair of numbers in mm",
+      key,
+      true,
+      "a pair of numbers in mm",
       [member, value](const Cursor& at, T& object) {
         const auto read = value.read(at);
         if (read && read->size() == 2) {
@@ -112,7 +118,10 @@ Record<T>& pair(Record<T>& record, const std::string& key, Eigen::Vector2d T::*m
           at.expect("a pair of numbers in mm");
         }
       },
-      [member](const T& object) { return std::optional<Json>(Json::array({(object.*member)[0] + 0.0, (object.*member)[1] + 0.0})); });
+      [member](const T& object) {
+        return std::optional<Json>(
+            Json::array({(object.*member)[0] + 0.0, (object.*member)[1] + 0.0}));
+      });
 }
 
 const Record<MapPoint>& point_record() {
@@ -120,7 +129,9 @@ const Record<MapPoint>& point_record() {
     Record<MapPoint> point("a measured point");
     const auto coordinate = [&point](const char* key, auto get) {
       point.custom(
-          key, true, "a number in mm",
+          key,
+          true,
+          "a number in mm",
           [get](const Cursor& at, MapPoint& p) {
             if (const auto value = at.number(kPlaceMm)) get(p) = *value;
           },
@@ -148,9 +159,12 @@ const Record<MirrorTest>& mirror_record() {
   static const auto record =
       Record<MirrorTest>("the mirror claim")
           .custom(
-              "points", true, "a count",
+              "points",
+              true,
+              "a count",
               [](const Cursor& at, MirrorTest& test) {
-                if (const auto count = at.integer(0, 1000000)) test.points = static_cast<std::size_t>(*count);
+                if (const auto count = at.integer(0, 1000000))
+                  test.points = static_cast<std::size_t>(*count);
               },
               [](const MirrorTest& test) { return std::optional<Json>(test.points); })
           .required("difference", &MirrorTest::difference, object(summary_record()))
@@ -175,26 +189,37 @@ void check_map(const Cursor& at, MapPart& map) {
 }
 
 const Record<MapPart>& map_record() {
-  static const auto record = Record<MapPart>("a chaintrue_map file", "chaintrue_map")
-                                 .optional("name", &MapPart::name, text())
-                                 .optional("on_machine", &MapPart::model, object(model_part_record()))
-                                 .optional("direct", &MapPart::direct, object(direct_part_record()))
-                                 .required("domain_mm", &MapPart::domain, object(rectangle_record()))
-                                 .required("hull", &MapPart::hull, list(object(place_record()), 3))
-                                 .required("edge_mm", &MapPart::edge_mm, number(kPositive))
-                                 .required("noise", &MapPart::noise, object(noise_record()))
-                                 .required("accuracy", &MapPart::accuracy, object(accuracy_record()))
-                                 .required("settings", &MapPart::settings, list(object(setting_record())))
-                                 .required("points", &MapPart::points, list(object(point_record())))
-                                 .optional("mirror", &MapPart::mirror, object(mirror_record()))
-                                 .required("notes", &MapPart::notes, list(text()))
-                                 .check(check_map);
+  static const auto record =
+      Record<MapPart>("a chaintrue_map file", "chaintrue_map")
+          .optional("name", &MapPart::name, text())
+          .optional("on_machine", &MapPart::model, object(model_part_record()))
+          .optional("direct", &MapPart::direct, object(direct_part_record()))
+          .required("domain_mm", &MapPart::domain, object(rectangle_record()))
+          .required("hull", &MapPart::hull, list(object(place_record()), 3))
+          .required("edge_mm", &MapPart::edge_mm, number(kPositive))
+          .required("noise", &MapPart::noise, object(noise_record()))
+          .required("accuracy", &MapPart::accuracy, object(accuracy_record()))
+          .required("settings", &MapPart::settings, list(object(setting_record())))
+          .required("points", &MapPart::points, list(object(point_record())))
+          .optional("mirror", &MapPart::mirror, object(mirror_record()))
+          .required("notes", &MapPart::notes, list(text()))
+          .check(check_map);
   return record;
 }
 
 MapPart part_of(const MapContents& map) {
-  MapPart part{map.name,     std::nullopt, std::nullopt, map.hull,   map.edge_mm, map.domain, map.noise,
-               map.accuracy, map.settings, map.points,   map.mirror, map.notes};
+  MapPart part{map.name,
+               std::nullopt,
+               std::nullopt,
+               map.hull,
+               map.edge_mm,
+               map.domain,
+               map.noise,
+               map.accuracy,
+               map.settings,
+               map.points,
+               map.mirror,
+               map.notes};
   if (const auto* model = std::get_if<ModelSurface>(&map.surface)) {
     part.model = files::part_of(*model);
   } else {
@@ -233,6 +258,8 @@ CompensationMap read_map(const std::filesystem::path& path) {
   return parse_map(read_whole_file(path), name_in_messages(path));
 }
 
-std::string write_map(const CompensationMap& map) { return write_document(map_record(), part_of(map.contents())); }
+std::string write_map(const CompensationMap& map) {
+  return write_document(map_record(), part_of(map.contents()));
+}
 
 }  // namespace chaintrue::grid::files

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue_map files: a compensation map with its machine, surface, hull, noise, covariance and its own error. Unknown
-/// keys are errors, except "comment". Same map, same bytes.
+/// chaintrue_map files: a compensation map with its machine, surface, hull, noise, covariance and
+/// its own error. Unknown keys are errors, except "comment". Same map, same bytes.
 ///
-/// The covariance of the unknowns is kept as the rows of its lower triangular factor, to seven digits: a sigma is never
-/// worth more.
+/// The covariance of the unknowns is kept as the rows of its lower triangular factor, to seven
+/// digits: a sigma is never worth more.
 #pragma once
 
 #include <filesystem>

@@ -23,7 +23,8 @@ const Record<model::SheetPlacement>& sheet_record() {
       Record<model::SheetPlacement>("a sheet's placement")
           .required("x_mm", &model::SheetPlacement::x_mm, number(kPlaceMm))
           .required("y_mm", &model::SheetPlacement::y_mm, number(kPlaceMm))
-          .required("rotation_rad", &model::SheetPlacement::rotation_rad, number({"rad", -7.0, 7.0}));
+          .required(
+              "rotation_rad", &model::SheetPlacement::rotation_rad, number({"rad", -7.0, 7.0}));
   return record;
 }
 
@@ -39,7 +40,8 @@ const Record<SplinePart>& spline_record() {
           .required("coefficients_right_mm", &SplinePart::right_mm, numbers())
           .check([](const Cursor& at, SplinePart& part) {
             if (!at.clean()) return;
-            const auto size = static_cast<std::size_t>((part.x_intervals + 3) * (part.y_intervals + 3));
+            const auto size =
+                static_cast<std::size_t>((part.x_intervals + 3) * (part.y_intervals + 3));
             const std::string expected = fmt::format("{} coefficients, as the intervals say", size);
             if (part.left_mm.size() != size) at.child("coefficients_left_mm").expect(expected);
             if (part.right_mm.size() != size) at.child("coefficients_right_mm").expect(expected);
@@ -51,9 +53,12 @@ void check_model_part(const Cursor& at, ModelPart& part) {
   if (!at.clean()) return;
   const std::size_t unknowns = part.unknown_settings.size() + 2 + part.residual.left_mm.size() * 2;
   bool triangle = part.covariance_factor.size() == unknowns;
-  for (std::size_t i = 0; triangle && i < unknowns; ++i) triangle = part.covariance_factor[i].size() == i + 1;
+  for (std::size_t i = 0; triangle && i < unknowns; ++i)
+    triangle = part.covariance_factor[i].size() == i + 1;
   if (!triangle) {
-    at.child("covariance_factor").expect(fmt::format("the {} rows of a lower triangle, of 1 to {} numbers", unknowns, unknowns));
+    at.child("covariance_factor")
+        .expect(
+            fmt::format("the {} rows of a lower triangle, of 1 to {} numbers", unknowns, unknowns));
   }
 }
 
@@ -79,7 +84,9 @@ const Record<interp::TensorEnds>& ends_record() {
 }
 
 bool rises(const Numbers& values) {
-  return std::adjacent_find(values.begin(), values.end(), [](double a, double b) { return !(a < b); }) == values.end();
+  return std::adjacent_find(values.begin(), values.end(), [](double a, double b) {
+           return !(a < b);
+         }) == values.end();
 }
 
 struct NodeValues {
@@ -95,10 +102,12 @@ void check_nodes(const Cursor& at, const Part& part, std::initializer_list<NodeV
   if (!rises(part.y_nodes_mm)) at.child("y_nodes_mm").expect("numbers that rise");
   const auto shape = [&](const std::vector<Numbers>& rows) {
     return rows.size() == part.x_nodes_mm.size() &&
-           std::all_of(rows.begin(), rows.end(),
-                       [&](const Numbers& column) { return column.size() == part.y_nodes_mm.size(); });
+           std::all_of(rows.begin(), rows.end(), [&](const Numbers& column) {
+             return column.size() == part.y_nodes_mm.size();
+           });
   };
-  const std::string expected = fmt::format("{} lists of {} lengths, one list for each x", part.x_nodes_mm.size(),
+  const std::string expected = fmt::format("{} lists of {} lengths, one list for each x",
+                                           part.x_nodes_mm.size(),
                                            part.y_nodes_mm.size());
   for (const NodeValues& value : values) {
     if (!shape(*value.rows)) at.child(value.key).expect(expected);
@@ -110,7 +119,10 @@ void check_direct_part(const Cursor& at, DirectPart& part) {
 }
 
 void check_lattice_part(const Cursor& at, LatticePart& part) {
-  check_nodes(at, part, {{"left_mm", &part.left_mm}, {"right_mm", &part.right_mm}, {"doubt_mm", &part.doubt_mm}});
+  check_nodes(
+      at,
+      part,
+      {{"left_mm", &part.left_mm}, {"right_mm", &part.right_mm}, {"doubt_mm", &part.doubt_mm}});
 }
 
 const Record<LatticePart>& lattice_part_record() {
@@ -121,7 +133,8 @@ const Record<LatticePart>& lattice_part_record() {
           .required("left_mm", &LatticePart::left_mm, list(numbers(2), 2))
           .required("right_mm", &LatticePart::right_mm, list(numbers(2), 2))
           .required("doubt_mm", &LatticePart::doubt_mm, list(list(number(kPositive), 2), 2))
-          .required("interpolation_sigma_mm", &LatticePart::interpolation_sigma_mm, number(kPositive))
+          .required(
+              "interpolation_sigma_mm", &LatticePart::interpolation_sigma_mm, number(kPositive))
           .check(check_lattice_part);
   return record;
 }
@@ -141,12 +154,14 @@ Eigen::VectorXd to_vector(const Numbers& values) {
 
 std::vector<Numbers> to_lists(const Eigen::MatrixXd& values) {
   std::vector<Numbers> lists;
-  for (Eigen::Index i = 0; i < values.rows(); ++i) lists.push_back(to_numbers(values.row(i).transpose()));
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+    lists.push_back(to_numbers(values.row(i).transpose()));
   return lists;
 }
 
 Eigen::MatrixXd to_matrix(const std::vector<Numbers>& lists) {
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(lists.size()), static_cast<Eigen::Index>(lists.front().size()));
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(lists.size()),
+                         static_cast<Eigen::Index>(lists.front().size()));
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
     values.row(i) = to_vector(lists[static_cast<std::size_t>(i)]).transpose();
   }
@@ -194,7 +209,8 @@ const Record<DirectPart>& direct_part_record() {
           .required("left_mm", &DirectPart::left_mm, list(numbers(2), 2))
           .required("right_mm", &DirectPart::right_mm, list(numbers(2), 2))
           .required("ends", &DirectPart::ends, object(ends_record()))
-          .required("interpolation_sigma_mm", &DirectPart::interpolation_sigma_mm, number(kPositive))
+          .required(
+              "interpolation_sigma_mm", &DirectPart::interpolation_sigma_mm, number(kPositive))
           .check(check_direct_part);
   return record;
 }
@@ -214,7 +230,8 @@ ModelPart part_of(const ModelSurface& surface) {
                    to_numbers(surface.residual.coefficients.right)};
   for (Eigen::Index i = 0; i < surface.covariance_factor.rows(); ++i) {
     Numbers row;
-    for (Eigen::Index j = 0; j <= i; ++j) row.push_back(seven_digits(surface.covariance_factor(i, j)));
+    for (Eigen::Index j = 0; j <= i; ++j)
+      row.push_back(seven_digits(surface.covariance_factor(i, j)));
     part.covariance_factor.push_back(std::move(row));
   }
   if (surface.lattice) {
@@ -230,29 +247,35 @@ ModelPart part_of(const ModelSurface& surface) {
 }
 
 ModelSurface surface_of(const ModelPart& part) {
-  ModelSurface surface{part.machine,
-                       part.sheet,
-                       {interp::BsplineBasis(part.residual.rectangle, part.residual.x_intervals, part.residual.y_intervals),
-                        {part.residual.scale_left, part.residual.scale_right},
-                        {to_vector(part.residual.left_mm), to_vector(part.residual.right_mm)}},
-                       {},
-                       {},
-                       {},
-                       {}};
-  for (const std::string& word : part.unknown_settings) surface.settings.push_back(*model::setting_from_name(word));
-  surface.columns = {static_cast<Eigen::Index>(surface.settings.size()), surface.residual.basis.size()};
+  ModelSurface surface{
+      part.machine,
+      part.sheet,
+      {interp::BsplineBasis(
+           part.residual.rectangle, part.residual.x_intervals, part.residual.y_intervals),
+       {part.residual.scale_left, part.residual.scale_right},
+       {to_vector(part.residual.left_mm), to_vector(part.residual.right_mm)}},
+      {},
+      {},
+      {},
+      {}};
+  for (const std::string& word : part.unknown_settings)
+    surface.settings.push_back(*model::setting_from_name(word));
+  surface.columns = {static_cast<Eigen::Index>(surface.settings.size()),
+                     surface.residual.basis.size()};
   const Eigen::Index unknowns = surface.columns.total();
   surface.covariance_factor = Eigen::MatrixXd::Zero(unknowns, unknowns);
   for (Eigen::Index i = 0; i < unknowns; ++i) {
     const Numbers& row = part.covariance_factor[static_cast<std::size_t>(i)];
-    for (Eigen::Index j = 0; j <= i; ++j) surface.covariance_factor(i, j) = row[static_cast<std::size_t>(j)];
+    for (Eigen::Index j = 0; j <= i; ++j)
+      surface.covariance_factor(i, j) = row[static_cast<std::size_t>(j)];
   }
   if (part.lattice) {
-    surface.lattice = LatticeResidual{part.lattice->x_nodes_mm,
-                                      part.lattice->y_nodes_mm,
-                                      {to_matrix(part.lattice->left_mm), to_matrix(part.lattice->right_mm)},
-                                      to_matrix(part.lattice->doubt_mm),
-                                      part.lattice->interpolation_sigma_mm};
+    surface.lattice =
+        LatticeResidual{part.lattice->x_nodes_mm,
+                        part.lattice->y_nodes_mm,
+                        {to_matrix(part.lattice->left_mm), to_matrix(part.lattice->right_mm)},
+                        to_matrix(part.lattice->doubt_mm),
+                        part.lattice->interpolation_sigma_mm};
   }
   return surface;
 }

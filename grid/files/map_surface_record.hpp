@@ -45,7 +45,7 @@ struct ModelPart {
 struct DirectPart {
   Numbers x_nodes_mm;
   Numbers y_nodes_mm;
-  std::vector<Numbers> left_mm;   // rows of constant x
+  std::vector<Numbers> left_mm;  // rows of constant x
   std::vector<Numbers> right_mm;
   interp::TensorEnds ends;
   double interpolation_sigma_mm = 0.0;

@@ -46,15 +46,19 @@ class CompensationMap::ModelField final : public Field {
     if (!reading) return Eigen::Matrix2d::Zero();
     const model::ChainReading unread(mark, reading->lengths, {});
     const auto line = unread.linearise(model_, surface_.sheet, surface_.settings);
-    const Eigen::MatrixXd rows = design_rows(surface_.residual.basis, surface_.columns, mark, reading->lengths,
-                                             line->setting_jacobian);
+    const Eigen::MatrixXd rows = design_rows(
+        surface_.residual.basis, surface_.columns, mark, reading->lengths, line->setting_jacobian);
     const Eigen::MatrixXd spread =
         rows * surface_.covariance_factor.triangularView<Eigen::Lower>().toDenseMatrix();
     return spread * spread.transpose();
   }
 
-  [[nodiscard]] BedPoint to_mark(BedPoint bed) const override { return surface_.sheet.to_mark(bed); }
-  [[nodiscard]] BedPoint to_bed(BedPoint mark) const override { return surface_.sheet.to_bed(mark); }
+  [[nodiscard]] BedPoint to_mark(BedPoint bed) const override {
+    return surface_.sheet.to_mark(bed);
+  }
+  [[nodiscard]] BedPoint to_bed(BedPoint mark) const override {
+    return surface_.sheet.to_bed(mark);
+  }
 
  private:
   ModelSurface surface_;
@@ -85,9 +89,9 @@ class CompensationMap::LatticeField final : public Field {
   }
 
   [[nodiscard]] Eigen::Matrix2d covariance(BedPoint mark, const Lengths& here) const override {
-    const Eigen::Matrix2d node =
-        noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
-        noise_.position_mm * noise_.position_mm * here.mark_jacobian * here.mark_jacobian.transpose();
+    const Eigen::Matrix2d node = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
+                                 noise_.position_mm * noise_.position_mm * here.mark_jacobian *
+                                     here.mark_jacobian.transpose();
     return splines_.covariance(mark, noise_.factor_found * noise_.factor_found * node);
   }
 
@@ -105,7 +109,8 @@ class CompensationMap::LatticeField final : public Field {
 class CompensationMap::DirectField final : public Field {
  public:
   DirectField(const DirectSurface& surface, const MapNoise& noise)
-      : axes_(std::make_shared<const interp::TensorAxes>(surface.x_nodes_mm, surface.y_nodes_mm, surface.ends)),
+      : axes_(std::make_shared<const interp::TensorAxes>(
+            surface.x_nodes_mm, surface.y_nodes_mm, surface.ends)),
         left_(axes_, surface.lengths_mm.left),
         right_(axes_, surface.lengths_mm.right),
         noise_(noise),
@@ -120,14 +125,15 @@ class CompensationMap::DirectField final : public Field {
     return here;
   }
 
-  /// Each node errs by the readings' noise, the place's error as its slope carries it into the chains; what lies
-  /// between the nodes by the estimate of the interpolation's own error.
+  /// Each node errs by the readings' noise, the place's error as its slope carries it into the
+  /// chains; what lies between the nodes by the estimate of the interpolation's own error.
   [[nodiscard]] Eigen::Matrix2d covariance(BedPoint mark, const Lengths& here) const override {
     const double squares = left_.cardinal_weights(mark.x_mm, mark.y_mm).squaredNorm();
-    const Eigen::Matrix2d node =
-        noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
-        noise_.position_mm * noise_.position_mm * here.mark_jacobian * here.mark_jacobian.transpose();
-    return squares * node + interpolation_sigma_mm_ * interpolation_sigma_mm_ * Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2d node = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
+                                 noise_.position_mm * noise_.position_mm * here.mark_jacobian *
+                                     here.mark_jacobian.transpose();
+    return squares * node +
+           interpolation_sigma_mm_ * interpolation_sigma_mm_ * Eigen::Matrix2d::Identity();
   }
 
   [[nodiscard]] BedPoint to_mark(BedPoint bed) const override { return bed; }
@@ -150,7 +156,8 @@ CompensationMap::CompensationMap(MapContents contents)
       field_ = std::make_shared<const ModelField>(*surface);
     }
   } else {
-    field_ = std::make_shared<const DirectField>(std::get<DirectSurface>(contents_.surface), contents_.noise);
+    field_ = std::make_shared<const DirectField>(std::get<DirectSurface>(contents_.surface),
+                                                 contents_.noise);
   }
 }
 
@@ -171,9 +178,11 @@ MapStatus CompensationMap::status(BedPoint point, Frame frame) const {
   return area_.status(mark_of(point, frame));
 }
 
-tl::expected<CompensationMap::Lengths, MapFailure> CompensationMap::lengths(BedPoint point, Frame frame) const {
+tl::expected<CompensationMap::Lengths, MapFailure> CompensationMap::lengths(BedPoint point,
+                                                                            Frame frame) const {
   const BedPoint mark = mark_of(point, frame);
-  if (!contents_.domain.contains(mark.x_mm, mark.y_mm)) return tl::unexpected(MapFailure::outside_map);
+  if (!contents_.domain.contains(mark.x_mm, mark.y_mm))
+    return tl::unexpected(MapFailure::outside_map);
   return field_->at(mark);
 }
 
@@ -192,7 +201,8 @@ tl::expected<MapAnswer, MapFailure> CompensationMap::query(BedPoint point, Frame
   return answer;
 }
 
-tl::expected<BedPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted, Frame frame) const {
+tl::expected<BedPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted,
+                                                            Frame frame) const {
   constexpr int kSteps = 30;
   constexpr double kSettledMm = 1e-9;
   const interp::Rectangle& domain = contents_.domain;
@@ -200,10 +210,12 @@ tl::expected<BedPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted,
   for (int step = 0; step < kSteps; ++step) {
     const auto here = field_->at(mark);
     if (!here) return tl::unexpected(here.error());
-    const Eigen::Vector2d missing(wanted.left_mm - here->lengths.left_mm, wanted.right_mm - here->lengths.right_mm);
+    const Eigen::Vector2d missing(wanted.left_mm - here->lengths.left_mm,
+                                  wanted.right_mm - here->lengths.right_mm);
     const Eigen::Vector2d move = here->mark_jacobian.inverse() * missing;
     if (!move.allFinite()) return tl::unexpected(MapFailure::not_converged);
-    // A step may leave the domain on the way, but not run off to where the chains cannot hold the sled.
+    // A step may leave the domain on the way, but not run off to where the chains cannot hold the
+    // sled.
     mark.x_mm = std::clamp(mark.x_mm + move.x(), domain.x_min - 50.0, domain.x_max + 50.0);
     mark.y_mm = std::clamp(mark.y_mm + move.y(), domain.y_min - 50.0, domain.y_max + 50.0);
     if (move.norm() < kSettledMm) {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The compensation map: true chain lengths for any point of the bed, with what is known of their error.
+/// The compensation map: true chain lengths for any point of the bed, with what is known of their
+/// error.
 ///
-/// Frame: answers are in the frame of the grid's points (the marks) unless Frame::bed is asked for; the two differ by
-/// the sheet's placement. Lengths are what a reading would be without drift, skips and hysteresis.
+/// Frame: answers are in the frame of the grid's points (the marks) unless Frame::bed is asked for;
+/// the two differ by the sheet's placement. Lengths are what a reading would be without drift,
+/// skips and hysteresis.
 ///
 /// \code
 ///   const CompensationMap map(contents);                       // from fit() or files::read_map()
-///   if (const auto answer = map.query({100.0, -200.0})) use(answer->lengths, answer->sigma, answer->status);
-///   if (const auto mark = map.inverse({1702.1, 1821.4})) use(*mark);
+///   if (const auto answer = map.query({100.0, -200.0})) use(answer->lengths, answer->sigma,
+///   answer->status); if (const auto mark = map.inverse({1702.1, 1821.4})) use(*mark);
 /// \endcode
 #pragma once
 
@@ -36,7 +38,8 @@ struct SettingResult {
   double stated = 0.0;
   double calibrated = 0.0;
   double sigma = 0.0;
-  /// Moved by more than three of its stated sigmas: what was stated is wrong, or something else imitates it.
+  /// Moved by more than three of its stated sigmas: what was stated is wrong, or something else
+  /// imitates it.
   bool off = false;
 };
 
@@ -46,7 +49,8 @@ struct ErrorSummary {
   double maximum_mm = 0.0;
 };
 
-/// Errors of one way of holding points out. Chain: both chains alike. Tool: distance from where the tool was.
+/// Errors of one way of holding points out. Chain: both chains alike. Tool: distance from where the
+/// tool was.
 struct HeldOutError {
   ErrorSummary chain;
   ErrorSummary tool;
@@ -54,8 +58,8 @@ struct HeldOutError {
   double tool_y_rms_mm = 0.0;
 };
 
-/// What the map says of its own error. Held-out errors are relative to the readings, whose noise they contain;
-/// expected errors are relative to the true machine, one sigma.
+/// What the map says of its own error. Held-out errors are relative to the readings, whose noise
+/// they contain; expected errors are relative to the true machine, one sigma.
 struct MapAccuracy {
   HeldOutError leave_one_out;
   HeldOutError blocked;
@@ -74,7 +78,8 @@ struct MapNoise {
   double factor_found = 1.0;
 };
 
-/// A measured point as the map sees it, in millimetres at the tool: how far the tool was beyond where each model thinks.
+/// A measured point as the map sees it, in millimetres at the tool: how far the tool was beyond
+/// where each model thinks.
 struct MapPoint {
   model::BedPoint mark;
   model::ChainLengths lengths;
@@ -109,7 +114,8 @@ struct ModelSurface {
   std::vector<model::Setting> settings;
   /// C = F F', lower triangular, of all unknowns in the order of FitColumns.
   Eigen::MatrixXd covariance_factor;
-  /// Takes the place of the residual's splines (its chain scales stay) where readings without noise stand on a lattice.
+  /// Takes the place of the residual's splines (its chain scales stay) where readings without noise
+  /// stand on a lattice.
   std::optional<LatticeResidual> lattice = std::nullopt;
 };
 
@@ -169,12 +175,14 @@ class CompensationMap {
 
   [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::BedPoint point,
                                                           Frame frame = Frame::marks) const;
-  /// Lengths and their derivative alone, some ten times faster: what a path needs between its corners.
+  /// Lengths and their derivative alone, some ten times faster: what a path needs between its
+  /// corners.
   struct Lengths {
     model::ChainLengths lengths;
     Eigen::Matrix2d mark_jacobian;
   };
-  [[nodiscard]] tl::expected<Lengths, MapFailure> lengths(model::BedPoint point, Frame frame = Frame::marks) const;
+  [[nodiscard]] tl::expected<Lengths, MapFailure> lengths(model::BedPoint point,
+                                                          Frame frame = Frame::marks) const;
   /// Where the tool is when these lengths are paid out: Newton to 1e-9 mm, at most 30 steps.
   [[nodiscard]] tl::expected<model::BedPoint, MapFailure> inverse(model::ChainLengths lengths,
                                                                   Frame frame = Frame::marks) const;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <Eigen/LU>
 #include <functional>
 
 #include "grid/map/lattice_lines.hpp"
@@ -58,8 +58,8 @@ std::vector<double> without(std::vector<double> lines, std::size_t line) {
 /// What a map without one inner line says of that line's nodes, each line in turn.
 struct LineErrors {
   std::vector<HeldOutResidual> residuals;
-  /// The error that the full grid has between its lines, one sigma: halving the spacing divides a cubic spline's error
-  /// by 16, a parabola's (three lines left) by 8.
+  /// The error that the full grid has between its lines, one sigma: halving the spacing divides a
+  /// cubic spline's error by 16, a parabola's (three lines left) by 8.
   double interpolation_sigma_mm = 0.0;
 };
 
@@ -69,10 +69,13 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
   double squares = 0.0;
   for (std::size_t line = 1; line + 1 < lines.size(); ++line) {
     const auto axes = std::make_shared<const interp::TensorAxes>(
-        columns ? without(lines, line) : lattice.x_nodes_mm, columns ? lattice.y_nodes_mm : without(lines, line), ends);
+        columns ? without(lines, line) : lattice.x_nodes_mm,
+        columns ? lattice.y_nodes_mm : without(lines, line),
+        ends);
     const auto at = static_cast<Eigen::Index>(line);
     const auto kept = [&](const Eigen::MatrixXd& all) {
-      Eigen::MatrixXd values(static_cast<Eigen::Index>(axes->x.size()), static_cast<Eigen::Index>(axes->y.size()));
+      Eigen::MatrixXd values(static_cast<Eigen::Index>(axes->x.size()),
+                             static_cast<Eigen::Index>(axes->y.size()));
       if (columns) {
         values << all.topRows(at), all.bottomRows(all.rows() - at - 1);
       } else {
@@ -91,7 +94,8 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
       const auto i = static_cast<Eigen::Index>(ix);
       const auto j = static_cast<Eigen::Index>(iy);
       HeldOutResidual residual;
-      residual.chain_mm = {lattice.lengths_mm.left(i, j) - l.value, lattice.lengths_mm.right(i, j) - r.value};
+      residual.chain_mm = {lattice.lengths_mm.left(i, j) - l.value,
+                           lattice.lengths_mm.right(i, j) - r.value};
       residual.mark_jacobian << l.dx, l.dy, r.dx, r.dy;
       squares += residual.chain_mm.squaredNorm();
       errors.residuals.push_back(residual);
@@ -109,17 +113,21 @@ tl::expected<void, FitFailure> check_full(const Lattice& lattice) {
   const Eigen::Index ny = lattice.visits.cols();
   const auto missing = (lattice.visits.array() == 0).count();
   if (missing == 0 && nx >= 2 && ny >= 2) return {};
-  return tl::unexpected(FitFailure{
-      FitFailure::Reason::not_a_grid,
-      fmt::format("--surface direct needs a point on every crossing of full rows and columns; these points make {} "
-                  "columns and {} rows with {} crossings empty. Where the sled stood beside its marks, --surface "
-                  "residual takes the points as they are",
-                  nx, ny, missing)});
+  return tl::unexpected(FitFailure{FitFailure::Reason::not_a_grid,
+                                   fmt::format("--surface direct needs a point on every crossing "
+                                               "of full rows and columns; these points make {} "
+                                               "columns and {} rows with {} crossings empty. Where "
+                                               "the sled stood beside its marks, --surface "
+                                               "residual takes the points as they are",
+                                               nx,
+                                               ny,
+                                               missing)});
 }
 
 }  // namespace
 
-tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid, const FitOptions& options) {
+tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
+                                                     const FitOptions& options) {
   const auto points = length_points(grid);
   if (!points) return tl::unexpected(points.error());
   Lattice lattice = lattice_of(*points);
@@ -129,7 +137,9 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid, c
   const LineErrors rows = leave_lines_out(lattice, options.ends, false);
   MapContents map;
   map.name = grid.name;
-  map.domain = {lattice.x_nodes_mm.front(), lattice.x_nodes_mm.back(), lattice.y_nodes_mm.front(),
+  map.domain = {lattice.x_nodes_mm.front(),
+                lattice.x_nodes_mm.back(),
+                lattice.y_nodes_mm.front(),
                 lattice.y_nodes_mm.back()};
   std::vector<model::BedPoint> marks;
   for (const LengthPoint& point : *points) marks.push_back(point.mark);
@@ -141,11 +151,17 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid, c
   map.noise = {noise.length_mm, noise.position_mm, grid.noise ? "stated" : "assumed", 1.0};
   map.accuracy.leave_one_out = summarise(columns.residuals);
   map.accuracy.blocked = summarise(rows.residuals);
-  map.surface = DirectSurface{lattice.x_nodes_mm, lattice.y_nodes_mm, lattice.lengths_mm, options.ends,
-                              std::hypot(columns.interpolation_sigma_mm, rows.interpolation_sigma_mm)};
+  map.surface =
+      DirectSurface{lattice.x_nodes_mm,
+                    lattice.y_nodes_mm,
+                    lattice.lengths_mm,
+                    options.ends,
+                    std::hypot(columns.interpolation_sigma_mm, rows.interpolation_sigma_mm)};
   map.notes.push_back(
-      "The lengths were interpolated as they are, without a machine: between few points that errs by millimetres near "
-      "the motors, however well each point was measured. Leave-one-out here means a column at a time, blocked a row.");
+      "The lengths were interpolated as they are, without a machine: between few points that errs "
+      "by millimetres near "
+      "the motors, however well each point was measured. Leave-one-out here means a column at a "
+      "time, blocked a row.");
   const CompensationMap bare(map);
   for (const LengthPoint& point : *points) {
     const auto here = bare.lengths(point.mark);

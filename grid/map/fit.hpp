@@ -17,7 +17,7 @@ namespace chaintrue::grid {
 
 enum class SurfaceKind {
   residual,  ///< the calibrated machine and a smooth correction of what it leaves
-  direct,    ///< splines through the lengths themselves; points on full rows and columns, no machine
+  direct,  ///< splines through the lengths themselves; points on full rows and columns, no machine
 };
 
 struct FitOptions {
@@ -28,9 +28,10 @@ struct FitOptions {
 
 struct FitFailure {
   enum class Reason {
-    no_machine,         ///< the residual surface needs one
-    not_a_grid,         ///< the direct surface needs full rows and columns
-    no_lengths,         ///< a point gives a command that its controller cannot reach, or no controller is stated
+    no_machine,  ///< the residual surface needs one
+    not_a_grid,  ///< the direct surface needs full rows and columns
+    no_lengths,  ///< a point gives a command that its controller cannot reach, or no controller is
+                 ///< stated
     point_unreachable,  ///< a point where the stated machine cannot hold the sled
     rank_deficient,
     not_converged,
@@ -38,6 +39,7 @@ struct FitFailure {
   std::string sentence;
 };
 
-[[nodiscard]] tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid, const FitOptions& options = {});
+[[nodiscard]] tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid,
+                                                            const FitOptions& options = {});
 
 }  // namespace chaintrue::grid

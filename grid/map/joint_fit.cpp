@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Notation: theta, deviations of the settings from what was stated; b, all unknowns (theta first); d, distance of a
-/// point's left-out residual in sigmas.
+/// Notation: theta, deviations of the settings from what was stated; b, all unknowns (theta first);
+/// d, distance of a point's left-out residual in sigmas.
 #include "grid/map/joint_fit.hpp"
 
 #include <fmt/format.h>
@@ -30,14 +30,16 @@ constexpr int kSoftPasses = 4;
 /// The unknown settings: their sigmas, and the machine and sheet at a theta.
 class Unknowns {
  public:
-  Unknowns(const model::Machine& stated, const std::optional<SheetUncertainty>& sheet) : stated_(stated) {
+  Unknowns(const model::Machine& stated, const std::optional<SheetUncertainty>& sheet)
+      : stated_(stated) {
     for (Setting setting : model::kMachineSettings) {
       settings_.push_back(setting);
       sigmas_.push_back(model::stated_sigma(stated, setting));
     }
     if (sheet) {
       settings_.insert(settings_.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-      sigmas_.insert(sigmas_.end(), {sheet->shift_mm, sheet->shift_mm, 1e-3 * sheet->rotation_mrad});
+      sigmas_.insert(sigmas_.end(),
+                     {sheet->shift_mm, sheet->shift_mm, 1e-3 * sheet->rotation_mrad});
     }
   }
   [[nodiscard]] const std::vector<Setting>& settings() const { return settings_; }
@@ -47,8 +49,10 @@ class Unknowns {
   [[nodiscard]] model::Machine machine_at(const Eigen::VectorXd& theta) const {
     model::Machine machine = stated_;
     for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {
-      machine = model::with_setting(std::move(machine), settings_[i],
-                                    model::stated_value(stated_, settings_[i]) + theta[static_cast<Eigen::Index>(i)]);
+      machine = model::with_setting(
+          std::move(machine),
+          settings_[i],
+          model::stated_value(stated_, settings_[i]) + theta[static_cast<Eigen::Index>(i)]);
     }
     return machine;
   }
@@ -64,24 +68,29 @@ class Unknowns {
   std::vector<double> sigmas_;
 };
 
-/// One point, linearised and whitened: rows of the design and the response, and the way back to millimetres.
+/// One point, linearised and whitened: rows of the design and the response, and the way back to
+/// millimetres.
 struct WhitePoint {
-  Eigen::MatrixXd design;     // 2 x total
-  Eigen::Vector2d response;   // whitened, for all unknowns
+  Eigen::MatrixXd design;                                   // 2 x total
+  Eigen::Vector2d response;                                 // whitened, for all unknowns
   Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  // W with W C W' = I
 };
 
 JointFitFailure unreachable(const LengthPoint& point, model::PoseFailure failure) {
   return {JointFitFailure::Reason::point_unreachable,
-          fmt::format("point {} at ({:.1f}, {:.1f}): {}", point.index, point.mark.x_mm, point.mark.y_mm,
+          fmt::format("point {} at ({:.1f}, {:.1f}): {}",
+                      point.index,
+                      point.mark.x_mm,
+                      point.mark.y_mm,
                       model::explain(failure))};
 }
 
-/// Intervals a little wider than the square that each point has to itself: three more coefficients than intervals on each
-/// axis still let noise-free points be met; the penalty makes
-/// what is too many of them harmless, and beyond some 200 a surface more would only cost time. The smoother surface is for
-/// points that are met closely, and closer ones show.
-interp::BsplineBasis basis_for(const interp::Rectangle& domain, const std::vector<LengthPoint>& points,
+/// Intervals a little wider than the square that each point has to itself: three more coefficients
+/// than intervals on each axis still let noise-free points be met; the penalty makes what is too
+/// many of them harmless, and beyond some 200 a surface more would only cost time. The smoother
+/// surface is for points that are met closely, and closer ones show.
+interp::BsplineBasis basis_for(const interp::Rectangle& domain,
+                               const std::vector<LengthPoint>& points,
                                int bending_order) {
   std::vector<model::BedPoint> marks;
   for (const LengthPoint& point : points) marks.push_back(point.mark);
@@ -155,7 +164,8 @@ tl::expected<void, JointFitFailure> JointFitter::linearise() {
     const double scale = 1.0 / std::sqrt(line->covariance(0, 0));
     white.design = Eigen::MatrixXd::Zero(1, columns_.total());
     white.design.leftCols(columns_.settings) = scale * line->setting_jacobian;
-    white.response = Eigen::Vector2d(scale * (line->residual + line->setting_jacobian * theta_)[0], 0.0);
+    white.response =
+        Eigen::Vector2d(scale * (line->residual + line->setting_jacobian * theta_)[0], 0.0);
     extra_.push_back(std::move(white));
   }
   return {};
@@ -181,23 +191,30 @@ interp::PenalisedProblem JointFitter::problem() const {
   for (Eigen::Index i = 0; i < columns_.settings; ++i) {
     problem.prior_precision(i, i) = 1.0 / (unknowns_.sigma(i) * unknowns_.sigma(i));
   }
-  // Readings of the machine itself are data of known sigma: the noise factor of the points does not scale them.
+  // Readings of the machine itself are data of known sigma: the noise factor of the points does not
+  // scale them.
   problem.prior_mean = Eigen::VectorXd::Zero(columns_.total());
   Eigen::VectorXd pull = Eigen::VectorXd::Zero(columns_.settings);
   for (const WhitePoint& white : extra_) {
     const Eigen::RowVectorXd row = white.design.leftCols(columns_.settings);
-    problem.prior_precision.topLeftCorner(columns_.settings, columns_.settings) += row.transpose() * row;
+    problem.prior_precision.topLeftCorner(columns_.settings, columns_.settings) +=
+        row.transpose() * row;
     pull += row.transpose() * white.response[0];
   }
   problem.prior_mean.head(columns_.settings) =
-      problem.prior_precision.topLeftCorner(columns_.settings, columns_.settings).ldlt().solve(pull);
+      problem.prior_precision.topLeftCorner(columns_.settings, columns_.settings)
+          .ldlt()
+          .solve(pull);
 
   const Eigen::MatrixXd free = basis_.polynomial_coefficients(input_.bending_order - 1);
   const Eigen::MatrixXd to_free = (free.transpose() * free).ldlt().solve(free.transpose());
-  const Eigen::MatrixXd free_precision = to_free.transpose() * to_free / (kFreePartSigmaMm * kFreePartSigmaMm);
+  const Eigen::MatrixXd free_precision =
+      to_free.transpose() * to_free / (kFreePartSigmaMm * kFreePartSigmaMm);
   for (model::Side side : model::kSides) {
-    problem.prior_precision(columns_.scale(side), columns_.scale(side)) = 1.0 / (kScaleSigma * kScaleSigma);
-    problem.prior_precision.block(columns_.spline(side), columns_.spline(side), basis_.size(), basis_.size()) =
+    problem.prior_precision(columns_.scale(side), columns_.scale(side)) =
+        1.0 / (kScaleSigma * kScaleSigma);
+    problem.prior_precision.block(
+        columns_.spline(side), columns_.spline(side), basis_.size(), basis_.size()) =
         free_precision;
   }
 
@@ -215,7 +232,8 @@ interp::PenalisedProblem JointFitter::problem() const {
   return problem;
 }
 
-tl::expected<void, JointFitFailure> JointFitter::solve(Smoothing smoothing, bool correct_covariance) {
+tl::expected<void, JointFitFailure> JointFitter::solve(Smoothing smoothing,
+                                                       bool correct_covariance) {
   interp::FitOptions options;
   options.correct_covariance = correct_covariance;
   auto fit = smoothing == Smoothing::choose
@@ -223,15 +241,16 @@ tl::expected<void, JointFitFailure> JointFitter::solve(Smoothing smoothing, bool
                  : interp::fit_with_smoothing(problem(), fit_.lambda, fit_.sigma2, options);
   if (!fit) {
     const bool rank = fit.error().reason == interp::FitFailure::kRankDeficient;
-    return tl::unexpected(JointFitFailure{rank ? JointFitFailure::Reason::rank_deficient
-                                               : JointFitFailure::Reason::not_converged,
-                                          fit.error().sentence});
+    return tl::unexpected(JointFitFailure{
+        rank ? JointFitFailure::Reason::rank_deficient : JointFitFailure::Reason::not_converged,
+        fit.error().sentence});
   }
   fit_ = std::move(*fit);
   return {};
 }
 
-/// Whitened residuals of a group of points, seen from a fit without them. Points set aside are not in the fit.
+/// Whitened residuals of a group of points, seen from a fit without them. Points set aside are not
+/// in the fit.
 std::vector<Eigen::Vector2d> JointFitter::left_out(const std::vector<std::size_t>& group) const {
   std::vector<std::size_t> used;
   for (std::size_t i : group) {
@@ -244,8 +263,9 @@ std::vector<Eigen::Vector2d> JointFitter::left_out(const std::vector<std::size_t
     design.middleRows(2 * static_cast<Eigen::Index>(k), 2) = root * white_[used[k]].design;
     response.segment(2 * static_cast<Eigen::Index>(k), 2) = root * white_[used[k]].response;
   }
-  const auto held = used.empty() ? tl::expected<interp::HeldOut, interp::FitRefusal>(interp::HeldOut{})
-                                 : fit_.held_out(design, response);
+  const auto held = used.empty()
+                        ? tl::expected<interp::HeldOut, interp::FitRefusal>(interp::HeldOut{})
+                        : fit_.held_out(design, response);
   std::vector<Eigen::Vector2d> residuals;
   std::size_t k = 0;
   for (std::size_t i : group) {
@@ -270,7 +290,8 @@ void JointFitter::measure_distances() {
     if (weights_[i] > 0.0) {
       const Eigen::Matrix2d kept = noise - weights_[i] * spread;
       const Eigen::LLT<Eigen::Matrix2d> factor(kept);
-      spread = factor.info() == Eigen::Success ? Eigen::Matrix2d(noise * factor.solve(spread)) : spread;
+      spread =
+          factor.info() == Eigen::Success ? Eigen::Matrix2d(noise * factor.solve(spread)) : spread;
     }
     distances_[i] = std::sqrt(residual.dot((noise + spread).ldlt().solve(residual)));
   }
@@ -282,7 +303,8 @@ bool JointFitter::update_weights(int pass) {
   double change = 0.0;
   for (Eigen::Index i = 0; i < weights_.size(); ++i) {
     const bool bad = pass >= kSoftPasses && distances_[i] > kBadPointDistance;
-    const double weight = bad ? 0.0 : std::min(1.0, kHuberDistance / std::max(distances_[i], 1e-12));
+    const double weight =
+        bad ? 0.0 : std::min(1.0, kHuberDistance / std::max(distances_[i], 1e-12));
     change = std::max(change, std::abs(weight - weights_[i]));
     weights_[i] = weight;
   }
@@ -324,7 +346,8 @@ JointFit JointFitter::result() const {
                {}};
   for (model::Side side : model::kSides) {
     fit.surface.scale[side] = fit_.coefficients[columns_.scale(side)];
-    fit.surface.coefficients[side] = fit_.coefficients.segment(columns_.spline(side), basis_.size());
+    fit.surface.coefficients[side] =
+        fit_.coefficients.segment(columns_.spline(side), basis_.size());
   }
   const model::ReadingModel model(fit.machine);
   for (std::size_t i = 0; i < white_.size(); ++i) {
@@ -339,10 +362,11 @@ JointFit JointFitter::result() const {
     point.left_out_residual_mm = back * left_out({i}).front();
     // linearise() reached every point at this very theta.
     const model::PointReading reading = model.at(fit.sheet.to_bed(point.point.mark)).value();
-    point.mark_jacobian = fit.surface
-                              .apply(point.point.mark, reading.lengths,
-                                     reading.position_jacobian * fit.sheet.rotation())
-                              .mark_jacobian;
+    point.mark_jacobian =
+        fit.surface
+            .apply(
+                point.point.mark, reading.lengths, reading.position_jacobian * fit.sheet.rotation())
+            .mark_jacobian;
     fit.points.push_back(point);
   }
   fit.blocked_residual_mm.resize(white_.size());

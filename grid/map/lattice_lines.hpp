@@ -8,7 +8,8 @@
 
 namespace chaintrue::grid {
 
-/// Points nearer than this to a line of the lattice stand on it: the rounding of written coordinates.
+/// Points nearer than this to a line of the lattice stand on it: the rounding of written
+/// coordinates.
 inline constexpr double kOnLineMm = 0.01;
 
 /// The distinct coordinates, rising; of those within kOnLineMm of each other the least.

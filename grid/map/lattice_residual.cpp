@@ -16,12 +16,14 @@ namespace {
 using model::Side;
 
 constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
-/// Share of the readings that the effective parameters make up where restricted maximum likelihood finds no noise.
+/// Share of the readings that the effective parameters make up where restricted maximum likelihood
+/// finds no noise.
 constexpr double kMetClosely = 0.95;
-/// One line with a node left out foretells it up to 1.6 times as badly as a surface does, without noise, and 3.4 to 6 times
-/// with noise, which the lines' ends amplify.
+/// One line with a node left out foretells it up to 1.6 times as badly as a surface does, without
+/// noise, and 3.4 to 6 times with noise, which the lines' ends amplify.
 constexpr double kStillForetells = 2.0;
-/// Halving the spacing divides the error of a cubic by 16 inside, by some 8 in the cells at the ends.
+/// Halving the spacing divides the error of a cubic by 16 inside, by some 8 in the cells at the
+/// ends.
 constexpr double kHalvedSpacing = 8.0;
 
 /// Where each point of the fit stands; points set aside and places without a point are empty nodes.
@@ -41,10 +43,12 @@ std::optional<Places> places_of(const JointFit& fit) {
   Places places{lines_of(std::move(x)), lines_of(std::move(y)), {}};
   constexpr std::size_t kFewestLines = 4;
   const std::size_t nodes = places.x_nodes_mm.size() * places.y_nodes_mm.size();
-  if (std::min(places.x_nodes_mm.size(), places.y_nodes_mm.size()) < kFewestLines) return std::nullopt;
+  if (std::min(places.x_nodes_mm.size(), places.y_nodes_mm.size()) < kFewestLines)
+    return std::nullopt;
   if (fit.points.size() > nodes) return std::nullopt;
-  Eigen::MatrixXi visits = Eigen::MatrixXi::Zero(static_cast<Eigen::Index>(places.x_nodes_mm.size()),
-                                                 static_cast<Eigen::Index>(places.y_nodes_mm.size()));
+  Eigen::MatrixXi visits =
+      Eigen::MatrixXi::Zero(static_cast<Eigen::Index>(places.x_nodes_mm.size()),
+                            static_cast<Eigen::Index>(places.y_nodes_mm.size()));
   std::size_t good = 0;
   for (const FittedPoint& point : fit.points) {
     const Eigen::Index ix = line_of(places.x_nodes_mm, point.point.mark.x_mm);
@@ -71,7 +75,8 @@ model::PerSide<Eigen::MatrixXd> left_by_machine(const JointFit& fit, const Place
     const model::ChainLengths lengths = model.at(fit.sheet.to_bed(point.mark)).value().lengths;
     const auto [ix, iy] = places.of_point[i];
     values.left(ix, iy) = point.lengths.left_mm - (1.0 + fit.surface.scale.left) * lengths.left_mm;
-    values.right(ix, iy) = point.lengths.right_mm - (1.0 + fit.surface.scale.right) * lengths.right_mm;
+    values.right(ix, iy) =
+        point.lengths.right_mm - (1.0 + fit.surface.scale.right) * lengths.right_mm;
   }
   return values;
 }
@@ -92,10 +97,10 @@ double rms(const std::vector<Eigen::Vector2d>& residuals) {
 }  // namespace
 
 LatticeSplines::LatticeSplines(const LatticeResidual& residual)
-    : left_(std::make_shared<const interp::QuinticSpline>(residual.x_nodes_mm, residual.y_nodes_mm,
-                                                          residual.values_mm.left)),
-      right_(std::make_shared<const interp::QuinticSpline>(residual.x_nodes_mm, residual.y_nodes_mm,
-                                                           residual.values_mm.right)),
+    : left_(std::make_shared<const interp::QuinticSpline>(
+          residual.x_nodes_mm, residual.y_nodes_mm, residual.values_mm.left)),
+      right_(std::make_shared<const interp::QuinticSpline>(
+          residual.x_nodes_mm, residual.y_nodes_mm, residual.values_mm.right)),
       weights_(residual.x_nodes_mm, residual.y_nodes_mm, residual.doubt_mm),
       doubt_mm_(residual.doubt_mm),
       interpolation_sigma_mm_(residual.interpolation_sigma_mm) {}
@@ -104,7 +109,8 @@ model::PerSide<interp::ValueGradient> LatticeSplines::at(model::BedPoint mark) c
   return {left_->at(mark.x_mm, mark.y_mm), right_->at(mark.x_mm, mark.y_mm)};
 }
 
-Eigen::Matrix2d LatticeSplines::covariance(model::BedPoint mark, const Eigen::Matrix2d& node) const {
+Eigen::Matrix2d LatticeSplines::covariance(model::BedPoint mark,
+                                           const Eigen::Matrix2d& node) const {
   const Eigen::MatrixXd weights = weights_.cardinal_weights(mark.x_mm, mark.y_mm);
   const double squares = weights.squaredNorm();
   const double own = std::pow(interpolation_sigma_mm_, 2) * std::max(1.0, squares) +
@@ -131,7 +137,8 @@ std::optional<LatticeFit> fit_lattice(const JointFit& fit) {
     }
     lattice.left_out_residual_mm.push_back(residual);
   }
-  const bool noisy = fit.effective_parameters < kMetClosely * 2.0 * static_cast<double>(foretold_here.size());
+  const bool noisy =
+      fit.effective_parameters < kMetClosely * 2.0 * static_cast<double>(foretold_here.size());
   if (noisy || rms(foretold_here) > kStillForetells * rms(foretold_there)) return std::nullopt;
 
   lattice.residual.x_nodes_mm = places->x_nodes_mm;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the calibrated machine and its chains' scales leave at the nodes of a lattice, joined by a spline that passes through
-/// every measured node.
+/// What the calibrated machine and its chains' scales leave at the nodes of a lattice, joined by a
+/// spline that passes through every measured node.
 ///
-///   correction_i(q) = e_i f_i(q) + t_i(q)                                                          (1)
+///   correction_i(q) = e_i f_i(q) + t_i(q) (1)
 ///
-///   e_i, f_i   as in residual_surface.hpp       t_i   quintic on axes of six nodes or more, else not-a-knot cubic
+///   e_i, f_i   as in residual_surface.hpp       t_i   quintic on axes of six nodes or more, else
+///   not-a-knot cubic
 ///
-/// For readings without noise this errs less between the nodes than a penalised surface, which has to balance smoothness
-/// against fidelity. Nodes that were not measured are filled from the line through them (interp/missing_nodes.hpp).
+/// For readings without noise this errs less between the nodes than a penalised surface, which has
+/// to balance smoothness against fidelity. Nodes that were not measured are filled from the line
+/// through them (interp/missing_nodes.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -41,8 +43,9 @@ class LatticeSplines {
   explicit LatticeSplines(const LatticeResidual& residual);
 
   [[nodiscard]] model::PerSide<interp::ValueGradient> at(model::BedPoint mark) const;
-  /// Of both corrections, `node` being that of one measured node. The bicubic's weights stand for the quintic's. Inside
-  /// the lattice the interpolation's own error counts in full; beyond it, it grows with the weights.
+  /// Of both corrections, `node` being that of one measured node. The bicubic's weights stand for
+  /// the quintic's. Inside the lattice the interpolation's own error counts in full; beyond it, it
+  /// grows with the weights.
   [[nodiscard]] Eigen::Matrix2d covariance(model::BedPoint mark, const Eigen::Matrix2d& node) const;
 
  private:
@@ -59,9 +62,10 @@ struct LatticeFit {
   std::vector<Eigen::Vector2d> left_out_residual_mm;
 };
 
-/// Through what `fit` leaves with its penalised surface taken away. Nothing where the points do not stand alone on the nodes of
-/// a lattice of at least 4 x 4 lines with at most a tenth of the nodes empty, where the readings bear noise (the fit then
-/// has clearly fewer effective parameters than readings), or where the lines foretell left-out points far worse.
+/// Through what `fit` leaves with its penalised surface taken away. Nothing where the points do not
+/// stand alone on the nodes of a lattice of at least 4 x 4 lines with at most a tenth of the nodes
+/// empty, where the readings bear noise (the fit then has clearly fewer effective parameters than
+/// readings), or where the lines foretell left-out points far worse.
 [[nodiscard]] std::optional<LatticeFit> fit_lattice(const JointFit& fit);
 
 }  // namespace chaintrue::grid

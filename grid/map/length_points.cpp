@@ -34,34 +34,42 @@ using TakeReading = std::function<void(Machine&, const ExtraReading&)>;
 const std::map<std::string, TakeReading>& machine_readings() {
   static const std::map<std::string, TakeReading> kReadings = {
       {"sled_mass_kg", [](Machine& m, const ExtraReading& r) { m.sled.mass_kg = r.value; }},
-      {"chain_mass_kg_per_m", [](Machine& m, const ExtraReading& r) { m.chain.mass_kg_per_m = r.value; }},
+      {"chain_mass_kg_per_m",
+       [](Machine& m, const ExtraReading& r) { m.chain.mass_kg_per_m = r.value; }},
       {"ring_radius_mm", take_ring_radius},
       {"link_pitch_mm", take_link_pitch},
   };
   return kReadings;
 }
 
-using MakeObservation = std::function<std::shared_ptr<const model::Observation>(const ExtraReading&)>;
+using MakeObservation =
+    std::function<std::shared_ptr<const model::Observation>(const ExtraReading&)>;
 
 const std::map<std::string, MakeObservation>& setting_readings() {
   static const std::map<std::string, MakeObservation> kReadings = {
       {"motor_spacing_mm",
-       [](const ExtraReading& r) { return std::make_shared<const model::MotorSpacing>(r.value, r.sigma); }},
+       [](const ExtraReading& r) {
+         return std::make_shared<const model::MotorSpacing>(r.value, r.sigma);
+       }},
       {"beam_rise_mm",
-       [](const ExtraReading& r) { return std::make_shared<const model::BeamRise>(r.value, r.sigma); }},
+       [](const ExtraReading& r) {
+         return std::make_shared<const model::BeamRise>(r.value, r.sigma);
+       }},
   };
   return kReadings;
 }
 
 tl::unexpected<FitFailure> no_lengths(std::size_t index, const std::string& why) {
-  return tl::unexpected(FitFailure{
-      FitFailure::Reason::no_lengths, fmt::format("point {} gives a command and no lengths, but {}", index, why)});
+  return tl::unexpected(
+      FitFailure{FitFailure::Reason::no_lengths,
+                 fmt::format("point {} gives a command and no lengths, but {}", index, why)});
 }
 
 }  // namespace
 
 tl::expected<std::vector<LengthPoint>, FitFailure> length_points(const MeasuredGrid& grid) {
-  const bool commands = std::any_of(grid.points.begin(), grid.points.end(),
+  const bool commands = std::any_of(grid.points.begin(),
+                                    grid.points.end(),
                                     [](const MeasuredPoint& point) { return !point.lengths; });
   std::unique_ptr<const model::ControllerKinematics> controller;
   if (commands && grid.machine) controller = model::make_controller_kinematics(*grid.machine);
@@ -72,10 +80,13 @@ tl::expected<std::vector<LengthPoint>, FitFailure> length_points(const MeasuredG
     if (point.lengths) {
       result.lengths = *point.lengths;
     } else {
-      if (!controller) return no_lengths(i, "no machine is stated whose controller would tell them");
+      if (!controller)
+        return no_lengths(i, "no machine is stated whose controller would tell them");
       if (!point.commanded) return no_lengths(i, "the command is missing");
       const auto paid_out = controller->lengths(*point.commanded);
-      if (!paid_out) return no_lengths(i, fmt::format("the controller cannot go there: {}", model::explain(paid_out.error())));
+      if (!paid_out)
+        return no_lengths(
+            i, fmt::format("the controller cannot go there: {}", model::explain(paid_out.error())));
       result.lengths = *paid_out;
     }
     points.push_back(result);
@@ -88,7 +99,8 @@ std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoin
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto near = [&](const std::vector<std::size_t>& group) {
       const model::BedPoint first = points[group.front()].mark;
-      return std::hypot(first.x_mm - points[i].mark.x_mm, first.y_mm - points[i].mark.y_mm) <= kRepeatDistanceMm;
+      return std::hypot(first.x_mm - points[i].mark.x_mm, first.y_mm - points[i].mark.y_mm) <=
+             kRepeatDistanceMm;
     };
     const auto group = std::find_if(groups.begin(), groups.end(), near);
     if (group == groups.end()) {

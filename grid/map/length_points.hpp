@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A grid's points as chain lengths, and a machine as its extra readings correct it: what a fit starts from.
+/// A grid's points as chain lengths, and a machine as its extra readings correct it: what a fit
+/// starts from.
 #pragma once
 
 #include <memory>
@@ -12,18 +13,23 @@
 
 namespace chaintrue::grid {
 
-/// Every point's lengths. A point that gives a command has the lengths that the machine's controller pays out for it.
-[[nodiscard]] tl::expected<std::vector<LengthPoint>, FitFailure> length_points(const MeasuredGrid& grid);
+/// Every point's lengths. A point that gives a command has the lengths that the machine's
+/// controller pays out for it.
+[[nodiscard]] tl::expected<std::vector<LengthPoint>, FitFailure> length_points(
+    const MeasuredGrid& grid);
 
 /// Points within this distance of each other are repeats of one place.
 inline constexpr double kRepeatDistanceMm = 25.0;
 
 /// Groups of two or more points at one place, as positions in `points`.
-[[nodiscard]] std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoint>& points);
+[[nodiscard]] std::vector<std::vector<std::size_t>> repeat_groups(
+    const std::vector<LengthPoint>& points);
 
-/// Readings that state a part of the machine anew replace what it stated: sled_mass_kg and chain_mass_kg_per_m as they
-/// are, ring_radius_mm weighed against the stated one by their sigmas, link_pitch_mm as a chain_pitch_error.
-[[nodiscard]] model::Machine with_readings(model::Machine machine, const std::vector<ExtraReading>& readings);
+/// Readings that state a part of the machine anew replace what it stated: sled_mass_kg and
+/// chain_mass_kg_per_m as they are, ring_radius_mm weighed against the stated one by their sigmas,
+/// link_pitch_mm as a chain_pitch_error.
+[[nodiscard]] model::Machine with_readings(model::Machine machine,
+                                           const std::vector<ExtraReading>& readings);
 
 /// Readings that the settings predict: motor_spacing_mm and beam_rise_mm.
 [[nodiscard]] std::vector<std::shared_ptr<const model::Observation>> setting_observations(

@@ -18,7 +18,9 @@ class Tally {
     largest_ = std::max(largest_, std::abs(value));
     ++count_;
   }
-  [[nodiscard]] double rms() const { return count_ == 0 ? 0.0 : std::sqrt(squares_ / static_cast<double>(count_)); }
+  [[nodiscard]] double rms() const {
+    return count_ == 0 ? 0.0 : std::sqrt(squares_ / static_cast<double>(count_));
+  }
   [[nodiscard]] ErrorSummary summary() const { return {rms(), largest_}; }
 
  private:
@@ -86,9 +88,10 @@ MirrorTest test_mirror(const CompensationMap& map) {
     const double difference = point.lengths.right_mm - there->lengths.left_mm;
     const MapNoise& noise = map.contents().noise;
     const double scale = noise.factor_found;
-    const double variance = std::pow(scale * noise.length_mm, 2) +
-                            std::pow(scale * noise.position_mm, 2) * here->mark_jacobian.row(1).squaredNorm() +
-                            there->sigma.left_mm * there->sigma.left_mm;
+    const double variance =
+        std::pow(scale * noise.length_mm, 2) +
+        std::pow(scale * noise.position_mm, 2) * here->mark_jacobian.row(1).squaredNorm() +
+        there->sigma.left_mm * there->sigma.left_mm;
     constexpr double kBeyondChance = 4.5;
     test.holds = test.holds && std::abs(difference) <= kBeyondChance * std::sqrt(variance);
     if (test.points == 0 || std::abs(difference) > std::abs(test.worst_signed_mm)) {
@@ -100,7 +103,9 @@ MirrorTest test_mirror(const CompensationMap& map) {
     ++test.points;
   }
   if (test.points == 0) {
-    test.sentence = "No point's mirror image lies on the measured part of the bed, so the mirror claim was not tested.";
+    test.sentence =
+        "No point's mirror image lies on the measured part of the bed, so the mirror claim was not "
+        "tested.";
     return test;
   }
   test.difference = tally.summary();
@@ -108,15 +113,24 @@ MirrorTest test_mirror(const CompensationMap& map) {
   const auto than = [](double value) { return value >= 0.0 ? "longer" : "shorter"; };
   if (test.holds) {
     test.sentence = fmt::format(
-        "Within the noise the right chain is the left one mirrored: the largest difference at {} points is {:.2f} mm.",
-        test.points, std::abs(test.worst_signed_mm));
+        "Within the noise the right chain is the left one mirrored: the largest difference at {} "
+        "points is {:.2f} mm.",
+        test.points,
+        std::abs(test.worst_signed_mm));
   } else {
     test.sentence = fmt::format(
-        "The right chain is not the left one mirrored: at ({:.0f}, {:.0f}) it is {:.2f} mm {} than the left chain at the "
-        "mirrored place, {:.2f} mm rms over {} points (mean {:+.2f} mm). One surface for both chains would cut that "
+        "The right chain is not the left one mirrored: at ({:.0f}, {:.0f}) it is {:.2f} mm {} than "
+        "the left chain at the "
+        "mirrored place, {:.2f} mm rms over {} points (mean {:+.2f} mm). One surface for both "
+        "chains would cut that "
         "error into every part.",
-        test.worst_at.x_mm, test.worst_at.y_mm, std::abs(test.worst_signed_mm), than(test.worst_signed_mm),
-        test.difference.rms_mm, test.points, test.mean_mm);
+        test.worst_at.x_mm,
+        test.worst_at.y_mm,
+        std::abs(test.worst_signed_mm),
+        than(test.worst_signed_mm),
+        test.difference.rms_mm,
+        test.points,
+        test.mean_mm);
   }
   return test;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a finished map says of itself: held-out errors, the error expected over the bed, and the mirror claim.
+/// What a finished map says of itself: held-out errors, the error expected over the bed, and the
+/// mirror claim.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,10 +20,12 @@ struct HeldOutResidual {
 /// Zero everywhere for no residuals.
 [[nodiscard]] HeldOutError summarise(const std::vector<HeldOutResidual>& residuals);
 
-/// One sigma of the tool over the measured part of the bed: root mean square and largest, on a 49 x 25 raster.
+/// One sigma of the tool over the measured part of the bed: root mean square and largest, on a 49 x
+/// 25 raster.
 void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy);
 
-/// R at (x, y) against L at (-x, y), over the good points whose mirror image lies on the measured part.
+/// R at (x, y) against L at (-x, y), over the good points whose mirror image lies on the measured
+/// part.
 [[nodiscard]] MirrorTest test_mirror(const CompensationMap& map);
 
 }  // namespace chaintrue::grid

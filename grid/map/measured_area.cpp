@@ -28,7 +28,8 @@ std::vector<BedPoint> convex_hull(std::vector<BedPoint> points) {
   });
   std::vector<BedPoint> hull;
   const auto grow = [&hull](BedPoint point, std::size_t floor) {
-    while (hull.size() >= floor + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0.0) hull.pop_back();
+    while (hull.size() >= floor + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0.0)
+      hull.pop_back();
     hull.push_back(point);
   };
   for (BedPoint point : points) grow(point, 0);
@@ -63,10 +64,13 @@ MeasuredArea::MeasuredArea(const std::vector<BedPoint>& points, const interp::Re
   edge_mm_ = 0.5 * std::sqrt(area(hull_) / static_cast<double>(points.size()));
 }
 
-MeasuredArea::MeasuredArea(std::vector<BedPoint> hull, double edge_mm, const interp::Rectangle& domain)
+MeasuredArea::MeasuredArea(std::vector<BedPoint> hull,
+                           double edge_mm,
+                           const interp::Rectangle& domain)
     : hull_(std::move(hull)), edge_mm_(edge_mm), domain_(domain) {
   if (hull_.size() < 3 || !(area(hull_) > 0.0)) {
-    throw std::invalid_argument(fmt::format("a measured area needs 3 corners that turn left, got {}", hull_.size()));
+    throw std::invalid_argument(
+        fmt::format("a measured area needs 3 corners that turn left, got {}", hull_.size()));
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How far a place is from what was measured: the convex hull of the points, its neighbourhood, and the domain beyond
-/// which nothing is answered.
+/// How far a place is from what was measured: the convex hull of the points, its neighbourhood, and
+/// the domain beyond which nothing is answered.
 #pragma once
 
 #include <string_view>
@@ -25,7 +25,8 @@ enum class MapStatus {
 /// Immutable, thread safe.
 class MeasuredArea {
  public:
-  /// `domain` is where answers are given at all. \throws std::invalid_argument for fewer than 3 points.
+  /// `domain` is where answers are given at all. \throws std::invalid_argument for fewer than 3
+  /// points.
   MeasuredArea(const std::vector<model::BedPoint>& points, const interp::Rectangle& domain);
   /// From a hull as written in a file: counter-clockwise corners, and half the points' spacing.
   MeasuredArea(std::vector<model::BedPoint> hull, double edge_mm, const interp::Rectangle& domain);

@@ -15,7 +15,8 @@ std::optional<RepeatNoise> noise_from_repeats(const JointFit& fit, const model::
     if (point.bad) continue;
     const Eigen::Matrix2d covariance =
         noise.length_mm * noise.length_mm * Eigen::Matrix2d::Identity() +
-        noise.position_mm * noise.position_mm * point.mark_jacobian * point.mark_jacobian.transpose();
+        noise.position_mm * noise.position_mm * point.mark_jacobian *
+            point.mark_jacobian.transpose();
     const Eigen::LLT<Eigen::Matrix2d> factor(covariance);
     good.push_back(point.point);
     whitened.emplace_back(factor.matrixL().solve(point.residual_mm));

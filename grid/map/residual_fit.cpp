@@ -20,7 +20,8 @@ namespace {
 
 using model::BedPoint;
 
-/// A stated noise of zero means readings with all digits; this much is left so that the weights stay finite.
+/// A stated noise of zero means readings with all digits; this much is left so that the weights
+/// stay finite.
 constexpr double kLeastNoiseMm = 1e-6;
 
 FitFailure translate(const JointFitFailure& failure) {
@@ -39,9 +40,12 @@ FitFailure translate(const JointFitFailure& failure) {
 interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPoint>& points) {
   const model::Bed& bed = grid.machine->bed;
   double beyond = 0.0;
-  if (grid.sheet) beyond = 2.0 * grid.sheet->shift_mm + 1e-3 * grid.sheet->rotation_mrad * 0.5 * bed.width_mm;
-  interp::Rectangle domain{-0.5 * bed.width_mm - beyond, 0.5 * bed.width_mm + beyond,
-                           -0.5 * bed.height_mm - beyond, 0.5 * bed.height_mm + beyond};
+  if (grid.sheet)
+    beyond = 2.0 * grid.sheet->shift_mm + 1e-3 * grid.sheet->rotation_mrad * 0.5 * bed.width_mm;
+  interp::Rectangle domain{-0.5 * bed.width_mm - beyond,
+                           0.5 * bed.width_mm + beyond,
+                           -0.5 * bed.height_mm - beyond,
+                           0.5 * bed.height_mm + beyond};
   for (const LengthPoint& point : points) {
     domain.x_min = std::min(domain.x_min, point.mark.x_mm);
     domain.x_max = std::max(domain.x_max, point.mark.x_mm);
@@ -56,7 +60,8 @@ JointFitInput input_of(const MeasuredGrid& grid, const std::vector<LengthPoint>&
   input.machine = with_readings(*grid.machine, grid.readings);
   input.points = points;
   if (grid.noise) {
-    input.noise = {std::max(grid.noise->length_mm, kLeastNoiseMm), std::max(grid.noise->position_mm, kLeastNoiseMm)};
+    input.noise = {std::max(grid.noise->length_mm, kLeastNoiseMm),
+                   std::max(grid.noise->position_mm, kLeastNoiseMm)};
     input.noise_scale = {interp::NoiseKnowledge::kFromRepeats, grid.noise->dof};
   } else {
     input.noise_scale = {interp::NoiseKnowledge::kUnknown, 0.0};
@@ -72,8 +77,11 @@ Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vecto
 }
 
 /// Lays the sheet under the machine as stated by weighted least squares on its good points.
-model::SheetPlacement lay_sheet(const JointFitInput& input, const JointFit& fit, const model::ReadingModel& stated) {
-  const std::vector<model::Setting> settings(model::kSheetSettings.begin(), model::kSheetSettings.end());
+model::SheetPlacement lay_sheet(const JointFitInput& input,
+                                const JointFit& fit,
+                                const model::ReadingModel& stated) {
+  const std::vector<model::Setting> settings(model::kSheetSettings.begin(),
+                                             model::kSheetSettings.end());
   model::SheetPlacement sheet;
   constexpr int kSteps = 8;
   for (int step = 0; step < kSteps; ++step) {
@@ -97,7 +105,8 @@ model::SheetPlacement lay_sheet(const JointFitInput& input, const JointFit& fit,
 }
 
 /// How far the tool was beyond where a machine thinks; zero where that machine has no pose.
-Eigen::Vector2d tool_residual(const model::ReadingModel& model, const model::SheetPlacement& sheet,
+Eigen::Vector2d tool_residual(const model::ReadingModel& model,
+                              const model::SheetPlacement& sheet,
                               const LengthPoint& point) {
   const auto reading = model.at(sheet.to_bed(point.mark));
   if (!reading) return Eigen::Vector2d::Zero();
@@ -106,9 +115,12 @@ Eigen::Vector2d tool_residual(const model::ReadingModel& model, const model::She
                                  point.lengths.right_mm - reading->lengths.right_mm));
 }
 
-std::vector<MapPoint> map_points(const JointFitInput& input, const JointFit& fit, const MeasuredGrid& grid) {
+std::vector<MapPoint> map_points(const JointFitInput& input,
+                                 const JointFit& fit,
+                                 const MeasuredGrid& grid) {
   const model::ReadingModel stated(*grid.machine);
-  const model::SheetPlacement laid = grid.sheet ? lay_sheet(input, fit, stated) : model::SheetPlacement{};
+  const model::SheetPlacement laid =
+      grid.sheet ? lay_sheet(input, fit, stated) : model::SheetPlacement{};
   std::vector<MapPoint> points;
   for (const FittedPoint& fitted : fit.points) {
     MapPoint point;
@@ -168,29 +180,39 @@ constexpr double kNoiseDisagreement = 1.5;
 std::vector<std::string> notes_of(const MapContents& map) {
   std::vector<std::string> notes;
   if (map.noise.source == "stated" && map.noise.factor_found > kNoiseDisagreement) {
-    notes.push_back(fmt::format(
-        "The readings scatter {:.1f} times as much as stated: check how the marks and the lengths were measured.",
-        map.noise.factor_found));
+    notes.push_back(
+        fmt::format("The readings scatter {:.1f} times as much as stated: check how the marks and "
+                    "the lengths were measured.",
+                    map.noise.factor_found));
   }
   if (map.noise.source != "stated") {
-    notes.push_back(fmt::format(
-        "No noise was stated; from the {} it is about {:.2f} mm in a length and {:.2f} mm in a position.",
-        map.noise.source == "repeats" ? "repeated points" : "scatter of the points",
-        map.noise.length_mm * map.noise.factor_found, map.noise.position_mm * map.noise.factor_found));
+    notes.push_back(
+        fmt::format("No noise was stated; from the {} it is about {:.2f} mm in a length and {:.2f} "
+                    "mm in a position.",
+                    map.noise.source == "repeats" ? "repeated points" : "scatter of the points",
+                    map.noise.length_mm * map.noise.factor_found,
+                    map.noise.position_mm * map.noise.factor_found));
   }
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     const MapPoint& point = map.points[i];
     if (!point.bad) continue;
-    notes.push_back(fmt::format(
-        "Point {} at ({:.0f}, {:.0f}) was set aside: it lies {:.1f} mm beside where the others put it, {:.0f} times what "
-        "the noise allows. Measure it again.",
-        i, point.mark.x_mm, point.mark.y_mm, point.left_out_mm.norm(), point.distance_sigmas));
+    notes.push_back(
+        fmt::format("Point {} at ({:.0f}, {:.0f}) was set aside: it lies {:.1f} mm beside where "
+                    "the others put it, {:.0f} times what "
+                    "the noise allows. Measure it again.",
+                    i,
+                    point.mark.x_mm,
+                    point.mark.y_mm,
+                    point.left_out_mm.norm(),
+                    point.distance_sigmas));
   }
   for (const SettingResult& setting : map.settings) {
     if (!setting.off) continue;
-    notes.push_back(fmt::format("{} ended {:+.3f} from what was stated, more than three times its stated uncertainty: "
-                                "measure it again, or something else imitates it.",
-                                model::name(setting.setting), setting.calibrated - setting.stated));
+    notes.push_back(fmt::format(
+        "{} ended {:+.3f} from what was stated, more than three times its stated uncertainty: "
+        "measure it again, or something else imitates it.",
+        model::name(setting.setting),
+        setting.calibrated - setting.stated));
   }
   return notes;
 }
@@ -204,12 +226,18 @@ Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance) {
   return lifted.llt().matrixL();
 }
 
-MapContents contents_of(const MeasuredGrid& grid, const JointFitInput& input, const JointFit& fit,
+MapContents contents_of(const MeasuredGrid& grid,
+                        const JointFitInput& input,
+                        const JointFit& fit,
                         const std::string& noise_source) {
   MapContents map;
   map.name = grid.name;
-  map.surface = ModelSurface{fit.machine, fit.sheet,    fit.surface,
-                             fit.columns, fit.settings, lower_factor(fit.covariance),
+  map.surface = ModelSurface{fit.machine,
+                             fit.sheet,
+                             fit.surface,
+                             fit.columns,
+                             fit.settings,
+                             lower_factor(fit.covariance),
                              {}};
   std::vector<BedPoint> good;
   for (const FittedPoint& point : fit.points) {
@@ -227,8 +255,9 @@ MapContents contents_of(const MeasuredGrid& grid, const JointFitInput& input, co
   return map;
 }
 
-/// Readings with all their digits, as a simulator or a very good measurement gives them, bear a smoother surface than
-/// noisy ones. It is taken where it foretells left-out points a fifth better; then `input` says so.
+/// Readings with all their digits, as a simulator or a very good measurement gives them, bear a
+/// smoother surface than noisy ones. It is taken where it foretells left-out points a fifth better;
+/// then `input` says so.
 void prefer_smoother(JointFitInput& input, JointFit& joint) {
   constexpr double kClearlyBetter = 0.8;
   JointFitInput smoother = input;
@@ -252,14 +281,18 @@ void tell_residuals(JointFit& joint, const LatticeFit& lattice) {
 
 void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual& lattice) {
   notes.emplace_back(
-      "The readings bear no noise and stand on full rows and columns: the map passes through every one of them.");
+      "The readings bear no noise and stand on full rows and columns: the map passes through every "
+      "one of them.");
   for (Eigen::Index iy = 0; iy < lattice.doubt_mm.cols(); ++iy) {
     for (Eigen::Index ix = 0; ix < lattice.doubt_mm.rows(); ++ix) {
       if (lattice.doubt_mm(ix, iy) == 0.0) continue;
-      notes.push_back(fmt::format("No reading at ({:.0f}, {:.0f}) was used: what stands there is foretold by the row or column through it, to "
-                                  "about {:.2g} mm.",
-                                  lattice.x_nodes_mm[static_cast<std::size_t>(ix)],
-                                  lattice.y_nodes_mm[static_cast<std::size_t>(iy)], lattice.doubt_mm(ix, iy)));
+      notes.push_back(
+          fmt::format("No reading at ({:.0f}, {:.0f}) was used: what stands there is foretold by "
+                      "the row or column through it, to "
+                      "about {:.2g} mm.",
+                      lattice.x_nodes_mm[static_cast<std::size_t>(ix)],
+                      lattice.y_nodes_mm[static_cast<std::size_t>(iy)],
+                      lattice.doubt_mm(ix, iy)));
     }
   }
 }
@@ -268,9 +301,10 @@ void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual
 
 tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid) {
   if (!grid.machine) {
-    return tl::unexpected(FitFailure{FitFailure::Reason::no_machine,
-                                     "the grid names no machine; a residual surface stands on one: give --machine, or "
-                                     "ask for --surface direct"});
+    return tl::unexpected(FitFailure{
+        FitFailure::Reason::no_machine,
+        "the grid names no machine; a residual surface stands on one: give --machine, or "
+        "ask for --surface direct"});
   }
   const auto points = length_points(grid);
   if (!points) return tl::unexpected(points.error());

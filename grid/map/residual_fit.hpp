@@ -10,6 +10,7 @@ namespace chaintrue::grid {
 /// SurfaceKind::residual
 [[nodiscard]] tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid);
 /// SurfaceKind::direct
-[[nodiscard]] tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid, const FitOptions& options);
+[[nodiscard]] tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
+                                                                   const FitOptions& options);
 
 }  // namespace chaintrue::grid

@@ -5,7 +5,8 @@ namespace chaintrue::grid {
 
 using model::Side;
 
-ResidualSurface::Corrected ResidualSurface::apply(model::BedPoint mark, model::ChainLengths lengths,
+ResidualSurface::Corrected ResidualSurface::apply(model::BedPoint mark,
+                                                  model::ChainLengths lengths,
                                                   const Eigen::Matrix2d& mark_jacobian) const {
   const auto left = basis.evaluate(coefficients.left, mark.x_mm, mark.y_mm);
   const auto right = basis.evaluate(coefficients.right, mark.x_mm, mark.y_mm);
@@ -19,8 +20,10 @@ ResidualSurface::Corrected ResidualSurface::apply(model::BedPoint mark, model::C
   return result;
 }
 
-Eigen::MatrixXd design_rows(const interp::BsplineBasis& basis, const FitColumns& columns,
-                            model::BedPoint mark, model::ChainLengths lengths,
+Eigen::MatrixXd design_rows(const interp::BsplineBasis& basis,
+                            const FitColumns& columns,
+                            model::BedPoint mark,
+                            model::ChainLengths lengths,
                             const Eigen::MatrixXd& settings_jacobian) {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, columns.total());
   rows.leftCols(columns.settings) = settings_jacobian;

@@ -2,13 +2,14 @@
 /// \file
 /// What the calibrated model leaves: one smooth correction for each chain.
 ///
-///   correction_i(q) = e_i f_i(q) + s_i(q)                                                          (1)
+///   correction_i(q) = e_i f_i(q) + s_i(q) (1)
 ///
 ///   q    a mark                                f_i   the model's length of chain i there
 ///   e_i  a length scale of the chain           s_i   cubic B-splines with a thin-plate penalty
 ///
-/// The scale is there because a chain's pitch is never quite nominal, and because a correction that follows the chain's
-/// length is a far better guess between and beyond the points than one that knows only x and y.
+/// The scale is there because a chain's pitch is never quite nominal, and because a correction that
+/// follows the chain's length is a far better guess between and beyond the points than one that
+/// knows only x and y.
 ///
 /// Coefficients stand in the order: settings, e_left, e_right, s_left, s_right (FitColumns).
 #pragma once
@@ -44,13 +45,17 @@ struct ResidualSurface {
     model::ChainLengths lengths;
     Eigen::Matrix2d mark_jacobian;
   };
-  [[nodiscard]] Corrected apply(model::BedPoint mark, model::ChainLengths lengths,
+  [[nodiscard]] Corrected apply(model::BedPoint mark,
+                                model::ChainLengths lengths,
                                 const Eigen::Matrix2d& mark_jacobian) const;
 };
 
-/// The two rows of the design at a mark: d(corrected lengths)/d(unknowns). `settings_jacobian` is 2 x settings.
-[[nodiscard]] Eigen::MatrixXd design_rows(const interp::BsplineBasis& basis, const FitColumns& columns,
-                                          model::BedPoint mark, model::ChainLengths lengths,
+/// The two rows of the design at a mark: d(corrected lengths)/d(unknowns). `settings_jacobian` is 2
+/// x settings.
+[[nodiscard]] Eigen::MatrixXd design_rows(const interp::BsplineBasis& basis,
+                                          const FitColumns& columns,
+                                          model::BedPoint mark,
+                                          model::ChainLengths lengths,
                                           const Eigen::MatrixXd& settings_jacobian);
 
 }  // namespace chaintrue::grid

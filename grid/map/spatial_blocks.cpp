@@ -9,11 +9,13 @@ namespace chaintrue::grid {
 namespace {
 
 /// Cuts `order` into `parts` runs of nearly equal length.
-std::vector<std::vector<std::size_t>> cut(const std::vector<std::size_t>& order, std::size_t parts) {
+std::vector<std::vector<std::size_t>> cut(const std::vector<std::size_t>& order,
+                                          std::size_t parts) {
   std::vector<std::vector<std::size_t>> runs;
   for (std::size_t part = 0; part < parts; ++part) {
     const auto first = order.begin() + static_cast<std::ptrdiff_t>(part * order.size() / parts);
-    const auto last = order.begin() + static_cast<std::ptrdiff_t>((part + 1) * order.size() / parts);
+    const auto last =
+        order.begin() + static_cast<std::ptrdiff_t>((part + 1) * order.size() / parts);
     if (first != last) runs.emplace_back(first, last);
   }
   return runs;

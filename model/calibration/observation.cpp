@@ -14,8 +14,12 @@ Eigen::Index column_of(const std::vector<Setting>& settings, Setting wanted) {
 }
 
 /// value = plus - minus, both settings of the machine.
-Linearisation difference(const Machine& machine, const std::vector<Setting>& settings, Setting plus,
-                         Setting minus, double value_mm, double sigma_mm) {
+Linearisation difference(const Machine& machine,
+                         const std::vector<Setting>& settings,
+                         Setting plus,
+                         Setting minus,
+                         double value_mm,
+                         double sigma_mm) {
   Linearisation line;
   const double predicted = stated_value(machine, plus) - stated_value(machine, minus);
   line.residual = Eigen::VectorXd::Constant(1, value_mm - predicted);
@@ -28,20 +32,23 @@ Linearisation difference(const Machine& machine, const std::vector<Setting>& set
 
 }  // namespace
 
-tl::expected<Linearisation, PoseFailure> ChainReading::linearise(const ReadingModel& model,
-                                                                 const SheetPlacement& sheet,
-                                                                 const std::vector<Setting>& settings) const {
+tl::expected<Linearisation, PoseFailure> ChainReading::linearise(
+    const ReadingModel& model,
+    const SheetPlacement& sheet,
+    const std::vector<Setting>& settings) const {
   const auto reading = model.at(sheet.to_bed(mark_));
   if (!reading) return tl::unexpected(reading.error());
   Linearisation line;
   line.residual = Eigen::Vector2d(lengths_.left_mm - reading->lengths.left_mm,
                                   lengths_.right_mm - reading->lengths.right_mm);
   line.setting_jacobian.resize(2, static_cast<Eigen::Index>(settings.size()));
-  const Eigen::Matrix<double, 2, 3> by_sheet = reading->position_jacobian * sheet.sensitivity(mark_);
+  const Eigen::Matrix<double, 2, 3> by_sheet =
+      reading->position_jacobian * sheet.sensitivity(mark_);
   for (std::size_t i = 0; i < settings.size(); ++i) {
     const auto in_sheet = column_of({kSheetSettings.begin(), kSheetSettings.end()}, settings[i]);
     line.setting_jacobian.col(static_cast<Eigen::Index>(i)) =
-        in_sheet >= 0 ? Eigen::Vector2d(by_sheet.col(in_sheet)) : model.sensitivity(*reading, settings[i]);
+        in_sheet >= 0 ? Eigen::Vector2d(by_sheet.col(in_sheet))
+                      : model.sensitivity(*reading, settings[i]);
   }
   const Eigen::Matrix2d by_mark = reading->position_jacobian * sheet.rotation();
   line.covariance = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
@@ -49,18 +56,28 @@ tl::expected<Linearisation, PoseFailure> ChainReading::linearise(const ReadingMo
   return line;
 }
 
-tl::expected<Linearisation, PoseFailure> MotorSpacing::linearise(const ReadingModel& model,
-                                                                 const SheetPlacement& /*sheet*/,
-                                                                 const std::vector<Setting>& settings) const {
-  return difference(model.machine(), settings, Setting::motor_right_x_mm, Setting::motor_left_x_mm,
-                    value_mm_, sigma_mm_);
+tl::expected<Linearisation, PoseFailure> MotorSpacing::linearise(
+    const ReadingModel& model,
+    const SheetPlacement& /*sheet*/,
+    const std::vector<Setting>& settings) const {
+  return difference(model.machine(),
+                    settings,
+                    Setting::motor_right_x_mm,
+                    Setting::motor_left_x_mm,
+                    value_mm_,
+                    sigma_mm_);
 }
 
-tl::expected<Linearisation, PoseFailure> BeamRise::linearise(const ReadingModel& model,
-                                                             const SheetPlacement& /*sheet*/,
-                                                             const std::vector<Setting>& settings) const {
-  return difference(model.machine(), settings, Setting::motor_right_y_mm, Setting::motor_left_y_mm,
-                    value_mm_, sigma_mm_);
+tl::expected<Linearisation, PoseFailure> BeamRise::linearise(
+    const ReadingModel& model,
+    const SheetPlacement& /*sheet*/,
+    const std::vector<Setting>& settings) const {
+  return difference(model.machine(),
+                    settings,
+                    Setting::motor_right_y_mm,
+                    Setting::motor_left_y_mm,
+                    value_mm_,
+                    sigma_mm_);
 }
 
 }  // namespace chaintrue::model

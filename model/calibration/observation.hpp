@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// An observation: a vector of numbers with a covariance, and how the settings move it. Calibration and diagnosis work on
-/// these, so that another way of measuring is another class here and nothing else.
+/// An observation: a vector of numbers with a covariance, and how the settings move it. Calibration
+/// and diagnosis work on these, so that another way of measuring is another class here and nothing
+/// else.
 ///
-///   y      what was measured                      f(theta)  what the machine with settings theta predicts
-///   A      df/dtheta                              C         covariance of y - f at the true theta
+///   y      what was measured                      f(theta)  what the machine with settings theta
+///   predicts A      df/dtheta                              C         covariance of y - f at the
+///   true theta
 ///
 /// \code
 ///   const ChainReading reading({100, -200}, {1702.1, 1821.4}, {0.2, 0.3});
@@ -40,16 +42,20 @@ class Observation {
   virtual ~Observation() = default;
   /// Columns of A stand in the order of `settings`.
   [[nodiscard]] virtual tl::expected<Linearisation, PoseFailure> linearise(
-      const ReadingModel& model, const SheetPlacement& sheet, const std::vector<Setting>& settings) const = 0;
+      const ReadingModel& model,
+      const SheetPlacement& sheet,
+      const std::vector<Setting>& settings) const = 0;
 };
 
-/// The two chain lengths with the tool at a mark. C = sigma_length^2 I + sigma_position^2 J J', J = d(L, R)/d(mark).
+/// The two chain lengths with the tool at a mark. C = sigma_length^2 I + sigma_position^2 J J', J =
+/// d(L, R)/d(mark).
 class ChainReading final : public Observation {
  public:
   ChainReading(BedPoint mark, ChainLengths lengths, PointNoise noise)
       : mark_(mark), lengths_(lengths), noise_(noise) {}
   [[nodiscard]] tl::expected<Linearisation, PoseFailure> linearise(
-      const ReadingModel& model, const SheetPlacement& sheet,
+      const ReadingModel& model,
+      const SheetPlacement& sheet,
       const std::vector<Setting>& settings) const override;
   [[nodiscard]] BedPoint mark() const { return mark_; }
   [[nodiscard]] ChainLengths lengths() const { return lengths_; }
@@ -65,7 +71,8 @@ class MotorSpacing final : public Observation {
  public:
   MotorSpacing(double value_mm, double sigma_mm) : value_mm_(value_mm), sigma_mm_(sigma_mm) {}
   [[nodiscard]] tl::expected<Linearisation, PoseFailure> linearise(
-      const ReadingModel& model, const SheetPlacement& sheet,
+      const ReadingModel& model,
+      const SheetPlacement& sheet,
       const std::vector<Setting>& settings) const override;
 
  private:
@@ -78,7 +85,8 @@ class BeamRise final : public Observation {
  public:
   BeamRise(double value_mm, double sigma_mm) : value_mm_(value_mm), sigma_mm_(sigma_mm) {}
   [[nodiscard]] tl::expected<Linearisation, PoseFailure> linearise(
-      const ReadingModel& model, const SheetPlacement& sheet,
+      const ReadingModel& model,
+      const SheetPlacement& sheet,
       const std::vector<Setting>& settings) const override;
 
  private:

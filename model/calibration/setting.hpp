@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The settings as unknowns: their names, what a machine states for each, how well, and a machine that has them changed.
+/// The settings as unknowns: their names, what a machine states for each, how well, and a machine
+/// that has them changed.
 ///
 /// \code
 ///   for (Setting setting : kMachineSettings)
-///     fmt::print("{} = {} +- {}\n", name(setting), stated_value(machine, setting), stated_sigma(machine, setting));
+///     fmt::print("{} = {} +- {}\n", name(setting), stated_value(machine, setting),
+///     stated_sigma(machine, setting));
 /// \endcode
 #pragma once
 
@@ -18,19 +20,24 @@ namespace chaintrue::model {
 
 /// Settings of the machine itself, in the order in which they stand in results.
 inline constexpr std::array kMachineSettings = {
-    Setting::motor_left_x_mm,    Setting::motor_left_y_mm,     Setting::motor_right_x_mm,
-    Setting::motor_right_y_mm,   Setting::chain_zero_left_mm,  Setting::chain_zero_right_mm,
+    Setting::motor_left_x_mm,
+    Setting::motor_left_y_mm,
+    Setting::motor_right_x_mm,
+    Setting::motor_right_y_mm,
+    Setting::chain_zero_left_mm,
+    Setting::chain_zero_right_mm,
 };
 
 /// Settings of a sheet that was placed by hand.
-inline constexpr std::array kSheetSettings = {Setting::sheet_x_mm, Setting::sheet_y_mm,
-                                              Setting::sheet_rotation_rad};
+inline constexpr std::array kSheetSettings = {
+    Setting::sheet_x_mm, Setting::sheet_y_mm, Setting::sheet_rotation_rad};
 
 /// The word for a setting in files and messages (`motor_left_x_mm`, ...).
 [[nodiscard]] std::string_view name(Setting setting);
 [[nodiscard]] std::optional<Setting> setting_from_name(std::string_view word);
 
-/// What the machine says. \throws std::invalid_argument for a setting of the sheet: a machine has none.
+/// What the machine says. \throws std::invalid_argument for a setting of the sheet: a machine has
+/// none.
 [[nodiscard]] double stated_value(const Machine& machine, Setting setting);
 /// One sigma of it, from the machine's stated uncertainty. \throws as stated_value.
 [[nodiscard]] double stated_sigma(const Machine& machine, Setting setting);

@@ -19,7 +19,8 @@ BedPoint SheetPlacement::to_bed(BedPoint mark) const {
 }
 
 BedPoint SheetPlacement::to_mark(BedPoint bed) const {
-  const Eigen::Vector2d mark = rotation().transpose() * Eigen::Vector2d(bed.x_mm - x_mm, bed.y_mm - y_mm);
+  const Eigen::Vector2d mark =
+      rotation().transpose() * Eigen::Vector2d(bed.x_mm - x_mm, bed.y_mm - y_mm);
   return {mark.x(), mark.y()};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What few points are worth on a machine that no model describes to the end. Truth: the default machine with its motors
-// 3 mm beside where they are stated, elastic catenary, plus smooth terms of 0.8 mm that stand for what nobody modelled.
+// What few points are worth on a machine that no model describes to the end. Truth: the default
+// machine with its motors 3 mm beside where they are stated, elastic catenary, plus smooth terms of
+// 0.8 mm that stand for what nobody modelled.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +50,8 @@ std::vector<BedPoint> marks(const Layout& layout) {
   std::vector<BedPoint> result;
   for (int iy = 0; iy < layout.rows; ++iy) {
     for (int ix = 0; ix < layout.columns; ++ix) {
-      result.push_back({half_x * (2.0 * ix / (layout.columns - 1) - 1.0), half_y * (2.0 * iy / (layout.rows - 1) - 1.0)});
+      result.push_back({half_x * (2.0 * ix / (layout.columns - 1) - 1.0),
+                        half_y * (2.0 * iy / (layout.rows - 1) - 1.0)});
     }
   }
   return result;
@@ -58,7 +60,8 @@ std::vector<BedPoint> marks(const Layout& layout) {
 grid::MeasuredGrid measured(const std::vector<BedPoint>& places) {
   grid::MeasuredGrid grid;
   grid.machine = model::Machine{};
-  for (BedPoint place : places) grid.points.push_back({place, truth_at(place), std::nullopt, std::nullopt});
+  for (BedPoint place : places)
+    grid.points.push_back({place, truth_at(place), std::nullopt, std::nullopt});
   return grid;
 }
 
@@ -69,41 +72,56 @@ CompensationMap fitted(const grid::MeasuredGrid& grid) {
 }
 
 struct BedError {
-  double largest_mm = 0.0;
   double rms_mm = 0.0;
   double covered = 0.0;  ///< share of lengths within 1.96 of their sigma
 };
 
-/// Over a raster of the whole bed, both chains alike.
-BedError error_of(const CompensationMap& map) {
+/// Over the whole bed, both chains alike: the largest on a raster that holds the edges, the mean
+/// square and what is covered at the middles of 24 x 12 equal cells, so that every square
+/// centimetre counts alike.
+double largest_error_mm(const CompensationMap& map) {
   const model::Bed bed;
-  BedError error;
-  double squares = 0.0;
-  int count = 0;
-  int covered = 0;
+  double largest = 0.0;
   for (int iy = 0; iy <= 24; ++iy) {
     for (int ix = 0; ix <= 48; ++ix) {
       const BedPoint p{bed.width_mm * (ix / 48.0 - 0.5), bed.height_mm * (iy / 24.0 - 0.5)};
-      const auto answer = map.query(p);
-      if (!answer) throw std::runtime_error("the map has a hole on the bed");
+      const ChainLengths told = map.lengths(p).value().lengths;
       const ChainLengths truth = truth_at(p);
-      const double left = answer->lengths.left_mm - truth.left_mm;
-      const double right = answer->lengths.right_mm - truth.right_mm;
-      error.largest_mm = std::max({error.largest_mm, std::abs(left), std::abs(right)});
+      largest = std::max({largest,
+                          std::abs(told.left_mm - truth.left_mm),
+                          std::abs(told.right_mm - truth.right_mm)});
+    }
+  }
+  return largest;
+}
+
+BedError error_of(const CompensationMap& map) {
+  const model::Bed bed;
+  double squares = 0.0;
+  int count = 0;
+  int covered = 0;
+  for (int iy = 0; iy < 12; ++iy) {
+    for (int ix = 0; ix < 24; ++ix) {
+      const BedPoint p{bed.width_mm * ((ix + 0.5) / 24.0 - 0.5),
+                       bed.height_mm * ((iy + 0.5) / 12.0 - 0.5)};
+      const auto answer = map.query(p).value();
+      const ChainLengths truth = truth_at(p);
+      const double left = answer.lengths.left_mm - truth.left_mm;
+      const double right = answer.lengths.right_mm - truth.right_mm;
       squares += left * left + right * right;
-      covered += (std::abs(left) <= 1.96 * answer->sigma.left_mm) + (std::abs(right) <= 1.96 * answer->sigma.right_mm);
+      covered += (std::abs(left) <= 1.96 * answer.sigma.left_mm) +
+                 (std::abs(right) <= 1.96 * answer.sigma.right_mm);
       count += 2;
     }
   }
-  error.rms_mm = std::sqrt(squares / count);
-  error.covered = static_cast<double>(covered) / count;
-  return error;
+  return {std::sqrt(squares / count), static_cast<double>(covered) / count};
 }
 
+/// Limits of the noise-free largest error: what is asked for is 0.040, 0.010 and 0.005 mm; for the
+/// first two the limit is what is reached, and 2 %. The others are what is asked for.
 struct Figure {
   Layout layout;
-  double exact_asked_mm;    ///< points on their marks, no noise: what was aimed at
-  double exact_largest_mm;  ///< and the baseline: what is reached, two percent for other processors
+  double exact_largest_mm;  ///< points on their marks, no noise
   double beside_rms_mm;     ///< sled up to 20 mm beside the marks, no noise
   double noisy_rms_mm;      ///< 0.3 mm noise on the lengths
 };
@@ -115,12 +133,14 @@ void PrintTo(const Figure& figure, std::ostream* out) {
 class ModelSurface : public testing::TestWithParam<Figure> {};
 
 TEST_P(ModelSurface, MeetsAMachineThatNoModelDescribes) {
-  const BedError error = error_of(fitted(measured(marks(GetParam().layout))));
-  fmt::print("{}x{}, points on their marks: {:.4f} mm at most (aim {:.3f}), {:.4f} mm rms, 95 % intervals cover {:.1f} %\n",
-             GetParam().layout.rows, GetParam().layout.columns, error.largest_mm, GetParam().exact_asked_mm, error.rms_mm,
-             100.0 * error.covered);
-  EXPECT_LE(error.largest_mm, GetParam().exact_largest_mm);
-  EXPECT_GE(error.covered, 0.92);
+  const CompensationMap map = fitted(measured(marks(GetParam().layout)));
+  const double largest = largest_error_mm(map);
+  EXPECT_GE(error_of(map).covered, 0.92);
+  fmt::print("{}x{}, points on their marks: {:.4f} mm at most\n",
+             GetParam().layout.rows,
+             GetParam().layout.columns,
+             largest);
+  EXPECT_LE(largest, GetParam().exact_largest_mm);
 }
 
 TEST_P(ModelSurface, TakesTheSledWhereItStood) {
@@ -136,8 +156,10 @@ TEST_P(ModelSurface, TakesTheSledWhereItStood) {
     }
     rms += error_of(fitted(measured(places))).rms_mm / kDraws;
   }
-  fmt::print("{}x{}, sled up to 20 mm beside the marks: {:.4f} mm rms\n", GetParam().layout.rows,
-             GetParam().layout.columns, rms);
+  fmt::print("{}x{}, sled up to 20 mm beside the marks: {:.4f} mm rms\n",
+             GetParam().layout.rows,
+             GetParam().layout.columns,
+             rms);
   EXPECT_LE(rms, GetParam().beside_rms_mm);
 }
 
@@ -157,43 +179,52 @@ TEST_P(ModelSurface, IsHonestAboutNoisyLengths) {
     rms += error.rms_mm / kDraws;
     covered += error.covered / kDraws;
   }
-  fmt::print("{}x{}, 0.3 mm noise: {:.4f} mm rms, 95 % intervals cover {:.1f} %\n", GetParam().layout.rows,
-             GetParam().layout.columns, rms, 100.0 * covered);
+  fmt::print("{}x{}, 0.3 mm noise: {:.4f} mm rms, 95 % intervals cover {:.1f} %\n",
+             GetParam().layout.rows,
+             GetParam().layout.columns,
+             rms,
+             100.0 * covered);
   EXPECT_LE(rms, GetParam().noisy_rms_mm);
   EXPECT_GE(covered, 0.92);
   EXPECT_LE(covered, 0.98);
 }
 
-INSTANTIATE_TEST_SUITE_P(FewPoints, ModelSurface,
-                         testing::Values(Figure{{4, 7}, 0.040, 0.0437, 0.020, 0.19},
-                                         Figure{{5, 9}, 0.010, 0.0133, 0.010, 0.145},
-                                         Figure{{7, 13}, 0.005, 0.005, 0.004, 0.115}),
+INSTANTIATE_TEST_SUITE_P(FewPoints,
+                         ModelSurface,
+                         testing::Values(Figure{{4, 7}, 0.0437, 0.020, 0.19},
+                                         Figure{{5, 9}, 0.0133, 0.010, 0.145},
+                                         Figure{{7, 13}, 0.005, 0.004, 0.115}),
                          [](const auto& figure) {
-                           return fmt::format("{}x{}", figure.param.layout.rows, figure.param.layout.columns);
+                           return fmt::format(
+                               "{}x{}", figure.param.layout.rows, figure.param.layout.columns);
                          });
 
 TEST(ModelSurfaceGaps, OneMissingNodeCostsLittle) {
   const auto whole = marks({5, 9});
   double largest = 0.0;
-  for (std::size_t missing : {std::size_t{0}, std::size_t{8}, std::size_t{4}, std::size_t{22}, std::size_t{44}}) {
+  for (std::size_t missing :
+       {std::size_t{0}, std::size_t{8}, std::size_t{4}, std::size_t{22}, std::size_t{44}}) {
     auto places = whole;
     places.erase(places.begin() + static_cast<std::ptrdiff_t>(missing));
     const CompensationMap map = fitted(measured(places));
     const auto answer = map.query(whole[missing]);
     ASSERT_TRUE(answer);
     const ChainLengths truth = truth_at(whole[missing]);
-    largest = std::max({largest, std::abs(answer->lengths.left_mm - truth.left_mm),
+    largest = std::max({largest,
+                        std::abs(answer->lengths.left_mm - truth.left_mm),
                         std::abs(answer->lengths.right_mm - truth.right_mm)});
   }
-  fmt::print("5x9 with one node missing (corners, an edge, the middle): {:.4f} mm there (aim 0.02)\n", largest);
-  // The aim is 0.02, met everywhere but at a corner below a motor; the baseline is what is reached there and two percent.
+  fmt::print("5x9 with one node missing (corners, an edge, the middle): {:.4f} mm there\n",
+             largest);
+  // Asked for is 0.02, met but at the corner below a motor; the limit is what is reached there, and
+  // 2 %.
   EXPECT_LE(largest, 0.0454);
 }
 
 TEST(ModelSurfaceGaps, AGridThatEndsShortOfTheBedCarriesToItsEdge) {
-  const BedError error = error_of(fitted(measured(marks({5, 9, 100.0}))));
-  fmt::print("5x9 ending 100 mm inside the bed: {:.4f} mm at most over the bed\n", error.largest_mm);
-  EXPECT_LE(error.largest_mm, 0.05);
+  const double largest = largest_error_mm(fitted(measured(marks({5, 9, 100.0}))));
+  fmt::print("5x9 ending 100 mm inside the bed: {:.4f} mm at most over the bed\n", largest);
+  EXPECT_LE(largest, 0.05);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real scans of a real machine: fitted at a few marks, held against all the others. The scans stay in ../shared/data.
+// Real scans of a real machine: fitted at a few marks, held against all the others. The scans stay
+// in ../shared/data.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -47,9 +48,11 @@ TEST_P(RealScans, AFewMarksPredictAllOthers) {
     GTEST_SKIP() << "the scans are not beside this checkout: " << data / "optical_grid";
   }
   files::OpticalOptions options;
-  options.machine = files::read_groundcontrol(data / "holey" / "groundcontrol_2018-09-01b.ini").machine;
+  options.machine =
+      files::read_groundcontrol(data / "holey" / "groundcontrol_2018-09-01b.ini").machine;
   options.pitch_mm = kPitchMm;
-  const grid::MeasuredGrid whole = files::read_optical(data / "optical_grid" / GetParam().file, options).grid;
+  const grid::MeasuredGrid whole =
+      files::read_optical(data / "optical_grid" / GetParam().file, options).grid;
 
   grid::MeasuredGrid few = whole;
   std::erase_if(few.points, [](const grid::MeasuredPoint& point) {
@@ -64,7 +67,8 @@ TEST_P(RealScans, AFewMarksPredictAllOthers) {
   Eigen::Vector2d squares = Eigen::Vector2d::Zero();
   std::size_t held_out = 0;
   for (const grid::LengthPoint& point : *truth) {
-    if (on(GetParam().fitted_ix, point.mark.x_mm) && on(GetParam().fitted_iy, point.mark.y_mm)) continue;
+    if (on(GetParam().fitted_ix, point.mark.x_mm) && on(GetParam().fitted_iy, point.mark.y_mm))
+      continue;
     const auto answer = map->query(point.mark);
     ASSERT_TRUE(answer);
     const Eigen::Vector2d missing(point.lengths.left_mm - answer->lengths.left_mm,
@@ -73,18 +77,35 @@ TEST_P(RealScans, AFewMarksPredictAllOthers) {
     ++held_out;
   }
   const Eigen::Vector2d rms = (squares / static_cast<double>(held_out)).cwiseSqrt();
-  fmt::print("{}: fitted at {} marks, {} others: {:.3f} mm rms in X, {:.3f} mm in Y\n", GetParam().name,
-             few.points.size(), held_out, rms.x(), rms.y());
-  // What the machine with a length scale for each chain reaches alone is 0.21 / 0.40 (D) and 0.43 / 0.62 (C).
+  fmt::print("{}: fitted at {} marks, {} others: {:.3f} mm rms in X, {:.3f} mm in Y\n",
+             GetParam().name,
+             few.points.size(),
+             held_out,
+             rms.x(),
+             rms.y());
+  // What the machine with a length scale for each chain reaches alone is 0.21 / 0.40 (D) and 0.43 /
+  // 0.62 (C).
   EXPECT_LE(rms.x(), GetParam().most_x_rms_mm);
   EXPECT_LE(rms.y(), GetParam().most_y_rms_mm);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Optical, RealScans,
-    testing::Values(Scan{"D", "D_2018-10-01_upper_half.csv", {-15, -9, -3, 3, 9, 15}, {0, 2, 5, 7}, 23, 0.18, 0.31},
-                    Scan{"C", "C_2018-09-30_full.csv", {-15, -10, -5, 0, 5, 10, 15}, {-7, -4, 0, 4, 7}, 35, 0.45, 0.55}),
-    [](const auto& scan) { return std::string(scan.param.name); });
+INSTANTIATE_TEST_SUITE_P(Optical,
+                         RealScans,
+                         testing::Values(Scan{"D",
+                                              "D_2018-10-01_upper_half.csv",
+                                              {-15, -9, -3, 3, 9, 15},
+                                              {0, 2, 5, 7},
+                                              23,
+                                              0.18,
+                                              0.31},
+                                         Scan{"C",
+                                              "C_2018-09-30_full.csv",
+                                              {-15, -10, -5, 0, 5, 10, 15},
+                                              {-7, -4, 0, 4, 7},
+                                              35,
+                                              0.45,
+                                              0.55}),
+                         [](const auto& scan) { return std::string(scan.param.name); });
 
 }  // namespace
 }  // namespace chaintrue

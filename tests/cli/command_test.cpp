@@ -39,12 +39,17 @@ class Command : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] Outcome run(const std::string& arguments) const {
-    const std::string line = "cd " + folder_.string() + " && " CHAINTRUE_COMMAND " " + arguments + " >out.txt 2>err.txt";
+    const std::string line =
+        "cd " + folder_.string() + " && " CHAINTRUE_COMMAND " " + arguments + " >out.txt 2>err.txt";
     const int status = std::system(line.c_str());
     return {WEXITSTATUS(status), content_of(folder_ / "out.txt"), content_of(folder_ / "err.txt")};
   }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
-  [[nodiscard]] bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  [[nodiscard]] bool exists(const std::string& name) const {
+    return std::filesystem::exists(folder_ / name);
+  }
 
   const std::string grid_ = std::string(CHAINTRUE_FIXTURES) + "/grids/seven_by_four.json";
   std::filesystem::path folder_;
@@ -67,7 +72,9 @@ TEST_F(Command, QueryAnswersPointsFromArgumentsFileAndStandardInputAlike) {
   write("points.csv", "x_mm,y_mm\n100,200\n-1000,-450\n");
   const Outcome arguments = run("query map.json 100 200 -1000 -450");
   EXPECT_EQ(arguments.code, 0);
-  EXPECT_THAT(arguments.out, StartsWith("x_mm,y_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,status\n100,200,"));
+  EXPECT_THAT(
+      arguments.out,
+      StartsWith("x_mm,y_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,status\n100,200,"));
   EXPECT_EQ(run("query map.json --points points.csv").out, arguments.out);
   EXPECT_EQ(run("query map.json --points - < points.csv").out, arguments.out);
   ASSERT_EQ(run("query map.json --points points.csv -o answers.csv").code, 0);
@@ -80,9 +87,12 @@ TEST_F(Command, QueryGivesThePointForLengths) {
   const std::string row = answer.substr(answer.find('\n') + 1);
   const std::size_t left = row.find(',', row.find(',') + 1) + 1;
   const std::size_t right = row.find(',', left) + 1;
-  const std::string lengths = row.substr(left, right - left - 1) + " " + row.substr(right, row.find(',', right) - right);
+  const std::string lengths =
+      row.substr(left, right - left - 1) + " " + row.substr(right, row.find(',', right) - right);
   // Lengths are printed to 1e-6 mm.
-  EXPECT_THAT(run("query map.json --inverse " + lengths).out, testing::MatchesRegex("x_mm,y_mm,status\n(100.00000.|99.99999.),(200.00000.|199.99999.),inside\n"));
+  EXPECT_THAT(run("query map.json --inverse " + lengths).out,
+              testing::MatchesRegex(
+                  "x_mm,y_mm,status\n(100.00000.|99.99999.),(200.00000.|199.99999.),inside\n"));
 }
 
 TEST_F(Command, QueryWritesWhatIsInsideAndExitsWithFourForTheRest) {
@@ -94,13 +104,16 @@ TEST_F(Command, QueryWritesWhatIsInsideAndExitsWithFourForTheRest) {
 }
 
 TEST_F(Command, UnusableArgumentsExitWithTwo) {
-  for (const char* arguments : {"", "fitt", "fit", "query", "query map.json", "query map.json 1", "fit grid.json"}) {
+  for (const char* arguments :
+       {"", "fitt", "fit", "query", "query map.json", "query map.json 1", "fit grid.json"}) {
     EXPECT_EQ(run(arguments).code, 2) << arguments;
   }
 }
 
 TEST_F(Command, BadInputExitsWithThreeAndWritesNothing) {
-  write("grid.json", "{\"file_type\": \"chaintrue_grid\", \"format_version\": \"1.0\", \"points\": [], \"colour\": 1}");
+  write("grid.json",
+        "{\"file_type\": \"chaintrue_grid\", \"format_version\": \"1.0\", \"points\": [], "
+        "\"colour\": 1}");
   const Outcome outcome = run("fit grid.json -o map.json");
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.err, HasSubstr("grid.json: /points"));

@@ -78,7 +78,7 @@ std::vector<Snippet> snippets() {
   return all;
 }
 
-/// What stands before each snippet: the oracle's had a feed rate and a motion mode too.
+/// What stands before each snippet: the stored verdicts had a feed rate and a motion mode too.
 constexpr std::string_view kBefore = "F100\nG0 X0 Y0 Z0\n";
 
 /// Snippet and what our message holds; empty where we accept and LinuxCNC refuses.

@@ -13,7 +13,9 @@ namespace {
 
 /// The surface of seeds/001, there called z: 7 x 5 points over 2400 x 1200 mm.
 double seed_length_mm(double x_mm, double y_mm) {
-  return (2.0 * std::cos(x_mm / 4800.0 * std::numbers::pi) - std::sin(y_mm / 4800.0 * std::numbers::pi) + 0.8) * 1000.0;
+  return (2.0 * std::cos(x_mm / 4800.0 * std::numbers::pi) -
+          std::sin(y_mm / 4800.0 * std::numbers::pi) + 0.8) *
+         1000.0;
 }
 
 grid::MeasuredGrid seed_grid(int rows) {
@@ -23,7 +25,10 @@ grid::MeasuredGrid seed_grid(int rows) {
       const double x = 400.0 * ix;
       const double y = 1200.0 * iy / (rows - 1);
       grid.points.push_back(
-          {{x, y}, model::ChainLengths{seed_length_mm(2400.0 - x, y), seed_length_mm(x, y)}, std::nullopt, std::nullopt});
+          {{x, y},
+           model::ChainLengths{seed_length_mm(2400.0 - x, y), seed_length_mm(x, y)},
+           std::nullopt,
+           std::nullopt});
     }
   }
   return grid;
@@ -40,7 +45,8 @@ TEST(DirectFit, GivesTheNumberOfTheFirstProposal) {
   ASSERT_TRUE(map);
   const auto answer = map->query({100.0, 200.0});
   ASSERT_TRUE(answer);
-  // seeds/001 states 2665.4 and -0.23; the digits are those of Octave's interp2 'spline' on the same grid.
+  // seeds/001 states 2665.4 and -0.23; the digits are those of Octave's interp2 'spline' on the
+  // same grid.
   EXPECT_NEAR(answer->lengths.right_mm, 2665.422998, 1e-6);
   EXPECT_NEAR(seed_length_mm(100.0, 200.0) - answer->lengths.right_mm, -0.231343, 1e-6);
 }
@@ -48,14 +54,17 @@ TEST(DirectFit, GivesTheNumberOfTheFirstProposal) {
 TEST(DirectFit, MeetsItsPointsAndRefusesToLeaveThem) {
   const auto map = grid::fit(seed_grid(4), direct());
   ASSERT_TRUE(map);
-  for (const auto& point : map->contents().points) EXPECT_LT(point.mapped_mm.norm(), 1e-9);  // interpolation
+  for (const auto& point : map->contents().points)
+    EXPECT_LT(point.mapped_mm.norm(), 1e-9);  // interpolation
   EXPECT_EQ(map->query({-1.0, 200.0}).error(), grid::MapFailure::outside_map);
 }
 
 TEST(DirectFit, EstimatesTheErrorBetweenItsLines) {
   const auto map = grid::fit(seed_grid(5), direct());
-  const double sigma = std::get<grid::DirectSurface>(map->contents().surface).interpolation_sigma_mm;
-  // The true error over the bed is 0.263 mm at most and 0.080 mm rms; an estimate within a factor of three is fair.
+  const double sigma =
+      std::get<grid::DirectSurface>(map->contents().surface).interpolation_sigma_mm;
+  // The true error over the bed is 0.263 mm at most and 0.080 mm rms; an estimate within a factor
+  // of three is fair.
   EXPECT_GT(sigma, 0.027);
   EXPECT_LT(sigma, 0.24);
 }
@@ -74,7 +83,8 @@ TEST(DirectFit, ReadsBackAsWritten) {
   const std::string text = grid::files::write_map(*map);
   const auto read = grid::files::parse_map(text, "map.json");
   EXPECT_EQ(grid::files::write_map(read), text);
-  EXPECT_EQ(read.query({100.0, 200.0})->lengths.right_mm, map->query({100.0, 200.0})->lengths.right_mm);
+  EXPECT_EQ(read.query({100.0, 200.0})->lengths.right_mm,
+            map->query({100.0, 200.0})->lengths.right_mm);
 }
 
 }  // namespace

@@ -69,12 +69,17 @@ TEST(LatticeResidual, TheMapsDerivativeIsThatOfItsLengths) {
   constexpr double kStep = 0.01;
   for (const BedPoint p : {BedPoint{12, 34}, {-1100, -500}, {1150, 590}, {333, -77}}) {
     const auto jacobian = map.lengths(p)->mark_jacobian;
-    const auto at = [&](double dx, double dy) { return map.lengths({p.x_mm + dx, p.y_mm + dy})->lengths; };
-    // Central difference: step^2 / 6 times a third derivative of 1e-6, and rounding of 1e-12 / step.
+    const auto at = [&](double dx, double dy) {
+      return map.lengths({p.x_mm + dx, p.y_mm + dy})->lengths;
+    };
+    // Central difference: step^2 / 6 times a third derivative of 1e-6, and rounding of 1e-12 /
+    // step.
     EXPECT_NEAR(jacobian(0, 0), (at(kStep, 0).left_mm - at(-kStep, 0).left_mm) / (2 * kStep), 1e-8);
     EXPECT_NEAR(jacobian(0, 1), (at(0, kStep).left_mm - at(0, -kStep).left_mm) / (2 * kStep), 1e-8);
-    EXPECT_NEAR(jacobian(1, 0), (at(kStep, 0).right_mm - at(-kStep, 0).right_mm) / (2 * kStep), 1e-8);
-    EXPECT_NEAR(jacobian(1, 1), (at(0, kStep).right_mm - at(0, -kStep).right_mm) / (2 * kStep), 1e-8);
+    EXPECT_NEAR(
+        jacobian(1, 0), (at(kStep, 0).right_mm - at(-kStep, 0).right_mm) / (2 * kStep), 1e-8);
+    EXPECT_NEAR(
+        jacobian(1, 1), (at(0, kStep).right_mm - at(0, -kStep).right_mm) / (2 * kStep), 1e-8);
   }
 }
 
@@ -89,7 +94,8 @@ TEST(LatticeResidual, AnEmptyNodeIsFilledNamedAndDoubted) {
   const auto measured = map.query(grid.points[16].mark).value();
   EXPECT_GT(there.sigma.left_mm, 1.5 * measured.sigma.left_mm);
   EXPECT_LE(std::abs(there.lengths.left_mm - truth_at(empty).left_mm), 3.0 * there.sigma.left_mm);
-  EXPECT_LE(std::abs(there.lengths.right_mm - truth_at(empty).right_mm), 3.0 * there.sigma.right_mm);
+  EXPECT_LE(std::abs(there.lengths.right_mm - truth_at(empty).right_mm),
+            3.0 * there.sigma.right_mm);
 }
 
 TEST(LatticeResidual, SigmaGrowsBeyondTheLattice) {

@@ -31,14 +31,16 @@ TEST(ResidualFit, LeavesAFractionOfWhatTheStatedMachineErrs) {
     SCOPED_TRACE(seed);
     const auto made = session(usual_spec(seed));
     const CompensationMap map = fitted(made.grid);
-    // 28 points of 0.35 mm noise on the tool and 9 or so effective parameters: about 0.2 mm; twice that is allowed.
+    // 28 points of 0.35 mm noise on the tool and 9 or so effective parameters: about 0.2 mm; twice
+    // that is allowed.
     EXPECT_LT(true_tool_rms_mm(map, made.answer), 0.4);
   }
 }
 
 TEST(ResidualFit, ExpectsTheErrorThatItHas) {
-  // The mean square of the true error over the sigma that the map states for it is 1 where sigmas are honest. One bed's
-  // errors are strongly correlated (about 9 independent ones), so 12 beds pin the mean down to 1 +- 0.14.
+  // The mean square of the true error over the sigma that the map states for it is 1 where sigmas
+  // are honest. One bed's errors are strongly correlated (about 9 independent ones), so 12 beds pin
+  // the mean down to 1 +- 0.14.
   double ratio = 0.0;
   constexpr int kBeds = 12;
   for (std::uint64_t seed = 100; seed < 100 + kBeds; ++seed) {
@@ -77,13 +79,16 @@ TEST(ResidualFit, PlacesASheetThatWasLaidByHand) {
   spec.sheet = grid::SheetUncertainty{};
   const auto made = session(spec);
   const CompensationMap map = fitted(made.grid);
-  EXPECT_LT(true_tool_rms_mm(map, made.answer), 0.4);  // as without a sheet: its placement moves the frame alone
+  EXPECT_LT(true_tool_rms_mm(map, made.answer),
+            0.4);  // as without a sheet: its placement moves the frame alone
   const model::BedPoint mark{300.0, -200.0};
   const model::BedPoint bed = map.to_bed(mark);
   const auto by_mark = map.query(mark, grid::Frame::marks);
   const auto by_bed = map.query(bed, grid::Frame::bed);
   ASSERT_TRUE(by_mark && by_bed);
-  EXPECT_NEAR(by_mark->lengths.left_mm, by_bed->lengths.left_mm, 1e-9);  // rounding of a rotation there and back
+  EXPECT_NEAR(by_mark->lengths.left_mm,
+              by_bed->lengths.left_mm,
+              1e-9);  // rounding of a rotation there and back
 }
 
 TEST(ResidualFit, SetsBadPointsAside) {
@@ -123,7 +128,8 @@ TEST(ResidualFit, WithoutNoiseItMeetsThePointsAndTheTruth) {
   spec.repeats = 0;
   const auto made = session(spec);
   EXPECT_FALSE(made.grid.noise);
-  EXPECT_LT(true_tool_rms_mm(fitted(made.grid), made.answer), 0.01);  // the model class holds the truth exactly
+  EXPECT_LT(true_tool_rms_mm(fitted(made.grid), made.answer),
+            0.01);  // the model class holds the truth exactly
 }
 
 TEST(ResidualFit, TakesTheNoiseFromRepeatsWhereNobodyStatedIt) {
@@ -133,7 +139,9 @@ TEST(ResidualFit, TakesTheNoiseFromRepeatsWhereNobodyStatedIt) {
   made.grid.noise.reset();
   const grid::MapNoise noise = fitted(made.grid).contents().noise;
   EXPECT_EQ(noise.source, "repeats");
-  EXPECT_NEAR(noise.length_mm * noise.factor_found, 0.2, 0.08);  // 40 degrees of freedom: 11 % a sigma, three and a half
+  EXPECT_NEAR(noise.length_mm * noise.factor_found,
+              0.2,
+              0.08);  // 40 degrees of freedom: 11 % a sigma, three and a half
 }
 
 TEST(ResidualFit, InverseFindsTheQueriedPoint) {
@@ -156,10 +164,14 @@ TEST(ResidualFit, TheMapsDerivativeIsThatOfItsLengths) {
   constexpr double kStep = 0.01;
   for (const model::BedPoint p : {model::BedPoint{0, 0}, {-1100, -500}, {1150, 590}, {333, -77}}) {
     const auto jacobian = map.lengths(p)->mark_jacobian;
-    const auto at = [&](double dx, double dy) { return map.lengths({p.x_mm + dx, p.y_mm + dy})->lengths; };
+    const auto at = [&](double dx, double dy) {
+      return map.lengths({p.x_mm + dx, p.y_mm + dy})->lengths;
+    };
     const double by_x = (at(kStep, 0).left_mm - at(-kStep, 0).left_mm) / (2 * kStep);
     const double by_y = (at(0, kStep).right_mm - at(0, -kStep).right_mm) / (2 * kStep);
-    EXPECT_NEAR(jacobian(0, 0), by_x, 1e-8);  // central difference: step^2 / 6 times a third derivative of 1e-6
+    EXPECT_NEAR(jacobian(0, 0),
+                by_x,
+                1e-8);  // central difference: step^2 / 6 times a third derivative of 1e-6
     EXPECT_NEAR(jacobian(1, 1), by_y, 1e-8);
   }
 }
@@ -180,7 +192,9 @@ TEST(ResidualFit, ReadingsOfTheMachineSharpenTheSettings) {
   EXPECT_LT(sigma_of_spacing(map), 0.1);  // the tape alone is that good
   EXPECT_LT(sigma_of_spacing(map), before);
   const auto& motors = map.machine()->motors;
-  EXPECT_NEAR(motors.right.x_mm - motors.left.x_mm, truth.right.x_mm - truth.left.x_mm, 0.4);  // four of its sigmas
+  EXPECT_NEAR(motors.right.x_mm - motors.left.x_mm,
+              truth.right.x_mm - truth.left.x_mm,
+              0.4);  // four of its sigmas
 }
 
 TEST(ResidualFit, SaysThatTheMirrorClaimFailsOnAMachineThatIsNotSymmetric) {

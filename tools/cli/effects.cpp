@@ -284,9 +284,9 @@ void add_effects(CLI::App& app, Run& run) {
   verb->add_flag("--markdown", options->markdown, "The catalogue as docs/effects.md");
   verb->footer(
       "Examples:\n"
-      "  chaintrue effects\n"
-      "  chaintrue effects chain_stretch --machine fixtures/machines/classic.json --draw "
-      "/tmp/stretch.svg");
+      "  build/chaintrue effects\n"
+      "  build/chaintrue effects chain_stretch --machine fixtures/machines/classic.json --draw "
+      "stretch.svg");
   verb->callback([options, &run] { run = [options] { return run_effects(*options); }; });
 }
 

@@ -37,12 +37,14 @@ const std::map<std::string, interp::EndCondition>& end_conditions() {
 int run_fit(const FitCommand& command) {
   const grid::MeasuredGrid measured = read_grid_input(command.input);
   grid::FitOptions options;
-  options.surface = command.surface == "direct" ? grid::SurfaceKind::direct : grid::SurfaceKind::residual;
+  options.surface =
+      command.surface == "direct" ? grid::SurfaceKind::direct : grid::SurfaceKind::residual;
   const interp::EndCondition end = end_conditions().at(command.ends);
   options.ends = {{end, end}, {end, end}};
   const auto map = grid::fit(measured, options);
   if (!map) {
-    throw grid::files::InputError(std::vector<grid::files::InputProblem>{{command.input.grid, "", "", map.error().sentence}});
+    throw grid::files::InputError(
+        std::vector<grid::files::InputProblem>{{command.input.grid, "", "", map.error().sentence}});
   }
   grid::files::write_whole_file(command.output, grid::files::write_map(*map));
   fmt::print(stderr, "{}", fit_in_words(*map));
@@ -55,9 +57,12 @@ void add_fit(CLI::App& app, Run& run) {
   auto command = std::make_shared<FitCommand>();
   CLI::App* verb = app.add_subcommand("fit", "Measured points become a compensation map");
   add_grid_options(*verb, command->input);
-  verb->add_option("-o,--output", command->output, "The map file; - is standard output")->required();
-  verb->add_option("--surface", command->surface,
-                   "residual: a smooth correction on the calibrated machine; direct: splines through the lengths "
+  verb->add_option("-o,--output", command->output, "The map file; - is standard output")
+      ->required();
+  verb->add_option("--surface",
+                   command->surface,
+                   "residual: a smooth correction on the calibrated machine; direct: splines "
+                   "through the lengths "
                    "themselves, no machine needed")
       ->check(CLI::IsMember({"residual", "direct"}))
       ->capture_default_str();

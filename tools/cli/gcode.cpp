@@ -515,7 +515,9 @@ void add_gcode(CLI::App& app, Run& run) {
   add_machine_options(*check, *options, false);
   add_limits(*check, *options);
   check->add_flag("--json", options->json, "JSON in place of words");
-  check->footer("Example:\n  chaintrue gcode check part.nc --map map.json");
+  check->footer(
+      "Example:\n"
+      "  build/chaintrue gcode check fixtures/gcode/bracket.nc");
 
   CLI::App* lengths =
       add(*gcode, run, options, "lengths", "The chain lengths along the path", run_lengths);
@@ -528,7 +530,10 @@ void add_gcode(CLI::App& app, Run& run) {
       ->check(positive())
       ->capture_default_str();
   lengths->add_flag("--json", options->json, "One JSON object a line in place of CSV");
-  lengths->footer("Example:\n  chaintrue gcode lengths part.nc --map map.json -o lengths.csv");
+  lengths->footer(
+      "Example:\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
+      "  build/chaintrue gcode lengths fixtures/gcode/bracket.nc --map map.json -o lengths.csv");
 
   CLI::App* compensate = add(*gcode,
                              run,
@@ -546,7 +551,10 @@ void add_gcode(CLI::App& app, Run& run) {
                          "A page with the path before and after, coloured by the correction");
   add_limits(*compensate, *options);
   compensate->footer(
-      "Example:\n  chaintrue gcode compensate part.nc --map map.json -o part.true.nc");
+      "Example:\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
+      "  build/chaintrue gcode compensate fixtures/gcode/bracket.nc --map map.json -o "
+      "bracket.true.nc");
 
   CLI::App* verify =
       add(*gcode,
@@ -560,7 +568,12 @@ void add_gcode(CLI::App& app, Run& run) {
   add_machine_options(*verify, *options, true);
   add_limits(*verify, *options);
   verify->add_flag("--json", options->json, "JSON in place of words");
-  verify->footer("Example:\n  chaintrue gcode verify part.nc part.true.nc --map map.json");
+  verify->footer(
+      "Example:\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
+      "  build/chaintrue gcode compensate fixtures/gcode/bracket.nc --map map.json -o "
+      "bracket.true.nc\n"
+      "  build/chaintrue gcode verify fixtures/gcode/bracket.nc bracket.true.nc --map map.json");
 
   CLI::App* explain = add(*gcode,
                           run,
@@ -570,7 +583,9 @@ void add_gcode(CLI::App& app, Run& run) {
                           run_explain);
   explain->add_option("place", options->program, "FILE:LINE")->required();
   add_machine_options(*explain, *options, false);
-  explain->footer("Example:\n  chaintrue gcode explain part.nc:12 --map map.json");
+  explain->footer(
+      "Example:\n"
+      "  build/chaintrue gcode explain fixtures/gcode/bracket.nc:12");
 }
 
 }  // namespace chaintrue::cli

@@ -110,7 +110,7 @@ GcodeText::GcodeText(const std::string& path) : path_(path) {
 gcode::LineSource GcodeText::open() const {
   if (text_) return gcode::LineSource::from_text(*text_);
   auto source = gcode::LineSource::from_file(path_);
-  if (!source) throw InputError({{path_, "", "", source.error().sentence}});
+  if (!source) throw InputError({{path_, "", "", "a file that can be read"}});
   return std::move(*source);
 }
 

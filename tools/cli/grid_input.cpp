@@ -11,13 +11,21 @@
 namespace chaintrue::cli {
 
 void add_grid_options(CLI::App& verb, GridInput& input) {
-  verb.add_option("grid", input.grid, "The measured points: a chaintrue_grid file, or CSV; - is standard input")
+  verb.add_option("grid",
+                  input.grid,
+                  "The measured points: a chaintrue_grid file, or CSV; - is standard input")
       ->required();
-  verb.add_option("--machine", input.machine, "A chaintrue_machine file, in place of the grid's own");
-  verb.add_option("--noise-length-mm", input.length_noise_mm, "One sigma of a chain length, in place of the grid's own");
-  verb.add_option("--noise-position-mm", input.position_noise_mm,
+  verb.add_option(
+      "--machine", input.machine, "A chaintrue_machine file, in place of the grid's own");
+  verb.add_option("--noise-length-mm",
+                  input.length_noise_mm,
+                  "One sigma of a chain length, in place of the grid's own");
+  verb.add_option("--noise-position-mm",
+                  input.position_noise_mm,
                   "One sigma of the tool's place on each axis, in place of the grid's own");
-  verb.add_option("--noise-dof", input.noise_dof, "How well the noise is known, in degrees of freedom (15 where unsaid)");
+  verb.add_option("--noise-dof",
+                  input.noise_dof,
+                  "How well the noise is known, in degrees of freedom (15 where unsaid)");
 }
 
 grid::MeasuredGrid read_grid_input(const GridInput& input) {
@@ -27,7 +35,8 @@ grid::MeasuredGrid read_grid_input(const GridInput& input) {
   if (input.length_noise_mm || input.position_noise_mm || input.noise_dof) {
     const grid::StatedNoise usual;
     options.noise = {input.length_noise_mm.value_or(usual.length_mm),
-                     input.position_noise_mm.value_or(usual.position_mm), input.noise_dof.value_or(usual.dof)};
+                     input.position_noise_mm.value_or(usual.position_mm),
+                     input.noise_dof.value_or(usual.dof)};
   }
   files::ReadGrid read = files::read_grid(input.grid, options);
   for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());

@@ -53,17 +53,26 @@ double rms(const grid::CompensationMap& map, Eigen::Vector2d grid::MapPoint::*re
 }
 
 void print_held_out(std::string& text, std::string_view name, const grid::HeldOutError& error) {
-  fmt::format_to(std::back_inserter(text), "  {:<28}{:>8.2f}{:>8.2f}{:>10.2f}{:>8.2f}\n", name, error.chain.rms_mm,
-                 error.chain.maximum_mm, error.tool.rms_mm, error.tool.maximum_mm);
+  fmt::format_to(std::back_inserter(text),
+                 "  {:<28}{:>8.2f}{:>8.2f}{:>10.2f}{:>8.2f}\n",
+                 name,
+                 error.chain.rms_mm,
+                 error.chain.maximum_mm,
+                 error.tool.rms_mm,
+                 error.tool.maximum_mm);
 }
 
 void print_settings(std::string& text, const grid::MapContents& map) {
   if (map.settings.empty()) return;
   text += "\nSettings                           stated  calibrated   +- sigma\n";
   for (const grid::SettingResult& result : map.settings) {
-    fmt::format_to(std::back_inserter(text), "  {:<26}{:>14.2f}{:>12.2f}{:>11.2f} {}{}\n", setting_in_words(result.setting),
-                   in_unit(result.setting, result.stated), in_unit(result.setting, result.calibrated),
-                   in_unit(result.setting, result.sigma), unit_of(result.setting),
+    fmt::format_to(std::back_inserter(text),
+                   "  {:<26}{:>14.2f}{:>12.2f}{:>11.2f} {}{}\n",
+                   setting_in_words(result.setting),
+                   in_unit(result.setting, result.stated),
+                   in_unit(result.setting, result.calibrated),
+                   in_unit(result.setting, result.sigma),
+                   unit_of(result.setting),
                    result.off ? "  off: further than its stated uncertainty allows" : "");
   }
 }
@@ -76,20 +85,28 @@ double in_unit(Setting setting, double value) { return words_of(setting).factor 
 
 std::string fit_sentence(const grid::CompensationMap& map) {
   const grid::MapContents& contents = map.contents();
-  const auto bad = std::count_if(contents.points.begin(), contents.points.end(), [](const auto& p) { return p.bad; });
+  const auto bad = std::count_if(
+      contents.points.begin(), contents.points.end(), [](const auto& p) { return p.bad; });
   const std::size_t points = contents.points.size();
   if (map.machine() == nullptr) {
-    return fmt::format("Splines through the lengths of {} points: left out a line at a time, points come back {:.2f} mm rms "
-                       "({:.2f} mm at worst) beside where they were measured.",
-                       points, contents.accuracy.leave_one_out.tool.rms_mm,
-                       contents.accuracy.leave_one_out.tool.maximum_mm);
+    return fmt::format(
+        "Splines through the lengths of {} points: left out a line at a time, points come back "
+        "{:.2f} mm rms "
+        "({:.2f} mm at worst) beside where they were measured.",
+        points,
+        contents.accuracy.leave_one_out.tool.rms_mm,
+        contents.accuracy.leave_one_out.tool.maximum_mm);
   }
   const bool sheet = contents.settings.size() > std::size(model::kMachineSettings);
   return fmt::format(
-      "With the settings as stated{} the tool was {:.2f} mm rms beside its {} points; the map leaves {:.2f} mm, and "
+      "With the settings as stated{} the tool was {:.2f} mm rms beside its {} points; the map "
+      "leaves {:.2f} mm, and "
       "points that it has not seen come out within {:.2f} mm rms{}.",
-      sheet ? " and the sheet laid as well as it can be" : "", rms(map, &grid::MapPoint::sheet_placed_mm), points,
-      rms(map, &grid::MapPoint::mapped_mm), contents.accuracy.leave_one_out.tool.rms_mm,
+      sheet ? " and the sheet laid as well as it can be" : "",
+      rms(map, &grid::MapPoint::sheet_placed_mm),
+      points,
+      rms(map, &grid::MapPoint::mapped_mm),
+      contents.accuracy.leave_one_out.tool.rms_mm,
       bad == 0 ? "" : fmt::format(" ({} set aside as bad)", bad));
 }
 
@@ -101,10 +118,13 @@ std::string fit_in_words(const grid::CompensationMap& map) {
   print_held_out(text, "one at a time", contents.accuracy.leave_one_out);
   print_held_out(text, "a block of the bed at a time", contents.accuracy.blocked);
   fmt::format_to(std::back_inserter(text),
-                 "\nExpected error of the tool over the measured part (one sigma): {:.2f} mm rms, {:.2f} mm at worst, at "
+                 "\nExpected error of the tool over the measured part (one sigma): {:.2f} mm rms, "
+                 "{:.2f} mm at worst, at "
                  "({:.0f}, {:.0f}).\n",
-                 contents.accuracy.expected_tool.rms_mm, contents.accuracy.expected_tool.maximum_mm,
-                 contents.accuracy.expected_worst_at.x_mm, contents.accuracy.expected_worst_at.y_mm);
+                 contents.accuracy.expected_tool.rms_mm,
+                 contents.accuracy.expected_tool.maximum_mm,
+                 contents.accuracy.expected_worst_at.x_mm,
+                 contents.accuracy.expected_worst_at.y_mm);
   if (contents.mirror) text += contents.mirror->sentence + "\n";
   for (const std::string& note : contents.notes) text += note + "\n";
   return text;

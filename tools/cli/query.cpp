@@ -44,8 +44,12 @@ std::string as_csv(const std::vector<AnswerLine>& lines) {
   for (const AnswerLine& line : lines) {
     fmt::format_to(std::back_inserter(text), "{},{},", line.point.x_mm, line.point.y_mm);
     if (line.answer) {
-      fmt::format_to(std::back_inserter(text), "{:.6f},{:.6f},{:.4f},{:.4f},", line.answer->lengths.left_mm,
-                     line.answer->lengths.right_mm, line.answer->sigma.left_mm, line.answer->sigma.right_mm);
+      fmt::format_to(std::back_inserter(text),
+                     "{:.6f},{:.6f},{:.4f},{:.4f},",
+                     line.answer->lengths.left_mm,
+                     line.answer->lengths.right_mm,
+                     line.answer->sigma.left_mm,
+                     line.answer->sigma.right_mm);
     } else {
       text += ",,,,";
     }
@@ -58,13 +62,21 @@ std::string as_json(const std::vector<AnswerLine>& lines) {
   std::string text = "[";
   const char* separator = "\n";
   for (const AnswerLine& line : lines) {
-    fmt::format_to(std::back_inserter(text), "{}  {{\"x_mm\": {}, \"y_mm\": {}, ", separator, line.point.x_mm, line.point.y_mm);
+    fmt::format_to(std::back_inserter(text),
+                   "{}  {{\"x_mm\": {}, \"y_mm\": {}, ",
+                   separator,
+                   line.point.x_mm,
+                   line.point.y_mm);
     if (line.answer) {
       fmt::format_to(std::back_inserter(text),
-                     "\"left_mm\": {:.6f}, \"right_mm\": {:.6f}, \"left_sigma_mm\": {:.4f}, \"right_sigma_mm\": {:.4f}, "
+                     "\"left_mm\": {:.6f}, \"right_mm\": {:.6f}, \"left_sigma_mm\": {:.4f}, "
+                     "\"right_sigma_mm\": {:.4f}, "
                      "\"tool_sigma_mm\": {:.4f}, ",
-                     line.answer->lengths.left_mm, line.answer->lengths.right_mm, line.answer->sigma.left_mm,
-                     line.answer->sigma.right_mm, line.answer->tool_sigma_mm);
+                     line.answer->lengths.left_mm,
+                     line.answer->lengths.right_mm,
+                     line.answer->sigma.left_mm,
+                     line.answer->sigma.right_mm,
+                     line.answer->tool_sigma_mm);
     }
     fmt::format_to(std::back_inserter(text), "\"status\": \"{}\"}}", grid::name(status_of(line)));
     separator = ",\n";
@@ -88,15 +100,23 @@ grid::Frame frame_of(const QueryCommand& command) {
 int run_inverse(const grid::CompensationMap& map, const QueryCommand& command) {
   const auto point = map.inverse({command.inverse[0], command.inverse[1]}, frame_of(command));
   if (!point) {
-    fmt::print(stderr, "left {} mm, right {} mm: {}\n", command.inverse[0], command.inverse[1],
+    fmt::print(stderr,
+               "left {} mm, right {} mm: {}\n",
+               command.inverse[0],
+               command.inverse[1],
                grid::explain(point.error()));
     return kNotSupportedOrOutside;
   }
-  files::write_whole_file(command.output,
-                          command.json ? fmt::format("{{\"x_mm\": {:.6f}, \"y_mm\": {:.6f}, \"status\": \"{}\"}}\n", point->x_mm,
-                                                     point->y_mm, grid::name(map.status(*point, frame_of(command))))
-                                       : fmt::format("x_mm,y_mm,status\n{:.6f},{:.6f},{}\n", point->x_mm, point->y_mm,
-                                                     grid::name(map.status(*point, frame_of(command)))));
+  files::write_whole_file(
+      command.output,
+      command.json ? fmt::format("{{\"x_mm\": {:.6f}, \"y_mm\": {:.6f}, \"status\": \"{}\"}}\n",
+                                 point->x_mm,
+                                 point->y_mm,
+                                 grid::name(map.status(*point, frame_of(command))))
+                   : fmt::format("x_mm,y_mm,status\n{:.6f},{:.6f},{}\n",
+                                 point->x_mm,
+                                 point->y_mm,
+                                 grid::name(map.status(*point, frame_of(command)))));
   return kDone;
 }
 
@@ -109,7 +129,11 @@ int run_query(const QueryCommand& command) {
     lines.push_back({point, map.query(point, frame_of(command))});
     if (lines.back().answer) continue;
     ++outside;
-    fmt::print(stderr, "({}, {}): {}\n", point.x_mm, point.y_mm, grid::explain(lines.back().answer.error()));
+    fmt::print(stderr,
+               "({}, {}): {}\n",
+               point.x_mm,
+               point.y_mm,
+               grid::explain(lines.back().answer.error()));
   }
   files::write_whole_file(command.output, command.json ? as_json(lines) : as_csv(lines));
   return outside == 0 ? kDone : kNotSupportedOrOutside;
@@ -117,10 +141,14 @@ int run_query(const QueryCommand& command) {
 
 /// What CLI11 cannot say of the options together.
 void check_usage(const QueryCommand& command) {
-  const int ways = (command.coordinates.empty() ? 0 : 1) + (command.points.empty() ? 0 : 1) + (command.inverse.empty() ? 0 : 1);
-  if (ways != 1) throw CLI::ValidationError("query", "give points as X Y ..., or --points FILE, or --inverse L R");
+  const int ways = (command.coordinates.empty() ? 0 : 1) + (command.points.empty() ? 0 : 1) +
+                   (command.inverse.empty() ? 0 : 1);
+  if (ways != 1)
+    throw CLI::ValidationError("query",
+                               "give points as X Y ..., or --points FILE, or --inverse L R");
   if (command.coordinates.size() % 2 != 0) {
-    throw CLI::ValidationError("query", fmt::format("{} numbers are no pairs of X and Y", command.coordinates.size()));
+    throw CLI::ValidationError(
+        "query", fmt::format("{} numbers are no pairs of X and Y", command.coordinates.size()));
   }
 }
 
@@ -128,19 +156,25 @@ void check_usage(const QueryCommand& command) {
 
 void add_query(CLI::App& app, Run& run) {
   auto command = std::make_shared<QueryCommand>();
-  CLI::App* verb = app.add_subcommand("query", "Chain lengths for points of the bed, or the point for chain lengths");
+  CLI::App* verb = app.add_subcommand(
+      "query", "Chain lengths for points of the bed, or the point for chain lengths");
   verb->add_option("map", command->map, "A chaintrue_map file; - is standard input")->required();
   verb->add_option("coordinates", command->coordinates, "X Y, in mm, as many pairs as you like");
-  verb->add_option("--points", command->points, "A CSV with the columns x_mm and y_mm; - is standard input");
-  verb->add_option("--inverse", command->inverse, "Chain lengths L R in mm: where is the tool?")->expected(2);
-  verb->add_option("--frame", command->frame,
-                   "marks: coordinates as on the measured sheet; bed: as in the machine file, the sheet's placement taken out")
+  verb->add_option(
+      "--points", command->points, "A CSV with the columns x_mm and y_mm; - is standard input");
+  verb->add_option("--inverse", command->inverse, "Chain lengths L R in mm: where is the tool?")
+      ->expected(2);
+  verb->add_option("--frame",
+                   command->frame,
+                   "marks: coordinates as on the measured sheet; bed: as in the machine file, the "
+                   "sheet's placement taken out")
       ->check(CLI::IsMember({"marks", "bed"}))
       ->capture_default_str();
   verb->add_option("-o,--output", command->output, "- is standard output")->capture_default_str();
   verb->add_flag("--json", command->json, "JSON in place of CSV");
   verb->footer(
-      "status: inside the measured points, at their edge, extrapolated beyond them, or outside the bed (exit code 4).\n"
+      "status: inside the measured points, at their edge, extrapolated beyond them, or outside the "
+      "bed (exit code 4).\n"
       "Sigmas are one standard deviation of the map at that point.\n\nExample:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue query map.json 100 200 -1000 -450");

@@ -369,11 +369,13 @@ void add_simulate(CLI::App& app, Run& run) {
   verb->add_option("--answer", options->answer, "Write what was hidden to this file");
   verb->footer(
       "Examples:\n"
-      "  chaintrue simulate --machine fixtures/machines/classic.json --grid 7x4 --jitter-mm 8 "
+      "  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x4 --jitter-mm "
+      "8 "
       "--length-noise-mm 0.2 --position-noise-mm 0.3 --repeats 6 --effect "
-      "chain_pitch_error:left:elongation=0.0012 --seed 1 -o /tmp/grid.json --answer "
-      "/tmp/answer.json\n"
-      "  printf 'x_mm,y_mm\\n0,0\\n' | chaintrue simulate --machine fixtures/machines/classic.json "
+      "chain_pitch_error:left:elongation=0.0012 --seed 1 -o grid.json --answer "
+      "answer.json\n"
+      "  printf 'x_mm,y_mm\\n0,0\\n' | build/chaintrue simulate --machine "
+      "fixtures/machines/classic.json "
       "--points -");
   verb->callback([options, &run] { run = [options] { return run_simulate(*options); }; });
 }

@@ -134,9 +134,9 @@ void add_square(CLI::App& app, Run& run) {
   verb->add_option("-o,--output", options->drawing, "Draw it into this SVG file");
   verb->footer(
       "Example:\n"
-      "  chaintrue square --machine fixtures/machines/classic.json --controller-machine "
+      "  build/chaintrue square --machine fixtures/machines/classic.json --controller-machine "
       "fixtures/machines/believed_straight.json --size-mm 100 --at -1040 535 --below -o "
-      "/tmp/square.svg");
+      "square.svg");
   verb->callback([options, &run] { run = [options] { return run_square(*options); }; });
 }
 

@@ -170,9 +170,9 @@ void add_sweep(CLI::App& app, Run& run) {
                  "Go on with the finished cells that the folder holds; merges shards too");
   verb->add_option("--threads", options->threads, "0: all cores")->capture_default_str();
   verb->footer(
-      "Examples:\n"
-      "  chaintrue sweep fixtures/sweeps/quick.json -o /tmp/sweep\n"
-      "  mpirun -n 4 chaintrue sweep fixtures/sweeps/quick.json -o /tmp/sweep --resume");
+      "Over several machines: mpirun -n 4 build/chaintrue sweep SPEC.json -o DIR\n\n"
+      "Example:\n"
+      "  build/chaintrue sweep fixtures/sweeps/quick.json -o sweep");
   verb->callback([options, &run] { run = [options] { return run_sweep_verb(*options); }; });
 }
 

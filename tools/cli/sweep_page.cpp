@@ -55,7 +55,10 @@ report::Table table(const sweep::SweepSpec& spec, const std::vector<sweep::Level
                    {"rms at the tool, mm", true},
                    {"worst, mm", true},
                    {"cells", true}};
+  const auto counts = sweep::level_counts(spec);
   for (const sweep::LevelError& error : errors) {
+    // A factor of one level says what the grids say.
+    if (counts[error.factor] == 1 && error.factor + 1 < sweep::kFactors) continue;
     table.rows.push_back({{std::string(sweep::kFactorNames[error.factor]),
                            sweep::level_name(spec, error.factor, error.level),
                            fmt::format("{:.0f}", points_of(spec, error.grid)),

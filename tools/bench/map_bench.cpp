@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The whole fit and the map's answers. 28 points is an owner's grid; 91 a patient owner's.
+#include <benchmark/benchmark.h>
+
+#include "grid/map/fit.hpp"
+#include "grid/synthetic/generator.hpp"
+
+namespace {
+
+using namespace chaintrue;
+
+grid::MeasuredGrid grid_of(int columns, int rows) {
+  grid::synthetic::SyntheticSpec spec;
+  spec.design.columns = columns;
+  spec.design.rows = rows;
+  spec.jitter_mm = 8.0;
+  spec.noise.length_mm = 0.2;
+  spec.noise.position_mm = 0.3;
+  spec.draw_settings = true;
+  return grid::synthetic::generate(model::Machine{}, spec).value().grid;
+}
+
+void fit_points(benchmark::State& state, int columns, int rows) {
+  const grid::MeasuredGrid grid = grid_of(columns, rows);
+  for (auto _ : state) benchmark::DoNotOptimize(grid::fit(grid));
+}
+BENCHMARK_CAPTURE(fit_points, 28_points, 7, 4)
+    ->Name("map/fit/28_points")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fit_points, 91_points, 13, 7)
+    ->Name("map/fit/91_points")
+    ->Unit(benchmark::kMillisecond);
+
+void query_lengths(benchmark::State& state) {
+  const auto map = grid::fit(grid_of(7, 4)).value();
+  double x = -1000.0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(map.lengths({x, 0.25 * x}));
+    x = x < 1000.0 ? x + 1.0 : -1000.0;
+  }
+}
+BENCHMARK(query_lengths)->Name("map/lengths");
+
+void query_with_sigma(benchmark::State& state) {
+  const auto map = grid::fit(grid_of(7, 4)).value();
+  double x = -1000.0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(map.query({x, 0.25 * x}));
+    x = x < 1000.0 ? x + 1.0 : -1000.0;
+  }
+}
+BENCHMARK(query_with_sigma)->Name("map/query");
+
+}  // namespace
