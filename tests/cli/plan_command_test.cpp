@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The list of chaintrue plan, its drawing, and its exit codes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace chaintrue {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Outcome {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class PlanCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = std::filesystem::temp_directory_path() / "chaintrue-XXXXXX";
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] Outcome run(const std::string& arguments) const {
+    const std::string line =
+        "cd " + folder_.string() + " && " CHAINTRUE_COMMAND " " + arguments + " >out.txt 2>err.txt";
+    const int status = std::system(line.c_str());
+    return {WEXITSTATUS(status), content_of(folder_ / "out.txt"), content_of(folder_ / "err.txt")};
+  }
+  [[nodiscard]] bool exists(const std::string& name) const {
+    return std::filesystem::exists(folder_ / name);
+  }
+
+  const std::string machine_ = std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json";
+  std::filesystem::path folder_;
+};
+
+TEST_F(PlanCommand, ListsThePointsAndTellsTheErrorApart) {
+  const Outcome outcome = run("plan --machine " + machine_ + " --points 28");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, StartsWith("number,x_mm,y_mm\n1,-1209,-599\n2,"));
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 29);
+  EXPECT_THAT(outcome.err, HasSubstr("28 points: "));
+  EXPECT_THAT(outcome.err, HasSubstr("mm rms over the bed"));
+}
+
+TEST_F(PlanCommand, WritesTheSameListAndDrawingTwice) {
+  ASSERT_EQ(run("plan --machine " + machine_ + " --points 13 -o a.csv --svg a.svg").code, 0);
+  ASSERT_EQ(run("plan --machine " + machine_ + " --points 13 -o b.csv --svg b.svg").code, 0);
+  EXPECT_EQ(content_of(folder_ / "a.csv"), content_of(folder_ / "b.csv"));
+  EXPECT_EQ(content_of(folder_ / "a.svg"), content_of(folder_ / "b.svg"));
+  const std::string drawing = content_of(folder_ / "a.svg");
+  EXPECT_THAT(drawing, StartsWith("<svg "));
+  EXPECT_THAT(drawing, HasSubstr(">13</text>"));
+  EXPECT_THAT(drawing, testing::EndsWith("</svg>\n"));
+}
+
+TEST_F(PlanCommand, ItsListIsMeasuredBySimulate) {
+  ASSERT_EQ(run("plan --machine " + machine_ + " --points 12 -o plan.csv").code, 0);
+  const Outcome outcome = run("simulate --machine " + machine_ + " --marks plan.csv -o grid.json");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(exists("grid.json"));
+}
+
+TEST_F(PlanCommand, ValuesOutOfRangeExitWithThreeAllAtOnceAndWriteNothing) {
+  const Outcome outcome = run("plan --machine " + machine_ +
+                              " --points 5 --margin-mm 900 --length-noise-mm 0 -o p.csv");
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("--points"));
+  EXPECT_THAT(outcome.err, HasSubstr("--margin-mm"));
+  EXPECT_THAT(outcome.err, HasSubstr("--length-noise-mm"));
+  EXPECT_FALSE(exists("p.csv"));
+}
+
+TEST_F(PlanCommand, AMissingMachineExitsWithThreeAndMissingOptionsWithTwo) {
+  EXPECT_EQ(run("plan --machine nowhere.json").code, 3);
+  EXPECT_EQ(run("plan").code, 2);
+  EXPECT_EQ(run("plan --machine " + machine_ + " --points many").code, 2);
+}
+
+}  // namespace
+}  // namespace chaintrue

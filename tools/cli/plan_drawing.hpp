@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A measurement plan as a drawing: the bed coloured by the expected error, the marks numbered in
+/// the order of the walk. Same plan, same bytes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/map/measurement_plan.hpp"
+
+namespace chaintrue::cli {
+
+/// Over the bed, cell by cell from the bottom left.
+struct ExpectedErrors {
+  int columns = 0;
+  int rows = 0;
+  std::vector<double> cells_mm;  ///< negative where the map has no answer
+  double rms_mm = 0.0;
+  double largest_mm = 0.0;
+  model::BedPoint worst_at;
+  std::size_t unanswered = 0;
+};
+[[nodiscard]] ExpectedErrors expected_errors(const grid::CompensationMap& map,
+                                             const model::Bed& bed);
+
+/// A self-contained SVG; nothing is fetched, no script runs.
+[[nodiscard]] std::string draw_plan(const grid::MeasurementPlan& plan,
+                                    const model::Bed& bed,
+                                    const ExpectedErrors& errors);
+
+}  // namespace chaintrue::cli
