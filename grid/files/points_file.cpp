@@ -8,8 +8,11 @@ namespace chaintrue::grid::files {
 
 std::vector<model::BedPoint> parse_points(const std::string& text, const std::string& file) {
   constexpr Range kCoordinate{"mm", -20000.0, 20000.0};
+  // A plan numbers its points in the order of the walk; the lines stand in that order.
+  constexpr Range kNumber{"", 0.0, 1e6};
   Problems problems(file);
-  const CsvTable table = read_csv(text, {{"x_mm", kCoordinate}, {"y_mm", kCoordinate}}, problems);
+  const CsvTable table = read_csv(
+      text, {{"x_mm", kCoordinate}, {"y_mm", kCoordinate}, {"number", kNumber, false}}, problems);
   if (table.rows.empty() && !problems.any()) {
     problems.add("", "a header line only", "at least one line of numbers below it");
   }
