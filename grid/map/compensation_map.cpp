@@ -19,7 +19,7 @@ std::string_view explain(MapFailure failure) {
   return kSentences[static_cast<std::size_t>(failure)];
 }
 
-/// What answers at a mark; the two kinds of surface differ only here.
+/// What answers at a mark; the kinds of surface differ only here.
 class CompensationMap::Field {
  public:
   virtual ~Field() = default;
@@ -63,6 +63,47 @@ class CompensationMap::ModelField final : public Field {
  private:
   ModelSurface surface_;
   model::ReadingModel model_;
+};
+
+/// Readings without noise on a lattice.
+class CompensationMap::LatticeField final : public Field {
+ public:
+  LatticeField(const ModelSurface& surface, const MapNoise& noise)
+      : sheet_(surface.sheet),
+        scale_(surface.residual.scale),
+        model_(surface.machine),
+        splines_(surface.lattice.value()),
+        noise_(noise) {}
+
+  [[nodiscard]] tl::expected<Lengths, MapFailure> at(BedPoint mark) const override {
+    const auto reading = model_.at(sheet_.to_bed(mark));
+    if (!reading) return tl::unexpected(MapFailure::unreachable);
+    const auto spline = splines_.at(mark);
+    const Eigen::Vector2d factor(1.0 + scale_.left, 1.0 + scale_.right);
+    Lengths here;
+    here.lengths = {factor[0] * reading->lengths.left_mm + spline.left.value,
+                    factor[1] * reading->lengths.right_mm + spline.right.value};
+    here.mark_jacobian << spline.left.dx, spline.left.dy, spline.right.dx, spline.right.dy;
+    here.mark_jacobian += factor.asDiagonal() * reading->position_jacobian * sheet_.rotation();
+    return here;
+  }
+
+  [[nodiscard]] Eigen::Matrix2d covariance(BedPoint mark, const Lengths& here) const override {
+    const Eigen::Matrix2d node = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
+                                 noise_.position_mm * noise_.position_mm * here.mark_jacobian *
+                                     here.mark_jacobian.transpose();
+    return splines_.covariance(mark, noise_.factor_found * noise_.factor_found * node);
+  }
+
+  [[nodiscard]] BedPoint to_mark(BedPoint bed) const override { return sheet_.to_mark(bed); }
+  [[nodiscard]] BedPoint to_bed(BedPoint mark) const override { return sheet_.to_bed(mark); }
+
+ private:
+  model::SheetPlacement sheet_;
+  model::PerSide<double> scale_;
+  model::ReadingModel model_;
+  LatticeSplines splines_;
+  MapNoise noise_;
 };
 
 class CompensationMap::DirectField final : public Field {
@@ -109,7 +150,11 @@ class CompensationMap::DirectField final : public Field {
 CompensationMap::CompensationMap(MapContents contents)
     : contents_(std::move(contents)), area_(contents_.hull, contents_.edge_mm, contents_.domain) {
   if (const auto* surface = std::get_if<ModelSurface>(&contents_.surface)) {
-    field_ = std::make_shared<const ModelField>(*surface);
+    if (surface->lattice) {
+      field_ = std::make_shared<const LatticeField>(*surface, contents_.noise);
+    } else {
+      field_ = std::make_shared<const ModelField>(*surface);
+    }
   } else {
     field_ = std::make_shared<const DirectField>(std::get<DirectSurface>(contents_.surface),
                                                  contents_.noise);

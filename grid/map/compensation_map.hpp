@@ -23,6 +23,7 @@
 #include <variant>
 #include <vector>
 
+#include "grid/map/lattice_residual.hpp"
 #include "grid/map/measured_area.hpp"
 #include "grid/map/residual_surface.hpp"
 #include "grid/measured_grid.hpp"
@@ -113,6 +114,9 @@ struct ModelSurface {
   std::vector<model::Setting> settings;
   /// C = F F', lower triangular, of all unknowns in the order of FitColumns.
   Eigen::MatrixXd covariance_factor;
+  /// Takes the place of the residual's splines (its chain scales stay) where readings without noise
+  /// stand on a lattice.
+  std::optional<LatticeResidual> lattice = std::nullopt;
 };
 
 /// Splines through the measured lengths themselves; no machine.
@@ -192,6 +196,7 @@ class CompensationMap {
  private:
   class Field;
   class ModelField;
+  class LatticeField;
   class DirectField;
   [[nodiscard]] model::BedPoint mark_of(model::BedPoint point, Frame frame) const;
 

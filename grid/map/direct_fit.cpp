@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "grid/map/lattice_lines.hpp"
 #include "grid/map/length_points.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/map/residual_fit.hpp"
@@ -15,9 +16,6 @@ namespace {
 
 using model::Side;
 
-/// Points nearer than this to a line of the grid stand on it: the rounding of written coordinates.
-constexpr double kOnLineMm = 0.01;
-
 /// The lines of a full grid, and its values; empty nodes are told by `filled`.
 struct Lattice {
   std::vector<double> x_nodes_mm;
@@ -25,18 +23,6 @@ struct Lattice {
   model::PerSide<Eigen::MatrixXd> lengths_mm;
   Eigen::MatrixXi visits;
 };
-
-std::vector<double> lines_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto same = [](double a, double b) { return b - a <= kOnLineMm; };
-  values.erase(std::unique(values.begin(), values.end(), same), values.end());
-  return values;
-}
-
-Eigen::Index line_of(const std::vector<double>& lines, double value) {
-  const auto at = std::lower_bound(lines.begin(), lines.end(), value - kOnLineMm);
-  return at - lines.begin();
-}
 
 /// Repeats are averaged.
 Lattice lattice_of(const std::vector<LengthPoint>& points) {

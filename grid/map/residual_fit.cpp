@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "grid/map/joint_fit.hpp"
+#include "grid/map/lattice_residual.hpp"
 #include "grid/map/length_points.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/map/noise_from_repeats.hpp"
@@ -231,8 +232,13 @@ MapContents contents_of(const MeasuredGrid& grid,
                         const std::string& noise_source) {
   MapContents map;
   map.name = grid.name;
-  map.surface = ModelSurface{
-      fit.machine, fit.sheet, fit.surface, fit.columns, fit.settings, lower_factor(fit.covariance)};
+  map.surface = ModelSurface{fit.machine,
+                             fit.sheet,
+                             fit.surface,
+                             fit.columns,
+                             fit.settings,
+                             lower_factor(fit.covariance),
+                             {}};
   std::vector<BedPoint> good;
   for (const FittedPoint& point : fit.points) {
     if (!point.bad) good.push_back(point.point.mark);
@@ -264,6 +270,33 @@ void prefer_smoother(JointFitInput& input, JointFit& joint) {
   joint = *std::move(fit);
 }
 
+/// A surface through every node leaves nothing there, and has left-out residuals of its own.
+void tell_residuals(JointFit& joint, const LatticeFit& lattice) {
+  for (std::size_t i = 0; i < joint.points.size(); ++i) {
+    if (joint.points[i].bad) continue;
+    joint.points[i].residual_mm.setZero();
+    joint.points[i].left_out_residual_mm = lattice.left_out_residual_mm[i];
+  }
+}
+
+void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual& lattice) {
+  notes.emplace_back(
+      "The readings bear no noise and stand on full rows and columns: the map passes through every "
+      "one of them.");
+  for (Eigen::Index iy = 0; iy < lattice.doubt_mm.cols(); ++iy) {
+    for (Eigen::Index ix = 0; ix < lattice.doubt_mm.rows(); ++ix) {
+      if (lattice.doubt_mm(ix, iy) == 0.0) continue;
+      notes.push_back(
+          fmt::format("No reading at ({:.0f}, {:.0f}) was used: what stands there is foretold by "
+                      "the row or column through it, to "
+                      "about {:.2g} mm.",
+                      lattice.x_nodes_mm[static_cast<std::size_t>(ix)],
+                      lattice.y_nodes_mm[static_cast<std::size_t>(iy)],
+                      lattice.doubt_mm(ix, iy)));
+    }
+  }
+}
+
 }  // namespace
 
 tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid) {
@@ -290,7 +323,14 @@ tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid)
       if (!joint) return tl::unexpected(translate(joint.error()));
     }
   }
+  std::optional<LatticeFit> lattice;
+  if (source == "fit") lattice = fit_lattice(*joint);
+  if (lattice) tell_residuals(*joint, *lattice);
   MapContents contents = contents_of(grid, input, *joint, source);
+  if (lattice) {
+    std::get<ModelSurface>(contents.surface).lattice = lattice->residual;
+    append_lattice_notes(contents.notes, lattice->residual);
+  }
   const CompensationMap first(contents);
   measure_expected_error(first, contents.accuracy);
   contents.mirror = test_mirror(first);

@@ -117,8 +117,8 @@ BedError error_of(const CompensationMap& map) {
   return {std::sqrt(squares / count), static_cast<double>(covered) / count};
 }
 
-/// Limits of the noise-free largest error are what is reached, and 2 %; what is asked for is 0.040,
-/// 0.010 and 0.005 mm. The others are what is asked for.
+/// Limits of the noise-free largest error: what is asked for is 0.040, 0.010 and 0.005 mm; for the
+/// first two the limit is what is reached, and 2 %. The others are what is asked for.
 struct Figure {
   Layout layout;
   double exact_largest_mm;  ///< points on their marks, no noise
@@ -133,7 +133,9 @@ void PrintTo(const Figure& figure, std::ostream* out) {
 class ModelSurface : public testing::TestWithParam<Figure> {};
 
 TEST_P(ModelSurface, MeetsAMachineThatNoModelDescribes) {
-  const double largest = largest_error_mm(fitted(measured(marks(GetParam().layout))));
+  const CompensationMap map = fitted(measured(marks(GetParam().layout)));
+  const double largest = largest_error_mm(map);
+  EXPECT_GE(error_of(map).covered, 0.92);
   fmt::print("{}x{}, points on their marks: {:.4f} mm at most\n",
              GetParam().layout.rows,
              GetParam().layout.columns,
@@ -189,9 +191,9 @@ TEST_P(ModelSurface, IsHonestAboutNoisyLengths) {
 
 INSTANTIATE_TEST_SUITE_P(FewPoints,
                          ModelSurface,
-                         testing::Values(Figure{{4, 7}, 0.060, 0.020, 0.19},
-                                         Figure{{5, 9}, 0.0224, 0.010, 0.145},
-                                         Figure{{7, 13}, 0.0065, 0.004, 0.115}),
+                         testing::Values(Figure{{4, 7}, 0.0437, 0.020, 0.19},
+                                         Figure{{5, 9}, 0.0133, 0.010, 0.145},
+                                         Figure{{7, 13}, 0.005, 0.004, 0.115}),
                          [](const auto& figure) {
                            return fmt::format(
                                "{}x{}", figure.param.layout.rows, figure.param.layout.columns);
@@ -214,13 +216,15 @@ TEST(ModelSurfaceGaps, OneMissingNodeCostsLittle) {
   }
   fmt::print("5x9 with one node missing (corners, an edge, the middle): {:.4f} mm there\n",
              largest);
-  EXPECT_LE(largest, 0.112);  // reached, and 2 %; what is asked for is 0.02
+  // Asked for is 0.02, met but at the corner below a motor; the limit is what is reached there, and
+  // 2 %.
+  EXPECT_LE(largest, 0.0454);
 }
 
 TEST(ModelSurfaceGaps, AGridThatEndsShortOfTheBedCarriesToItsEdge) {
   const double largest = largest_error_mm(fitted(measured(marks({5, 9, 100.0}))));
   fmt::print("5x9 ending 100 mm inside the bed: {:.4f} mm at most over the bed\n", largest);
-  EXPECT_LE(largest, 0.058);  // reached, and 2 %; what is asked for is 0.05
+  EXPECT_LE(largest, 0.05);
 }
 
 }  // namespace

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What the calibrated machine and its chains' scales leave at the nodes of a lattice, joined by a
+/// spline that passes through every measured node.
+///
+///   correction_i(q) = e_i f_i(q) + t_i(q) (1)
+///
+///   e_i, f_i   as in residual_surface.hpp       t_i   quintic on axes of six nodes or more, else
+///   not-a-knot cubic
+///
+/// For readings without noise this errs less between the nodes than a penalised surface, which has
+/// to balance smoothness against fidelity. Nodes that were not measured are filled from the line
+/// through them (interp/missing_nodes.hpp).
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "interp/surface.hpp"
+#include "interp/tensor_spline.hpp"
+#include "model/coordinates.hpp"
+
+namespace chaintrue::grid {
+
+struct JointFit;
+
+struct LatticeResidual {
+  std::vector<double> x_nodes_mm;
+  std::vector<double> y_nodes_mm;
+  model::PerSide<Eigen::MatrixXd> values_mm;  ///< (ix, iy)
+  /// One sigma of a node's value beyond the readings' noise: zero where it was measured.
+  Eigen::MatrixXd doubt_mm;
+  /// One sigma between the nodes, from what lines foretell of a node left out of them.
+  double interpolation_sigma_mm = 0.0;
+};
+
+/// Answers for a LatticeResidual. Immutable, thread safe.
+class LatticeSplines {
+ public:
+  /// \throws std::invalid_argument where the shapes do not fit the nodes or the nodes do not rise.
+  explicit LatticeSplines(const LatticeResidual& residual);
+
+  [[nodiscard]] model::PerSide<interp::ValueGradient> at(model::BedPoint mark) const;
+  /// Of both corrections, `node` being that of one measured node. The bicubic's weights stand for
+  /// the quintic's. Inside the lattice the interpolation's own error counts in full; beyond it, it
+  /// grows with the weights.
+  [[nodiscard]] Eigen::Matrix2d covariance(model::BedPoint mark, const Eigen::Matrix2d& node) const;
+
+ private:
+  std::shared_ptr<const interp::Surface> left_;
+  std::shared_ptr<const interp::Surface> right_;
+  interp::TensorSpline weights_;
+  Eigen::MatrixXd doubt_mm_;
+  double interpolation_sigma_mm_;
+};
+
+struct LatticeFit {
+  LatticeResidual residual;
+  /// Measured minus foretold by the lines through the point, in the order of the fit's points.
+  std::vector<Eigen::Vector2d> left_out_residual_mm;
+};
+
+/// Through what `fit` leaves with its penalised surface taken away. Nothing where the points do not
+/// stand alone on the nodes of a lattice of at least 4 x 4 lines with at most a tenth of the nodes
+/// empty, where the readings bear noise (the fit then has clearly fewer effective parameters than
+/// readings), or where the lines foretell left-out points far worse.
+[[nodiscard]] std::optional<LatticeFit> fit_lattice(const JointFit& fit);
+
+}  // namespace chaintrue::grid

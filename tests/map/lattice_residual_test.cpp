@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Readings without noise on full rows and columns: the map passes through them, and says so.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "grid/files/input_error.hpp"
+#include "grid/files/map_file.hpp"
+#include "grid/map/fit.hpp"
+#include "grid/synthetic/random.hpp"
+#include "model/reading_model.hpp"
+
+namespace chaintrue {
+namespace {
+
+using grid::CompensationMap;
+using model::BedPoint;
+using testing::Contains;
+using testing::HasSubstr;
+
+/// The default machine and something smooth that no setting explains.
+model::ChainLengths truth_at(BedPoint p) {
+  static const model::ReadingModel kModel{model::Machine{}};
+  const model::ChainLengths machine = kModel.at(p).value().lengths;
+  return {machine.left_mm + 0.8 * std::sin(p.x_mm / 500.0) * std::cos(p.y_mm / 400.0),
+          machine.right_mm + 0.8 * std::cos(p.x_mm / 450.0) * std::sin(p.y_mm / 420.0)};
+}
+
+grid::MeasuredGrid lattice() {
+  grid::MeasuredGrid grid;
+  grid.machine = model::Machine{};
+  for (double y : {-609.6, -300.0, 0.0, 280.0, 609.6}) {
+    for (double x : {-1219.2, -850.0, -400.0, 0.0, 400.0, 800.0, 1219.2}) {
+      grid.points.push_back({{x, y}, truth_at({x, y}), std::nullopt, std::nullopt});
+    }
+  }
+  return grid;
+}
+
+CompensationMap fitted(const grid::MeasuredGrid& grid) {
+  auto map = grid::fit(grid);
+  if (!map) throw std::runtime_error(map.error().sentence);
+  return *std::move(map);
+}
+
+const grid::ModelSurface& surface_of(const CompensationMap& map) {
+  return std::get<grid::ModelSurface>(map.contents().surface);
+}
+
+TEST(LatticeResidual, TheMapPassesThroughEveryReading) {
+  const auto grid = lattice();
+  const CompensationMap map = fitted(grid);
+  ASSERT_TRUE(surface_of(map).lattice);
+  EXPECT_THAT(map.contents().notes, Contains(HasSubstr("passes through every one")));
+  for (const auto& point : grid.points) {
+    const auto here = map.lengths(point.mark).value().lengths;
+    EXPECT_NEAR(here.left_mm, point.lengths->left_mm, 1e-9);  // rounding of 3000 mm, some 2000 ulp
+    EXPECT_NEAR(here.right_mm, point.lengths->right_mm, 1e-9);
+  }
+}
+
+TEST(LatticeResidual, TheMapsDerivativeIsThatOfItsLengths) {
+  const CompensationMap map = fitted(lattice());
+  ASSERT_TRUE(surface_of(map).lattice);
+  constexpr double kStep = 0.01;
+  for (const BedPoint p : {BedPoint{12, 34}, {-1100, -500}, {1150, 590}, {333, -77}}) {
+    const auto jacobian = map.lengths(p)->mark_jacobian;
+    const auto at = [&](double dx, double dy) {
+      return map.lengths({p.x_mm + dx, p.y_mm + dy})->lengths;
+    };
+    // Central difference: step^2 / 6 times a third derivative of 1e-6, and rounding of 1e-12 /
+    // step.
+    EXPECT_NEAR(jacobian(0, 0), (at(kStep, 0).left_mm - at(-kStep, 0).left_mm) / (2 * kStep), 1e-8);
+    EXPECT_NEAR(jacobian(0, 1), (at(0, kStep).left_mm - at(0, -kStep).left_mm) / (2 * kStep), 1e-8);
+    EXPECT_NEAR(
+        jacobian(1, 0), (at(kStep, 0).right_mm - at(-kStep, 0).right_mm) / (2 * kStep), 1e-8);
+    EXPECT_NEAR(
+        jacobian(1, 1), (at(0, kStep).right_mm - at(0, -kStep).right_mm) / (2 * kStep), 1e-8);
+  }
+}
+
+TEST(LatticeResidual, AnEmptyNodeIsFilledNamedAndDoubted) {
+  auto grid = lattice();
+  const BedPoint empty = grid.points[17].mark;
+  grid.points.erase(grid.points.begin() + 17);
+  const CompensationMap map = fitted(grid);
+  ASSERT_TRUE(surface_of(map).lattice);
+  EXPECT_THAT(map.contents().notes, Contains(HasSubstr("No reading at (0, 0)")));
+  const auto there = map.query(empty).value();
+  const auto measured = map.query(grid.points[16].mark).value();
+  EXPECT_GT(there.sigma.left_mm, 1.5 * measured.sigma.left_mm);
+  EXPECT_LE(std::abs(there.lengths.left_mm - truth_at(empty).left_mm), 3.0 * there.sigma.left_mm);
+  EXPECT_LE(std::abs(there.lengths.right_mm - truth_at(empty).right_mm),
+            3.0 * there.sigma.right_mm);
+}
+
+TEST(LatticeResidual, SigmaGrowsBeyondTheLattice) {
+  auto grid = lattice();
+  grid.machine->bed.width_mm += 300.0;
+  const CompensationMap map = fitted(grid);
+  ASSERT_TRUE(surface_of(map).lattice);
+  double before = map.query({1219.2, 0.0}).value().sigma.left_mm;
+  for (double x : {1260.0, 1300.0, 1350.0}) {
+    const double here = map.query({x, 0.0}).value().sigma.left_mm;
+    EXPECT_GT(here, before) << x;
+    before = here;
+  }
+}
+
+TEST(LatticeResidual, ReadingsThatBearNoiseKeepThePenalisedSurface) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    grid::synthetic::Random random(seed);
+    auto grid = lattice();
+    for (auto& point : grid.points) {
+      point.lengths->left_mm += 0.3 * random.normal();
+      point.lengths->right_mm += 0.3 * random.normal();
+    }
+    EXPECT_FALSE(surface_of(fitted(grid)).lattice);
+  }
+}
+
+TEST(LatticeResidual, StatedNoiseRepeatsAndPointsBesideTheLinesKeepThePenalisedSurface) {
+  auto stated = lattice();
+  stated.noise = grid::StatedNoise{0.1, 0.1, 10.0};
+  EXPECT_FALSE(surface_of(fitted(stated)).lattice);
+  auto repeated = lattice();
+  repeated.points.push_back(repeated.points.front());
+  EXPECT_FALSE(surface_of(fitted(repeated)).lattice);
+  auto beside = lattice();
+  beside.points[8].mark.x_mm += 5.0;
+  beside.points[8].lengths = truth_at(beside.points[8].mark);
+  EXPECT_FALSE(surface_of(fitted(beside)).lattice);
+}
+
+TEST(LatticeResidual, TheFileKeepsIt) {
+  auto grid = lattice();
+  grid.points.erase(grid.points.begin() + 17);
+  const CompensationMap map = fitted(grid);
+  const std::string text = grid::files::write_map(map);
+  const CompensationMap read = grid::files::parse_map(text, "map.json");
+  ASSERT_TRUE(surface_of(read).lattice);
+  EXPECT_EQ(grid::files::write_map(read), text);
+  for (const BedPoint p : {BedPoint{-700.0, 333.0}, {0.0, 0.0}, {1200.0, -600.0}}) {
+    const auto a = map.query(p).value();
+    const auto b = read.query(p).value();
+    EXPECT_EQ(a.lengths.left_mm, b.lengths.left_mm);
+    EXPECT_EQ(a.lengths.right_mm, b.lengths.right_mm);
+    EXPECT_EQ(a.sigma.left_mm, b.sigma.left_mm);
+  }
+}
+
+TEST(LatticeResidual, AFileWhoseNodesDoNotRiseIsRefused) {
+  std::string text = grid::files::write_map(fitted(lattice()));
+  const std::size_t at = text.find("-850", text.find("\"lattice\""));
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 4, "+850" + std::string());
+  text[at] = ' ';
+  try {
+    static_cast<void>(grid::files::parse_map(text, "map.json"));
+    FAIL() << "nodes out of order were taken";
+  } catch (const grid::files::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/on_machine/lattice/x_nodes_mm"));
+    EXPECT_THAT(error.what(), HasSubstr("numbers that rise"));
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue
