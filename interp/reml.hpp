@@ -83,6 +83,7 @@ struct PenalisedProblem {
   Eigen::VectorXd moment;           ///< X'y
   double response_square = 0.0;     ///< y'y
   Eigen::MatrixXd prior_precision;  ///< S0, q x q; empty: none
+  Eigen::Index prior_rank = -1;     ///< of S0; negative: found from its eigenvalues
   Eigen::VectorXd prior_mean;       ///< b0; empty: zero
   std::vector<Penalty> penalties;
   NoiseScale noise;

@@ -64,12 +64,21 @@ void Marginal::find_ranks() {
   if (prior) {
     const double largest = problem_.prior_precision.cwiseAbs().maxCoeff();
     total += problem_.prior_precision / std::max(largest, 1e-300);
-    sum_of_ranks += rank_of(problem_.prior_precision);
+    sum_of_ranks +=
+        problem_.prior_rank >= 0 ? problem_.prior_rank : rank_of(problem_.prior_precision);
   }
   for (const Penalty& penalty : problem_.penalties) {
     const Eigen::Index m = penalty.matrix.rows();
     total.block(penalty.first_column, penalty.first_column, m, m) +=
         penalty.matrix / penalty.matrix.cwiseAbs().maxCoeff();
+  }
+  // Ranks that add up to q, and a definite sum: the ranges fill the space and cannot overlap.
+  if (sum_of_ranks == q) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(total);
+    if (factor.info() == Eigen::Success &&
+        std::pow(factor.matrixLLT().diagonal().minCoeff(), 2) > kZeroEigenvalue) {
+      return;
+    }
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(total);
   const double largest = solver.eigenvalues().maxCoeff();

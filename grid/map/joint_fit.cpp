@@ -21,7 +21,9 @@ using model::Setting;
 
 constexpr int kMaximumPasses = 25;
 /// Below a hundredth of a sigma a further pass changes no length by more than some 1e-4 mm.
-constexpr double kSettledSigmas = 1e-3;
+constexpr double kSettledSigmas = 3e-3;
+/// A weight that changes by this much moves nothing by more than a few hundredths of its sigma.
+constexpr double kSettledWeight = 1e-2;
 /// 95 % of good points are nearer (chi with two degrees of freedom): those keep their full weight.
 constexpr double kHuberDistance = 2.4477;
 /// Passes with soft weights only, so that several bad points cannot hide each other.
@@ -228,6 +230,8 @@ interp::PenalisedProblem JointFitter::problem() const {
       penalty.matrix.topLeftCorner(basis_.size(), basis_.size());
   penalty.rank = 2 * basis_.bending_rank(input_.bending_order);
   problem.penalties = {std::move(penalty)};
+  problem.prior_rank =
+      columns_.settings + 2 + 2 * (basis_.size() - basis_.bending_rank(input_.bending_order));
   problem.noise = input_.noise_scale;
   return problem;
 }
@@ -308,28 +312,29 @@ bool JointFitter::update_weights(int pass) {
     change = std::max(change, std::abs(weight - weights_[i]));
     weights_[i] = weight;
   }
-  return change > 1e-3;
+  return change > kSettledWeight;
 }
 
 tl::expected<JointFit, JointFitFailure> JointFitter::run() {
+  bool settled = false;
   Smoothing smoothing = Smoothing::choose;
   for (int pass = 0; pass < kMaximumPasses; ++pass) {
+    // Once all but the smoothing has settled, the pass that chooses it may be the last.
+    const bool perhaps_last = settled || pass + 1 == kMaximumPasses;
+    if (perhaps_last) smoothing = Smoothing::choose;
     if (auto done = linearise(); !done) return tl::unexpected(done.error());
-    if (auto done = solve(smoothing, false); !done) return tl::unexpected(done.error());
+    if (auto done = solve(smoothing, perhaps_last); !done) return tl::unexpected(done.error());
     const Eigen::VectorXd next = fit_.coefficients.head(columns_.settings);
     double step = 0.0;
     for (Eigen::Index i = 0; i < next.size(); ++i) {
       step = std::max(step, std::abs(next[i] - theta_[i]) / unknowns_.sigma(i));
     }
     theta_ = next;
-    const bool settled = !update_weights(pass) && step < kSettledSigmas && pass > kSoftPasses;
-    if (settled && smoothing == Smoothing::choose) break;
-    // Chosen at the start, once the bad points are out, and whenever all else has settled.
-    smoothing = settled || pass == kSoftPasses ? Smoothing::choose : Smoothing::keep;
+    settled = !update_weights(pass) && step < kSettledSigmas && pass > kSoftPasses;
+    if (perhaps_last && settled) break;
+    // Otherwise chosen anew only when the bad points are first set aside.
+    smoothing = pass == kSoftPasses ? Smoothing::choose : Smoothing::keep;
   }
-  if (auto done = linearise(); !done) return tl::unexpected(done.error());
-  if (auto done = solve(Smoothing::choose, true); !done) return tl::unexpected(done.error());
-  measure_distances();
   return result();
 }
 

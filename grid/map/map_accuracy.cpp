@@ -48,8 +48,8 @@ HeldOutError summarise(const std::vector<HeldOutResidual>& residuals) {
 }
 
 void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy) {
-  constexpr int kColumns = 49;
-  constexpr int kRows = 25;
+  constexpr int kColumns = 25;
+  constexpr int kRows = 13;
   const interp::Rectangle& domain = map.contents().domain;
   Tally tool;
   double worst = -1.0;
