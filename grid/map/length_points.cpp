@@ -49,11 +49,13 @@ const std::map<std::string, MakeObservation>& setting_readings() {
   static const std::map<std::string, MakeObservation> kReadings = {
       {"motor_spacing_mm",
        [](const ExtraReading& r) {
-         return std::make_shared<const model::MotorSpacing>(r.value, r.sigma);
+         return std::make_shared<const model::SettingDifference>(
+             model::Setting::motor_right_x_mm, model::Setting::motor_left_x_mm, r.value, r.sigma);
        }},
       {"beam_rise_mm",
        [](const ExtraReading& r) {
-         return std::make_shared<const model::BeamRise>(r.value, r.sigma);
+         return std::make_shared<const model::SettingDifference>(
+             model::Setting::motor_right_y_mm, model::Setting::motor_left_y_mm, r.value, r.sigma);
        }},
   };
   return kReadings;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interp/measured_region.hpp"
 #include "interp/surface.hpp"
 #include "model/coordinates.hpp"
 
@@ -29,16 +30,18 @@ class MeasuredArea {
   /// points.
   MeasuredArea(const std::vector<model::BedPoint>& points, const interp::Rectangle& domain);
   /// From a hull as written in a file: counter-clockwise corners, and half the points' spacing.
-  MeasuredArea(std::vector<model::BedPoint> hull, double edge_mm, const interp::Rectangle& domain);
+  MeasuredArea(const std::vector<model::BedPoint>& hull,
+               double edge_mm,
+               const interp::Rectangle& domain);
 
   [[nodiscard]] MapStatus status(model::BedPoint mark) const;
-  /// Corners, counter-clockwise, the lowest of the leftmost first.
-  [[nodiscard]] const std::vector<model::BedPoint>& hull() const { return hull_; }
+  /// Corners, counter-clockwise.
+  [[nodiscard]] std::vector<model::BedPoint> hull() const;
   [[nodiscard]] double edge_mm() const { return edge_mm_; }
   [[nodiscard]] const interp::Rectangle& domain() const { return domain_; }
 
  private:
-  std::vector<model::BedPoint> hull_;
+  interp::ConvexHull hull_;
   double edge_mm_;
   interp::Rectangle domain_;
 };

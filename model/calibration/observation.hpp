@@ -66,30 +66,21 @@ class ChainReading final : public Observation {
   PointNoise noise_;
 };
 
-/// A tape from motor axis to motor axis along x: right x - left x.
-class MotorSpacing final : public Observation {
+/// A measurement of the machine itself: one setting less another. The motor spacing is right x less
+/// left x, the beam's rise right y less left y.
+class SettingDifference final : public Observation {
  public:
-  MotorSpacing(double value_mm, double sigma_mm) : value_mm_(value_mm), sigma_mm_(sigma_mm) {}
+  /// \throws std::invalid_argument where one of the settings is the sheet's, or sigma is not
+  /// positive.
+  SettingDifference(Setting plus, Setting minus, double value_mm, double sigma_mm);
   [[nodiscard]] tl::expected<Linearisation, PoseFailure> linearise(
       const ReadingModel& model,
       const SheetPlacement& sheet,
       const std::vector<Setting>& settings) const override;
 
  private:
-  double value_mm_;
-  double sigma_mm_;
-};
-
-/// A level on the beam: how far the right motor's axis is above the left one's.
-class BeamRise final : public Observation {
- public:
-  BeamRise(double value_mm, double sigma_mm) : value_mm_(value_mm), sigma_mm_(sigma_mm) {}
-  [[nodiscard]] tl::expected<Linearisation, PoseFailure> linearise(
-      const ReadingModel& model,
-      const SheetPlacement& sheet,
-      const std::vector<Setting>& settings) const override;
-
- private:
+  Setting plus_;
+  Setting minus_;
   double value_mm_;
   double sigma_mm_;
 };
