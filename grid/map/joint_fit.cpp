@@ -78,6 +78,12 @@ struct WhitePoint {
   Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  // W with W C W' = I
 };
 
+/// A reading of the machine itself, whitened.
+struct WhiteReading {
+  Eigen::RowVectorXd row;  // by the settings
+  double response = 0.0;
+};
+
 JointFitFailure unreachable(const LengthPoint& point, model::PoseFailure failure) {
   return {JointFitFailure::Reason::point_unreachable,
           fmt::format("point {} at ({:.1f}, {:.1f}): {}",
@@ -125,6 +131,9 @@ class JointFitter {
   void measure_distances();
   [[nodiscard]] bool update_weights(int pass);
   [[nodiscard]] interp::PenalisedProblem problem() const;
+  void add_points(interp::PenalisedProblem& problem) const;
+  void add_settings_prior(interp::PenalisedProblem& problem) const;
+  void add_surface_prior(interp::PenalisedProblem& problem) const;
   [[nodiscard]] JointFit result() const;
   [[nodiscard]] std::vector<Eigen::Vector2d> left_out(const std::vector<std::size_t>& group) const;
 
@@ -136,7 +145,7 @@ class JointFitter {
   Eigen::VectorXd weights_;
   Eigen::VectorXd distances_;
   std::vector<WhitePoint> white_;
-  std::vector<WhitePoint> extra_;
+  std::vector<WhiteReading> extra_;
   interp::PenalisedFit fit_;
 };
 
@@ -162,19 +171,14 @@ tl::expected<void, JointFitFailure> JointFitter::linearise() {
   for (const auto& observation : input_.extra) {
     const auto line = observation->linearise(model, sheet, unknowns_.settings());
     if (!line) continue;  // readings of the machine itself have no pose that could fail
-    WhitePoint white;
     const double scale = 1.0 / std::sqrt(line->covariance(0, 0));
-    white.design = Eigen::MatrixXd::Zero(1, columns_.total());
-    white.design.leftCols(columns_.settings) = scale * line->setting_jacobian;
-    white.response =
-        Eigen::Vector2d(scale * (line->residual + line->setting_jacobian * theta_)[0], 0.0);
-    extra_.push_back(std::move(white));
+    extra_.push_back({scale * line->setting_jacobian.row(0),
+                      scale * (line->residual + line->setting_jacobian * theta_)[0]});
   }
   return {};
 }
 
-interp::PenalisedProblem JointFitter::problem() const {
-  interp::PenalisedProblem problem(columns_.total());
+void JointFitter::add_points(interp::PenalisedProblem& problem) const {
   const auto points = static_cast<Eigen::Index>(white_.size());
   Eigen::MatrixXd design(2 * points, columns_.total());
   Eigen::VectorXd response(2 * points);
@@ -188,51 +192,55 @@ interp::PenalisedProblem JointFitter::problem() const {
     rows += 2;
   }
   problem.add_rows(design.topRows(rows), response.head(rows));
+}
 
-  problem.prior_precision = Eigen::MatrixXd::Zero(columns_.total(), columns_.total());
-  for (Eigen::Index i = 0; i < columns_.settings; ++i) {
-    problem.prior_precision(i, i) = 1.0 / (unknowns_.sigma(i) * unknowns_.sigma(i));
+/// What was stated, and readings of the machine itself: data of known sigma, which the points'
+/// noise factor does not scale.
+void JointFitter::add_settings_prior(interp::PenalisedProblem& problem) const {
+  const Eigen::Index settings = columns_.settings;
+  Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(settings, settings);
+  Eigen::VectorXd pull = Eigen::VectorXd::Zero(settings);
+  for (Eigen::Index i = 0; i < settings; ++i) {
+    precision(i, i) = 1.0 / (unknowns_.sigma(i) * unknowns_.sigma(i));
   }
-  // Readings of the machine itself are data of known sigma: the noise factor of the points does not
-  // scale them.
-  problem.prior_mean = Eigen::VectorXd::Zero(columns_.total());
-  Eigen::VectorXd pull = Eigen::VectorXd::Zero(columns_.settings);
-  for (const WhitePoint& white : extra_) {
-    const Eigen::RowVectorXd row = white.design.leftCols(columns_.settings);
-    problem.prior_precision.topLeftCorner(columns_.settings, columns_.settings) +=
-        row.transpose() * row;
-    pull += row.transpose() * white.response[0];
+  for (const WhiteReading& reading : extra_) {
+    precision += reading.row.transpose() * reading.row;
+    pull += reading.row.transpose() * reading.response;
   }
-  problem.prior_mean.head(columns_.settings) =
-      problem.prior_precision.topLeftCorner(columns_.settings, columns_.settings)
-          .ldlt()
-          .solve(pull);
+  problem.prior_precision.topLeftCorner(settings, settings) = precision;
+  problem.prior_mean.head(settings) = precision.ldlt().solve(pull);
+}
 
+void JointFitter::add_surface_prior(interp::PenalisedProblem& problem) const {
+  const Eigen::Index size = basis_.size();
   const Eigen::MatrixXd free = basis_.polynomial_coefficients(input_.bending_order - 1);
   const Eigen::MatrixXd to_free = (free.transpose() * free).ldlt().solve(free.transpose());
-  const Eigen::MatrixXd free_precision =
-      to_free.transpose() * to_free / (kFreePartSigmaMm * kFreePartSigmaMm);
   for (model::Side side : model::kSides) {
     problem.prior_precision(columns_.scale(side), columns_.scale(side)) =
         1.0 / (kScaleSigma * kScaleSigma);
-    problem.prior_precision.block(
-        columns_.spline(side), columns_.spline(side), basis_.size(), basis_.size()) =
-        free_precision;
+    problem.prior_precision.block(columns_.spline(side), columns_.spline(side), size, size) =
+        to_free.transpose() * to_free / (kFreePartSigmaMm * kFreePartSigmaMm);
   }
-
   // One smoothness for both chains: what bends one surface bends the other.
   interp::Penalty penalty;
   penalty.first_column = columns_.spline(model::Side::left);
-  penalty.matrix = Eigen::MatrixXd::Zero(2 * basis_.size(), 2 * basis_.size());
-  penalty.matrix.topLeftCorner(basis_.size(), basis_.size()) =
-      basis_.bending_penalty(input_.bending_order);
-  penalty.matrix.bottomRightCorner(basis_.size(), basis_.size()) =
-      penalty.matrix.topLeftCorner(basis_.size(), basis_.size());
+  penalty.matrix = Eigen::MatrixXd::Zero(2 * size, 2 * size);
+  penalty.matrix.topLeftCorner(size, size) = basis_.bending_penalty(input_.bending_order);
+  penalty.matrix.bottomRightCorner(size, size) = penalty.matrix.topLeftCorner(size, size);
   penalty.rank = 2 * basis_.bending_rank(input_.bending_order);
   problem.penalties = {std::move(penalty)};
   problem.prior_rank =
-      columns_.settings + 2 + 2 * (basis_.size() - basis_.bending_rank(input_.bending_order));
+      columns_.settings + 2 + 2 * (size - basis_.bending_rank(input_.bending_order));
+}
+
+interp::PenalisedProblem JointFitter::problem() const {
+  interp::PenalisedProblem problem(columns_.total());
+  problem.prior_precision = Eigen::MatrixXd::Zero(columns_.total(), columns_.total());
+  problem.prior_mean = Eigen::VectorXd::Zero(columns_.total());
   problem.noise = input_.noise_scale;
+  add_points(problem);
+  add_settings_prior(problem);
+  add_surface_prior(problem);
   return problem;
 }
 

@@ -297,6 +297,21 @@ void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual
   }
 }
 
+/// A map that keeps less than two thirds of its points is not the map of those points.
+tl::expected<void, FitFailure> check_enough_good(const JointFit& joint) {
+  const auto good = std::count_if(joint.points.begin(),
+                                  joint.points.end(),
+                                  [](const FittedPoint& point) { return !point.bad; });
+  const auto all = static_cast<std::ptrdiff_t>(joint.points.size());
+  if (3 * good >= 2 * all && good >= 6) return {};
+  return tl::unexpected(FitFailure{
+      FitFailure::Reason::rank_deficient,
+      fmt::format("{} of {} points contradict the others or the machine as stated; check the "
+                  "machine's measures, the order of the columns and the units",
+                  all - good,
+                  all)});
+}
+
 }  // namespace
 
 tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid) {
@@ -326,6 +341,7 @@ tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid)
   std::optional<LatticeFit> lattice;
   if (source == "fit") lattice = fit_lattice(*joint);
   if (lattice) tell_residuals(*joint, *lattice);
+  if (auto sound = check_enough_good(*joint); !sound) return tl::unexpected(sound.error());
   MapContents contents = contents_of(grid, input, *joint, source);
   if (lattice) {
     std::get<ModelSurface>(contents.surface).lattice = lattice->residual;
