@@ -19,6 +19,42 @@ std::string_view explain(MapFailure failure) {
   return kSentences[static_cast<std::size_t>(failure)];
 }
 
+namespace {
+
+/// d/dt at t0 of the parabola through (t0, f0), (t1, f1), (t2, f2).
+Eigen::VectorXd end_slope(const std::array<double, 3>& t,
+                          const Eigen::VectorXd& f0,
+                          const Eigen::VectorXd& f1,
+                          const Eigen::VectorXd& f2) {
+  const Eigen::VectorXd near = (f1 - f0) / (t[1] - t[0]);
+  const Eigen::VectorXd far = (f2 - f0) / (t[2] - t[0]);
+  return near - (far - near) * (t[1] - t[0]) / (t[2] - t[1]);
+}
+
+/// Of the lines that are the rows of `values`, at their first node or, reversed, at their last.
+Eigen::VectorXd slopes_at_end(const std::vector<double>& nodes,
+                              const Eigen::MatrixXd& values,
+                              bool last) {
+  const auto count = static_cast<Eigen::Index>(nodes.size());
+  const auto at = [&](Eigen::Index i) { return last ? count - 1 - i : i; };
+  const auto node = [&](Eigen::Index i) { return nodes[static_cast<std::size_t>(at(i))]; };
+  if (count == 2) return (values.col(at(1)) - values.col(at(0))) / (node(1) - node(0));
+  return end_slope(
+      {node(0), node(1), node(2)}, values.col(at(0)), values.col(at(1)), values.col(at(2)));
+}
+
+}  // namespace
+
+interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
+                                   const std::vector<double>& y_nodes_mm,
+                                   const Eigen::MatrixXd& values) {
+  const Eigen::MatrixXd along_x = values.transpose();
+  return {slopes_at_end(x_nodes_mm, along_x, false),
+          slopes_at_end(x_nodes_mm, along_x, true),
+          slopes_at_end(y_nodes_mm, values, false),
+          slopes_at_end(y_nodes_mm, values, true)};
+}
+
 /// What answers at a mark; the kinds of surface differ only here.
 class CompensationMap::Field {
  public:
@@ -111,8 +147,12 @@ class CompensationMap::DirectField final : public Field {
   DirectField(const DirectSurface& surface, const MapNoise& noise)
       : axes_(std::make_shared<const interp::TensorAxes>(
             surface.x_nodes_mm, surface.y_nodes_mm, surface.ends)),
-        left_(axes_, surface.lengths_mm.left),
-        right_(axes_, surface.lengths_mm.right),
+        left_(axes_,
+              surface.lengths_mm.left,
+              parabola_slopes(surface.x_nodes_mm, surface.y_nodes_mm, surface.lengths_mm.left)),
+        right_(axes_,
+               surface.lengths_mm.right,
+               parabola_slopes(surface.x_nodes_mm, surface.y_nodes_mm, surface.lengths_mm.right)),
         noise_(noise),
         interpolation_sigma_mm_(surface.interpolation_sigma_mm) {}
 

@@ -72,7 +72,7 @@ struct MapAccuracy {
 struct MapNoise {
   double length_mm = 0.0;
   double position_mm = 0.0;
-  /// "stated", "repeats" or "fit"
+  /// "stated", "repeats" or "fit"; "assumed" for a direct map without a stated noise
   std::string source;
   /// The noise found in the residuals, as a multiple of the one above.
   double factor_found = 1.0;
@@ -100,7 +100,7 @@ struct MirrorTest {
   double mean_mm = 0.0;
   model::BedPoint worst_at;
   double worst_signed_mm = 0.0;
-  /// Some point differs by more than chance (4.5 sigmas of noise and map) allows.
+  /// No point differs by more than chance (4.5 sigmas of noise and map) allows.
   bool holds = true;
   std::string sentence;
 };
@@ -144,6 +144,12 @@ struct MapContents {
   /// Sentences for the person: what was assumed, set aside, or found odd.
   std::vector<std::string> notes;
 };
+
+/// The slopes at the edges that `clamped` ends hold: those of the parabola through the outermost
+/// three nodes of each line (two nodes: of the line through them). `values` are (ix, iy).
+[[nodiscard]] interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
+                                                 const std::vector<double>& y_nodes_mm,
+                                                 const Eigen::MatrixXd& values);
 
 enum class Frame { marks, bed };
 

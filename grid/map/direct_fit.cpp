@@ -83,8 +83,14 @@ LineErrors leave_lines_out(const Lattice& lattice, const interp::TensorEnds& end
       }
       return values;
     };
-    const interp::TensorSpline left(axes, kept(lattice.lengths_mm.left));
-    const interp::TensorSpline right(axes, kept(lattice.lengths_mm.right));
+    const std::vector<double> x_kept = columns ? without(lines, line) : lattice.x_nodes_mm;
+    const std::vector<double> y_kept = columns ? lattice.y_nodes_mm : without(lines, line);
+    const auto spline = [&](const Eigen::MatrixXd& all) {
+      const Eigen::MatrixXd values = kept(all);
+      return interp::TensorSpline(axes, values, parabola_slopes(x_kept, y_kept, values));
+    };
+    const interp::TensorSpline left = spline(lattice.lengths_mm.left);
+    const interp::TensorSpline right = spline(lattice.lengths_mm.right);
     const std::size_t nodes = columns ? lattice.y_nodes_mm.size() : lattice.x_nodes_mm.size();
     for (std::size_t node = 0; node < nodes; ++node) {
       const std::size_t ix = columns ? line : node;
@@ -149,8 +155,12 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
   const StatedNoise assumed;
   const StatedNoise noise = grid.noise.value_or(assumed);
   map.noise = {noise.length_mm, noise.position_mm, grid.noise ? "stated" : "assumed", 1.0};
-  map.accuracy.leave_one_out = summarise(columns.residuals);
-  map.accuracy.blocked = summarise(rows.residuals);
+  std::vector<HeldOutResidual> lines = columns.residuals;
+  lines.insert(lines.end(), rows.residuals.begin(), rows.residuals.end());
+  map.accuracy.leave_one_out = summarise(lines);
+  const HeldOutError by_columns = summarise(columns.residuals);
+  const HeldOutError by_rows = summarise(rows.residuals);
+  map.accuracy.blocked = by_columns.tool.rms_mm > by_rows.tool.rms_mm ? by_columns : by_rows;
   map.surface =
       DirectSurface{lattice.x_nodes_mm,
                     lattice.y_nodes_mm,
@@ -160,8 +170,8 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
   map.notes.push_back(
       "The lengths were interpolated as they are, without a machine: between few points that errs "
       "by millimetres near "
-      "the motors, however well each point was measured. Leave-one-out here means a column at a "
-      "time, blocked a row.");
+      "the motors, however well each point was measured. Leave-one-out here means a column or a "
+      "row at a time, blocked the worse of the two.");
   const CompensationMap bare(map);
   for (const LengthPoint& point : *points) {
     const auto here = bare.lengths(point.mark);

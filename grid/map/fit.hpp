@@ -34,6 +34,7 @@ struct FitFailure {
                  ///< stated
     point_unreachable,  ///< a point where the stated machine cannot hold the sled
     rank_deficient,
+    impossible_readings,  ///< the grid's readings leave no possible machine
     not_converged,
   } reason;
   std::string sentence;

@@ -20,7 +20,7 @@ namespace {
 using model::Setting;
 
 constexpr int kMaximumPasses = 25;
-/// Below a hundredth of a sigma a further pass changes no length by more than some 1e-4 mm.
+/// A step of this many stated sigmas changes no length by more than some 1e-3 mm.
 constexpr double kSettledSigmas = 3e-3;
 /// A weight that changes by this much moves nothing by more than a few hundredths of its sigma.
 constexpr double kSettledWeight = 1e-2;
@@ -29,6 +29,9 @@ constexpr double kHuberDistance = 2.4477;
 /// Passes with soft weights only, so that several bad points cannot hide each other.
 constexpr int kSoftPasses = 4;
 
+/// What is stated without any uncertainty is taken as known this well, in mm or rad.
+constexpr double kKnownSigma = 1e-7;
+
 /// The unknown settings: their sigmas, and the machine and sheet at a theta.
 class Unknowns {
  public:
@@ -36,12 +39,13 @@ class Unknowns {
       : stated_(stated) {
     for (Setting setting : model::kMachineSettings) {
       settings_.push_back(setting);
-      sigmas_.push_back(model::stated_sigma(stated, setting));
+      sigmas_.push_back(std::max(model::stated_sigma(stated, setting), kKnownSigma));
     }
     if (sheet) {
       settings_.insert(settings_.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-      sigmas_.insert(sigmas_.end(),
-                     {sheet->shift_mm, sheet->shift_mm, 1e-3 * sheet->rotation_mrad});
+      const double shift_mm = std::max(sheet->shift_mm, kKnownSigma);
+      const double rotation_rad = std::max(1e-3 * sheet->rotation_mrad, kKnownSigma);
+      sigmas_.insert(sigmas_.end(), {shift_mm, shift_mm, rotation_rad});
     }
   }
   [[nodiscard]] const std::vector<Setting>& settings() const { return settings_; }
@@ -87,7 +91,7 @@ struct WhiteReading {
 JointFitFailure unreachable(const LengthPoint& point, model::PoseFailure failure) {
   return {JointFitFailure::Reason::point_unreachable,
           fmt::format("point {} at ({:.1f}, {:.1f}): {}",
-                      point.index,
+                      point.index + 1,
                       point.mark.x_mm,
                       point.mark.y_mm,
                       model::explain(failure))};
@@ -134,7 +138,7 @@ class JointFitter {
   void add_points(interp::PenalisedProblem& problem) const;
   void add_settings_prior(interp::PenalisedProblem& problem) const;
   void add_surface_prior(interp::PenalisedProblem& problem) const;
-  [[nodiscard]] JointFit result() const;
+  [[nodiscard]] tl::expected<JointFit, JointFitFailure> result(bool settled) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> left_out(const std::vector<std::size_t>& group) const;
 
   const JointFitInput& input_;
@@ -335,34 +339,50 @@ tl::expected<JointFit, JointFitFailure> JointFitter::run() {
     const Eigen::VectorXd next = fit_.coefficients.head(columns_.settings);
     double step = 0.0;
     for (Eigen::Index i = 0; i < next.size(); ++i) {
+      if (unknowns_.sigma(i) <= kKnownSigma) continue;
       step = std::max(step, std::abs(next[i] - theta_[i]) / unknowns_.sigma(i));
     }
     theta_ = next;
+    const Eigen::VectorXd solved_with = weights_;
     settled = !update_weights(pass) && step < kSettledSigmas && pass > kSoftPasses;
-    if (perhaps_last && settled) break;
+    if (perhaps_last && (settled || pass + 1 == kMaximumPasses)) {
+      // What is told of the points belongs to the weights that the fit was solved with.
+      weights_ = solved_with;
+      break;
+    }
     // Otherwise chosen anew only when the bad points are first set aside.
     smoothing = pass == kSoftPasses ? Smoothing::choose : Smoothing::keep;
   }
-  return result();
+  return result(settled);
 }
 
-JointFit JointFitter::result() const {
+tl::expected<JointFit, JointFitFailure> JointFitter::result(bool settled) const {
+  const model::ReadingModel model(unknowns_.machine_at(theta_));
+  const model::SheetPlacement sheet = unknowns_.sheet_at(theta_);
+  std::vector<model::PointReading> readings;
+  for (const LengthPoint& point : input_.points) {
+    const auto reading = model.at(sheet.to_bed(point.mark));
+    if (!reading) return tl::unexpected(unreachable(point, reading.error()));
+    readings.push_back(*reading);
+  }
+  const auto part = [&](model::Side side) -> Eigen::VectorXd {
+    return fit_.coefficients.segment(columns_.spline(side), basis_.size());
+  };
+  const ResidualSurface surface{basis_,
+                                {fit_.coefficients[columns_.scale(model::Side::left)],
+                                 fit_.coefficients[columns_.scale(model::Side::right)]},
+                                {part(model::Side::left), part(model::Side::right)}};
   JointFit fit{unknowns_.machine_at(theta_),
-               unknowns_.sheet_at(theta_),
+               sheet,
                unknowns_.settings(),
                columns_,
-               {basis_, {}, {}},
+               surface,
                fit_.corrected_covariance,
                std::sqrt(fit_.sigma2),
                fit_.edf,
                {},
-               {}};
-  for (model::Side side : model::kSides) {
-    fit.surface.scale[side] = fit_.coefficients[columns_.scale(side)];
-    fit.surface.coefficients[side] =
-        fit_.coefficients.segment(columns_.spline(side), basis_.size());
-  }
-  const model::ReadingModel model(fit.machine);
+               {},
+               settled};
   for (std::size_t i = 0; i < white_.size(); ++i) {
     const WhitePoint& white = white_[i];
     const auto at = static_cast<Eigen::Index>(i);
@@ -373,8 +393,7 @@ JointFit JointFitter::result() const {
     point.distance = distances_[at];
     point.residual_mm = back * (white.response - white.design * fit_.coefficients);
     point.left_out_residual_mm = back * left_out({i}).front();
-    // linearise() reached every point at this very theta.
-    const model::PointReading reading = model.at(fit.sheet.to_bed(point.point.mark)).value();
+    const model::PointReading& reading = readings[i];
     point.mark_jacobian =
         fit.surface
             .apply(

@@ -78,6 +78,8 @@ struct JointFit {
   /// Held-out residuals with whole blocks of the bed left out, chain lengths, in the order of
   /// `points`.
   std::vector<Eigen::Vector2d> blocked_residual_mm;
+  /// False where settings or weights still moved after the last pass.
+  bool settled = true;
 };
 
 struct JointFitFailure {

@@ -23,7 +23,11 @@ void take_ring_radius(Machine& machine, const ExtraReading& reading) {
   ring->radius_mm = (stated * ring->radius_mm + read * reading.value) / (stated + read);
 }
 
+/// A reading takes the place of an elongation that was stated for the same chain.
 void take_link_pitch(Machine& machine, const ExtraReading& reading) {
+  std::erase_if(machine.effects, [&](const model::AppliedEffect& applied) {
+    return applied.effect == "chain_pitch_error" && applied.side == reading.side;
+  });
   machine.effects.push_back({"chain_pitch_error",
                              reading.side,
                              {{"elongation", reading.value / machine.sprocket.pitch_mm - 1.0}}});
@@ -64,7 +68,7 @@ const std::map<std::string, MakeObservation>& setting_readings() {
 tl::unexpected<FitFailure> no_lengths(std::size_t index, const std::string& why) {
   return tl::unexpected(
       FitFailure{FitFailure::Reason::no_lengths,
-                 fmt::format("point {} gives a command and no lengths, but {}", index, why)});
+                 fmt::format("point {} gives a command and no lengths, but {}", index + 1, why)});
 }
 
 }  // namespace
@@ -115,8 +119,31 @@ std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoin
   return groups;
 }
 
-Machine with_readings(Machine machine, const std::vector<ExtraReading>& readings) {
+namespace {
+
+/// Readings of one thing become one, weighed by their sigmas, in the order of their first.
+std::vector<ExtraReading> combined(const std::vector<ExtraReading>& readings) {
+  std::vector<ExtraReading> result;
   for (const ExtraReading& reading : readings) {
+    const auto same = std::find_if(result.begin(), result.end(), [&](const ExtraReading& other) {
+      return other.what == reading.what && other.side == reading.side;
+    });
+    if (same == result.end()) {
+      result.push_back(reading);
+      continue;
+    }
+    const double before = 1.0 / (same->sigma * same->sigma);
+    const double more = 1.0 / (reading.sigma * reading.sigma);
+    same->value = (before * same->value + more * reading.value) / (before + more);
+    same->sigma = 1.0 / std::sqrt(before + more);
+  }
+  return result;
+}
+
+}  // namespace
+
+Machine with_readings(Machine machine, const std::vector<ExtraReading>& readings) {
+  for (const ExtraReading& reading : combined(readings)) {
     const auto take = machine_readings().find(reading.what);
     if (take != machine_readings().end()) take->second(machine, reading);
   }

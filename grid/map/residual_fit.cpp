@@ -14,6 +14,7 @@
 #include "grid/map/map_accuracy.hpp"
 #include "grid/map/noise_from_repeats.hpp"
 #include "model/calibration/setting.hpp"
+#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -55,11 +56,16 @@ interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPo
   return domain;
 }
 
+bool states_noise(const MeasuredGrid& grid) {
+  return grid.noise && (grid.noise->length_mm > 0.0 || grid.noise->position_mm > 0.0);
+}
+
 JointFitInput input_of(const MeasuredGrid& grid, const std::vector<LengthPoint>& points) {
   JointFitInput input;
   input.machine = with_readings(*grid.machine, grid.readings);
   input.points = points;
-  if (grid.noise) {
+  // A stated noise of nothing at all states nothing: it is found from the points.
+  if (states_noise(grid)) {
     input.noise = {std::max(grid.noise->length_mm, kLeastNoiseMm),
                    std::max(grid.noise->position_mm, kLeastNoiseMm)};
     input.noise_scale = {interp::NoiseKnowledge::kFromRepeats, grid.noise->dof};
@@ -200,7 +206,7 @@ std::vector<std::string> notes_of(const MapContents& map) {
         fmt::format("Point {} at ({:.0f}, {:.0f}) was set aside: it lies {:.1f} mm beside where "
                     "the others put it, {:.0f} times what "
                     "the noise allows. Measure it again.",
-                    i,
+                    i + 1,
                     point.mark.x_mm,
                     point.mark.y_mm,
                     point.left_out_mm.norm(),
@@ -252,6 +258,12 @@ MapContents contents_of(const MeasuredGrid& grid,
   map.settings = setting_results(input, fit);
   map.points = map_points(input, fit, grid);
   map.notes = notes_of(map);
+  if (!fit.settled) {
+    map.notes.push_back(
+        "The fit had not quite settled after its last pass: some points hover between good and "
+        "bad. "
+        "Measure the ones with the largest residuals again.");
+  }
   return map;
 }
 
@@ -297,6 +309,24 @@ void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual
   }
 }
 
+/// Readings can put a machine where no machine is.
+tl::expected<void, FitFailure> check_readings(const MeasuredGrid& grid) {
+  const model::Machine machine = with_readings(*grid.machine, grid.readings);
+  std::string problems;
+  for (const model::MachineProblem& problem : model::problems_of(machine)) {
+    problems += fmt::format(
+        " {} would be {}, expected {};", problem.parameter, problem.value, problem.expected);
+  }
+  for (const auto& problem : model::effects::problems_of_effects(machine)) {
+    problems += fmt::format(
+        " {} would be {}, expected {};", problem.parameter, problem.value, problem.expected);
+  }
+  if (problems.empty()) return {};
+  problems.back() = '.';
+  return tl::unexpected(FitFailure{FitFailure::Reason::impossible_readings,
+                                   "with the grid's readings put in," + problems});
+}
+
 /// A map that keeps less than two thirds of its points is not the map of those points.
 tl::expected<void, FitFailure> check_enough_good(const JointFit& joint) {
   const auto good = std::count_if(joint.points.begin(),
@@ -323,12 +353,13 @@ tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid)
   }
   const auto points = length_points(grid);
   if (!points) return tl::unexpected(points.error());
+  if (auto possible = check_readings(grid); !possible) return tl::unexpected(possible.error());
   JointFitInput input = input_of(grid, *points);
   auto joint = fit_jointly(input);
   if (!joint) return tl::unexpected(translate(joint.error()));
-  if (!grid.noise) prefer_smoother(input, *joint);
-  std::string source = grid.noise ? "stated" : "fit";
-  if (!grid.noise) {
+  if (!states_noise(grid)) prefer_smoother(input, *joint);
+  std::string source = states_noise(grid) ? "stated" : "fit";
+  if (!states_noise(grid)) {
     if (const auto repeats = noise_from_repeats(*joint, input.noise)) {
       input.noise.length_mm *= repeats->factor;
       input.noise.position_mm *= repeats->factor;

@@ -209,6 +209,42 @@ TEST(ResidualFit, SaysThatTheMirrorClaimFailsOnAMachineThatIsNotSymmetric) {
   EXPECT_THAT(tilted.contents().mirror->sentence, testing::HasSubstr("not the left one mirrored"));
 }
 
+TEST(ResidualFit, TakesWhatIsStatedWithoutUncertaintyAsKnown) {
+  auto spec = usual_spec(13);
+  spec.sheet = grid::SheetUncertainty{0.0, 0.0};
+  auto made = session(spec);
+  made.grid.machine->uncertainty.motor_position_mm = 0.0;
+  const CompensationMap map = fitted(made.grid);
+  for (const grid::SettingResult& result : map.contents().settings) {
+    if (result.setting == model::Setting::chain_zero_left_mm ||
+        result.setting == model::Setting::chain_zero_right_mm) {
+      continue;
+    }
+    EXPECT_NEAR(result.calibrated, result.stated, 1e-6);  // ten of the sigmas that count as none
+  }
+}
+
+TEST(ResidualFit, SaysThatAReadingLeavesNoMachine) {
+  auto grid = session(usual_spec(1)).grid;
+  grid.readings = {{"link_pitch_mm", "left", 12.7, 0.001}};
+  const auto map = grid::fit(grid);
+  ASSERT_FALSE(map);
+  EXPECT_EQ(map.error().reason, grid::FitFailure::Reason::impossible_readings);
+  EXPECT_THAT(map.error().sentence, testing::HasSubstr("elongation"));
+}
+
+TEST(ResidualFit, ReadingsOfOneThingCountOnceHoweverOftenTheyAreGiven) {
+  auto made = session(usual_spec(1));
+  made.grid.readings = {{"link_pitch_mm", "left", 6.355, 0.001}};
+  const CompensationMap once = fitted(made.grid);
+  made.grid.readings.push_back(made.grid.readings.front());
+  const CompensationMap twice = fitted(made.grid);
+  ASSERT_EQ(twice.machine()->effects.size(), 1u);
+  EXPECT_NEAR(twice.machine()->effects[0].parameters.at("elongation"),
+              once.machine()->effects[0].parameters.at("elongation"),
+              1e-12);  // a mean of equal numbers
+}
+
 TEST(ResidualFit, NeedsAMachine) {
   auto grid = session(usual_spec(1)).grid;
   grid.machine.reset();
@@ -223,7 +259,7 @@ TEST(ResidualFit, NamesAPointThatTheMachineCannotReach) {
   const auto map = grid::fit(grid);
   ASSERT_FALSE(map);
   EXPECT_EQ(map.error().reason, grid::FitFailure::Reason::point_unreachable);
-  EXPECT_THAT(map.error().sentence, testing::HasSubstr("point 3 at (0.0, 1200.0)"));
+  EXPECT_THAT(map.error().sentence, testing::HasSubstr("point 4 at (0.0, 1200.0)"));
 }
 
 TEST(MapFile, SaysTheSameAfterReadingAndWritesTheSameBytes) {

@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 
-#include "grid/files/input_error.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/fit.hpp"
@@ -43,8 +42,8 @@ int run_fit(const FitCommand& command) {
   options.ends = {{end, end}, {end, end}};
   const auto map = grid::fit(measured, options);
   if (!map) {
-    throw grid::files::InputError(
-        std::vector<grid::files::InputProblem>{{command.input.grid, "", "", map.error().sentence}});
+    fmt::print(stderr, "{}: {}\n", grid::files::name_in_messages(command.input.grid), map.error().sentence);
+    return kBadInput;
   }
   grid::files::write_whole_file(command.output, grid::files::write_map(*map));
   fmt::print(stderr, "{}", fit_in_words(*map));

@@ -32,14 +32,14 @@ grid::MeasuredGrid read_grid_input(const GridInput& input) {
   namespace files = grid::files;
   files::GridOptions options;
   if (!input.machine.empty()) options.machine = files::read_machine(input.machine);
-  if (input.length_noise_mm || input.position_noise_mm || input.noise_dof) {
-    const grid::StatedNoise usual;
-    options.noise = {input.length_noise_mm.value_or(usual.length_mm),
-                     input.position_noise_mm.value_or(usual.position_mm),
-                     input.noise_dof.value_or(usual.dof)};
-  }
   files::ReadGrid read = files::read_grid(input.grid, options);
   for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+  if (input.length_noise_mm || input.position_noise_mm || input.noise_dof) {
+    const grid::StatedNoise own = read.grid.noise.value_or(grid::StatedNoise{});
+    read.grid.noise = grid::StatedNoise{input.length_noise_mm.value_or(own.length_mm),
+                                        input.position_noise_mm.value_or(own.position_mm),
+                                        input.noise_dof.value_or(own.dof)};
+  }
   return std::move(read.grid);
 }
 

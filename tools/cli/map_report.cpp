@@ -61,8 +61,11 @@ double noise_at_tool_mm(const grid::CompensationMap& map) {
     const auto lengths = map.lengths(point.mark);
     if (point.bad || !lengths) continue;
     const Eigen::Matrix2d to_tool = lengths->mark_jacobian.inverse();
-    variance_mm2 += to_tool.squaredNorm() * noise.length_mm * noise.length_mm +
-                    2.0 * noise.position_mm * noise.position_mm;
+    // What was stated stands as it is; what was not is known only by the factor that was found.
+    const double factor = noise.source == "stated" ? 1.0 : noise.factor_found;
+    variance_mm2 += factor * factor *
+                    (to_tool.squaredNorm() * noise.length_mm * noise.length_mm +
+                     2.0 * noise.position_mm * noise.position_mm);
     ++count;
   }
   return count > 0 ? std::sqrt(variance_mm2 / static_cast<double>(count)) : 0.0;

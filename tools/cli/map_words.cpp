@@ -88,6 +88,12 @@ std::string fit_sentence(const grid::CompensationMap& map) {
   const auto bad = std::count_if(
       contents.points.begin(), contents.points.end(), [](const auto& p) { return p.bad; });
   const std::size_t points = contents.points.size();
+  if (map.machine() == nullptr && contents.accuracy.leave_one_out.tool.maximum_mm == 0.0) {
+    return fmt::format(
+        "Splines through the lengths of {} points; too few rows and columns to leave one out, so "
+        "their error was not tested.",
+        points);
+  }
   if (map.machine() == nullptr) {
     return fmt::format(
         "Splines through the lengths of {} points: left out a line at a time, points come back "
@@ -115,8 +121,17 @@ std::string fit_in_words(const grid::CompensationMap& map) {
   std::string text = fit_sentence(map) + "\n";
   print_settings(text, contents);
   text += "\nError of points left out, mm       chain rms     max  tool rms     max\n";
-  print_held_out(text, "one at a time", contents.accuracy.leave_one_out);
-  print_held_out(text, "a block of the bed at a time", contents.accuracy.blocked);
+  const bool direct = map.machine() == nullptr;
+  if (contents.accuracy.leave_one_out.tool.maximum_mm == 0.0) {
+    text += "  not tested: no inner row or column could be left out\n";
+  } else {
+    print_held_out(text,
+                   direct ? "a column or row at a time" : "one at a time",
+                   contents.accuracy.leave_one_out);
+    print_held_out(text,
+                   direct ? "the worse of the two" : "a block of the bed at a time",
+                   contents.accuracy.blocked);
+  }
   fmt::format_to(std::back_inserter(text),
                  "\nExpected error of the tool over the measured part (one sigma): {:.2f} mm rms, "
                  "{:.2f} mm at worst, at "

@@ -3,6 +3,8 @@
 /// chaintrue query: chain lengths for points, and the point for chain lengths.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <memory>
@@ -122,6 +124,11 @@ int run_inverse(const grid::CompensationMap& map, const QueryCommand& command) {
 
 int run_query(const QueryCommand& command) {
   const grid::CompensationMap map = files::read_map(command.map);
+  if (command.frame == "bed" && map.machine() == nullptr) {
+    fmt::print(
+        stderr, "{}: a map without a machine knows only the frame of its marks\n", command.map);
+    return kNotSupportedOrOutside;
+  }
   if (!command.inverse.empty()) return run_inverse(map, command);
   std::vector<AnswerLine> lines;
   std::size_t outside = 0;
@@ -146,6 +153,11 @@ void check_usage(const QueryCommand& command) {
   if (ways != 1)
     throw CLI::ValidationError("query",
                                "give points as X Y ..., or --points FILE, or --inverse L R");
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(command.coordinates.begin(), command.coordinates.end(), finite) ||
+      !std::all_of(command.inverse.begin(), command.inverse.end(), finite)) {
+    throw CLI::ValidationError("query", "coordinates and lengths are numbers in mm");
+  }
   if (command.coordinates.size() % 2 != 0) {
     throw CLI::ValidationError(
         "query", fmt::format("{} numbers are no pairs of X and Y", command.coordinates.size()));
