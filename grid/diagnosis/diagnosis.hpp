@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What the simulation gets wrong and why: the answer of a diagnosis, as files and reports show it.
+///
+/// Three statements are kept apart throughout: a cause is present (causes), it was looked for and
+/// is smaller than a bound (bounds), or these data cannot show it (not_testable).
+///
+///   delta  length of an effect's whitened signature after the settings have taken their share: its
+///          strength in units of noise
+///
+/// \code
+///   const auto answer = diagnose(grid);
+///   if (answer) fmt::print("{}\n", answer->sentence);
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/measured_grid.hpp"
+#include "model/calibration/setting.hpp"
+#include "model/effects/effect.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+enum class Verdict {
+  named,           ///< one cause, or one class that no data of this kind can separate
+  named_set,       ///< one cause, but these data leave two or more
+  several_causes,  ///< two or more act together
+  unknown_pattern,
+  noise_larger_than_stated,
+  bad_points,
+  nothing_found,
+};
+[[nodiscard]] std::string_view name(Verdict verdict);
+
+/// An effect of the catalogue at a side.
+struct CauseId {
+  const model::effects::Effect* effect = nullptr;
+  model::effects::EffectSide side = model::effects::EffectSide::none;
+  friend bool operator==(const CauseId&, const CauseId&) = default;
+};
+
+struct ParameterEstimate {
+  std::string parameter;
+  double value = 0.0;
+  double sigma = 0.0;  ///< 0 for an integer that these data leave no choice in
+};
+
+/// A member of the same class, with what its own parameters would be.
+struct SameCause {
+  CauseId cause;
+  std::vector<ParameterEstimate> parameters;
+};
+
+struct Cause {
+  CauseId cause;
+  double probability = 0.0;
+  double delta = 0.0;
+  double share_left = 0.0;  ///< of its signature, after the settings have taken theirs
+  std::vector<ParameterEstimate> parameters;
+  std::vector<SameCause> same_as;
+  /// The effect that these data tell from it least, |cosine| of the two.
+  std::optional<CauseId> rival;
+  double rival_rho = 0.0;
+  /// It needs the visiting order, which nobody measured.
+  bool order_assumed = false;
+};
+
+/// One line of the contest: an effect's id and side, or nothing, unknown, noise, bad_points.
+struct Hypothesis {
+  std::string effect;
+  std::string side;
+  double probability = 0.0;
+};
+
+/// What is left once the causes named are in the model.
+struct LeftOver {
+  double delta = 0.0;
+  /// The coordinate it follows best: angle_left, length_right, tension_left, order, x, y, ...;
+  /// empty where nothing stands out.
+  std::string follows;
+  double share = 0.0;  ///< of its square that a smooth curve along that coordinate explains
+  /// Chance to see as much from noise alone.
+  double p_value = 1.0;
+};
+
+struct BadPoint {
+  std::size_t index = 0;  ///< into the grid's points
+  /// Where the tool would have to have been, less where the mark is.
+  Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
+  double distance = 0.0;  ///< in sigmas
+};
+
+struct NotTestable {
+  CauseId cause;
+  std::string reason;
+};
+
+/// Looked for and not found: larger than this it would have shown.
+struct Bound {
+  CauseId cause;
+  std::string parameter;
+  double upper_95 = 0.0;  ///< of the absolute value
+};
+
+struct CalibratedSetting {
+  model::Setting setting = model::Setting::motor_left_x_mm;
+  double stated = 0.0;
+  double stated_sigma = 0.0;
+  double calibrated = 0.0;
+  double sigma = 0.0;
+  bool off = false;  ///< further away than what was stated allows
+};
+
+/// Held-out error of the tool [mm] for one way of modelling.
+struct HeldOut {
+  double rms_mm = 0.0;
+  double percentile_95_mm = 0.0;
+  double low_mm = 0.0;  ///< 90 % interval of the rms, blocks drawn anew
+  double high_mm = 0.0;
+};
+
+struct Gain {
+  std::string scheme;  ///< how points were held out, in words
+  HeldOut as_delivered;
+  std::optional<HeldOut> placed;  ///< the sheet's placement alone; where it was placed by hand
+  HeldOut calibrated;
+  HeldOut extended;
+  HeldOut extended_and_surface;
+  HeldOut surface_only;
+  double noise_floor_mm = 0.0;
+  /// The same rows where the outermost points were held out and the inner ones fitted.
+  struct Border {
+    double calibrated_mm = 0.0;
+    double extended_mm = 0.0;
+    double extended_and_surface_mm = 0.0;
+    double surface_only_mm = 0.0;
+  } border;
+  /// In so many of the folds the same cause was named.
+  int folds = 0;
+  int folds_agree = 0;
+};
+
+enum class MeasurementKind { point, revisit, reading };
+
+struct NextMeasurement {
+  MeasurementKind kind = MeasurementKind::point;
+  /// point and revisit: a sentence; reading: the word that `readings` use (motor_spacing_mm, ...).
+  std::string what;
+  std::string side;                     ///< of a reading, where it has one
+  std::optional<model::BedPoint> mark;  ///< of a point or a revisit
+  /// Probability that the right cause is then named alone, this and all above it done.
+  double raises_probability_to = 0.0;
+};
+
+/// A point of the grid in the pictures: shifts of the tool [mm], measured less predicted.
+struct PointPicture {
+  std::size_t index = 0;
+  model::BedPoint mark;
+  std::optional<int> order;
+  bool bad = false;
+  Eigen::Vector2d before_mm;       ///< of the calibrated machine
+  Eigen::Vector2d after_mm;        ///< with the causes named
+  Eigen::Vector2d noise_sigma_mm;  ///< one sigma of the tool, along x and y
+  /// Chain residuals [mm], measured less predicted.
+  Eigen::Vector2d chain_before_mm;
+  Eigen::Vector2d chain_after_mm;
+  /// The strip: chains' residuals that the best cause and its rival explain, settings refitted.
+  Eigen::Vector2d best_mm = Eigen::Vector2d::Zero();
+  Eigen::Vector2d rival_mm = Eigen::Vector2d::Zero();
+  model::ChainLengths lengths;
+  double angle_left_rad = 0.0;
+  double angle_right_rad = 0.0;
+  double tension_left_n = 0.0;
+  double tension_right_n = 0.0;
+  /// +1 where the chain was paid out to get here, -1 where it was taken in; 0 without an order.
+  int direction_left = 0;
+  int direction_right = 0;
+};
+
+/// A line of the table of terms: every effect that these data can test.
+struct Term {
+  CauseId cause;
+  std::string parameter;  ///< the size; where there are two, their amplitude
+  double value = 0.0;     ///< if it acted alone
+  double sigma = 0.0;
+  double delta = 0.0;
+  double share_left = 0.0;
+  double p_value = 1.0;  ///< family-wise: chance that noise alone lets any effect look as strong
+  double probability = 0.0;
+};
+
+/// How well the points at hand can tell two effects apart, whatever they show.
+struct Separation {
+  CauseId first;
+  CauseId second;
+  double rho = 0.0;
+  double delta_needed = 0.0;  ///< strength at which 95 of 100 are told apart
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::nothing_found;
+  std::string sentence;
+  std::vector<std::string> what_to_do;  ///< at most three
+  std::string not_proved;
+  std::vector<std::string> notes;  ///< assumed order, unstated noise, swapped columns, ...
+  std::vector<Cause> causes;
+  std::vector<Hypothesis> hypotheses;
+  LeftOver left_over;
+  std::vector<BadPoint> bad_points;
+  std::vector<NotTestable> not_testable;
+  std::vector<Bound> bounds;
+  std::vector<CalibratedSetting> settings;
+  std::optional<Gain> gain;
+  std::vector<NextMeasurement> next_measurements;
+  /// The machine with its settings calibrated and every named cause that belongs into it; never an
+  /// effect of the paper or of the visit.
+  model::Machine extended_machine;
+  /// Named causes that do not belong into the machine: what the data are corrected by.
+  std::vector<model::AppliedEffect> data_corrections;
+
+  double noise_factor = 1.0;   ///< noise found, as a multiple of what was stated
+  double family_wise_p = 1.0;  ///< of the first cause
+  std::vector<Term> terms;
+  std::vector<Separation> separations;  ///< of the leading causes and their nearest rivals
+  std::vector<PointPicture> points;
+  std::uint64_t seed = 1;
+};
+
+/// Steps that can be left out to see what they are worth. All on but for such experiments.
+struct Steps {
+  bool project_settings = true;  ///< off: settings stay as calibrated while effects are scored
+  bool whiten = true;            ///< off: all chain lengths alike, no position noise
+  bool anchor_noise = true;      ///< off: the noise is whatever the best fit leaves
+  bool average_location = true;  ///< off: the best location counts in full
+  bool robust = true;            ///< off: no point is set aside
+};
+
+struct DiagnosisOptions {
+  std::uint64_t seed = 1;
+  bool gain = true;  ///< held-out errors, naming repeated in each fold
+  bool next_measurements = true;
+  bool order_assumed = false;  ///< the points' order was assumed by somebody, not measured
+  Steps steps;
+};
+
+struct DiagnosisFailure {
+  enum class Reason {
+    no_machine,
+    no_lengths,
+    too_few_points,
+    no_noise,  ///< neither stated nor in repeats
+    point_unreachable,
+    contradictory_settings,  ///< the machine and the grid's readings of it cannot both be
+  } reason;
+  std::string sentence;
+};
+
+[[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
+    const MeasuredGrid& grid, const DiagnosisOptions& options = {});
+
+/// How well a model, calibrated elsewhere, predicts another grid: nothing is fitted but, where the
+/// other's sheet was placed by hand, the placement.
+struct Transfer {
+  std::size_t points = 0;
+  HeldOut as_delivered;
+  HeldOut calibrated;
+  HeldOut extended;
+  HeldOut extended_and_surface;
+  double noise_floor_mm = 0.0;
+};
+[[nodiscard]] tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
+                                                                const Diagnosis& diagnosis,
+                                                                const MeasuredGrid& to);
+
+}  // namespace chaintrue::grid::diagnosis
