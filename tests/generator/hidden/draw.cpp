@@ -102,7 +102,10 @@ std::optional<Sized> sized(const Yardstick& yardstick, Hidden effect, double wan
 }
 
 // Whole links: any of the pairs whose delta is in range, each as likely.
-std::optional<Sized> whole_links(const Yardstick& yardstick, Hidden effect, Range range, Dice& dice) {
+std::optional<Sized> whole_links(const Yardstick& yardstick,
+                                 Hidden effect,
+                                 Range range,
+                                 Dice& dice) {
   std::vector<Sized> fitting;
   const int last = yardstick.visits().back().number;
   const int first = effect.cause == Cause::tooth_skip ? 1 : 0;
@@ -146,24 +149,21 @@ std::optional<Sized> draw_effect(const Yardstick& yardstick, Cause cause, Range 
       const double to = seen[static_cast<std::size_t>(0.85 * n_seen)];
       effect.place = dice.uniform(from, to);
     }
-    const double wanted = range.from == range.to ? range.from : dice.log_uniform(range.from, range.to);
+    const double wanted =
+        range.from == range.to ? range.from : dice.log_uniform(range.from, range.to);
     if (auto found = sized(yardstick, effect, wanted)) return found;
   }
   return std::nullopt;
 }
 
 // Effects that are not each other's likeness, each with a strength of its own.
-std::vector<Sized> draw_effects(const Yardstick& yardstick,
-                                const Recipe& recipe,
-                                std::size_t count,
-                                Range range,
-                                Dice& dice) {
+std::vector<Sized> draw_effects(
+    const Yardstick& yardstick, const Recipe& recipe, std::size_t count, Range range, Dice& dice) {
   for (int n = 0; n < 300; ++n) {
     std::vector<Sized> chosen;
     while (chosen.size() < count) {
-      const Cause cause = recipe.cause && chosen.empty()
-                              ? *recipe.cause
-                              : static_cast<Cause>(dice.below(kCauses));
+      const Cause cause =
+          recipe.cause && chosen.empty() ? *recipe.cause : static_cast<Cause>(dice.below(kCauses));
       auto next = draw_effect(yardstick, cause, range, dice);
       if (!next) break;
       const bool alike = std::any_of(chosen.begin(), chosen.end(), [&](const Sized& other) {
@@ -227,9 +227,9 @@ std::vector<Visit> true_visits(const std::vector<PlannedVisit>& planned, Dice& d
   std::vector<Visit> visits;
   for (const PlannedVisit& p : planned) {
     const double beside = p.repeat ? 2.0 : 8.0;
-    visits.push_back({{p.place.x + dice.uniform(-beside, beside),
-                       p.place.y + dice.uniform(-beside, beside)},
-                      static_cast<int>(visits.size())});
+    visits.push_back(
+        {{p.place.x + dice.uniform(-beside, beside), p.place.y + dice.uniform(-beside, beside)},
+         static_cast<int>(visits.size())});
   }
   return visits;
 }
@@ -251,7 +251,8 @@ std::vector<HiddenMachine::Note> written_down(const Recipe& recipe,
     const Vec2 p = visits[i].place;
     double factor = 1.0;
     if (recipe.kind == Mix::uneven_noise) {
-      const double along = (p.x / 1200.0 * std::cos(towards) + p.y / 600.0 * std::sin(towards)) / std::numbers::sqrt2;
+      const double along = (p.x / 1200.0 * std::cos(towards) + p.y / 600.0 * std::sin(towards)) /
+                           std::numbers::sqrt2;
       factor = 1.0 + 2.0 * std::max(0.0, along);
     }
     const Vec2 mark = written(p, hidden);
@@ -273,7 +274,8 @@ void slip(std::vector<HiddenMachine::Note>& notes, Answer& answer, Dice& dice) {
   while (answer.bad_points.size() < count) {
     const std::size_t i = dice.below(notes.size());
     const auto near = [&](std::size_t k) {
-      return std::hypot(notes[k].mark.x - notes[i].mark.x, notes[k].mark.y - notes[i].mark.y) < 50.0;
+      return std::hypot(notes[k].mark.x - notes[i].mark.x, notes[k].mark.y - notes[i].mark.y) <
+             50.0;
     };
     if (std::any_of(answer.bad_points.begin(), answer.bad_points.end(), near)) continue;
     answer.bad_points.push_back(i);
@@ -289,10 +291,14 @@ std::size_t effects_in(Mix mix) {
     case Mix::single:
     case Mix::no_order:
     case Mix::rounded:
-    case Mix::bad_points_and_effect: return 1;
-    case Mix::two: return 2;
-    case Mix::three: return 3;
-    default: return 0;
+    case Mix::bad_points_and_effect:
+      return 1;
+    case Mix::two:
+      return 2;
+    case Mix::three:
+      return 3;
+    default:
+      return 0;
   }
 }
 
@@ -336,8 +342,7 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   const auto yardstick = Yardstick::make(truth, visits, noise, {});
   if (!yardstick) throw std::runtime_error("draw_set: the machine cannot reach its own bed");
   if (const std::size_t count = effects_in(recipe.kind); count > 0) {
-    const auto effects =
-        draw_effects(*yardstick, recipe, count, range_of(recipe), effect_dice);
+    const auto effects = draw_effects(*yardstick, recipe, count, range_of(recipe), effect_dice);
     for (const Sized& s : effects) {
       answer.hidden.push_back(s.hidden);
       answer.delta.push_back(s.delta);
@@ -365,7 +370,8 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   }
   grid.with_order = recipe.kind != Mix::no_order;
   grid.notes = std::move(notes);
-  return {grid_text(grid), std::move(answer), std::move(machine), noise};
+  std::string text = grid_text(grid);
+  return {std::move(text), std::move(answer), std::move(machine), noise, std::move(grid.notes)};
 }
 
 }  // namespace chaintrue::generator

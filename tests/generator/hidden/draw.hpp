@@ -34,9 +34,9 @@ namespace chaintrue::generator {
 enum class Mix {
   single,
   nothing,
-  heavy,        ///< nothing hidden, noise with heavy tails
-  wrong_noise,  ///< nothing hidden, stated noise 0.7 to 1.5 times the true one
-  uneven_noise, ///< nothing hidden, noise up to three times larger in one part of the bed
+  heavy,         ///< nothing hidden, noise with heavy tails
+  wrong_noise,   ///< nothing hidden, stated noise 0.7 to 1.5 times the true one
+  uneven_noise,  ///< nothing hidden, noise up to three times larger in one part of the bed
   two,
   three,
   unlisted,
@@ -122,6 +122,8 @@ struct SealedSet {
   Answer answer;
   HiddenMachine machine;
   NoiseLevel noise;
+  /// The numbers of the text, before they were rounded to 0.0001 mm.
+  std::vector<HiddenMachine::Note> notes;
 };
 
 /// Same recipe and seed, same bytes. \throws std::runtime_error where no effect fits the recipe.

@@ -17,22 +17,176 @@ std::array<CauseCard, kCauses> make_cards() {
   const std::vector<Where> any{left, right, both};
   const std::vector<Where> none{nowhere};
   return {{
-      {tape_scale, "tape_scale", "scale", -0.05, 0.05, 0.0005, "", Place::none, false, false, false, {x, y, both}},
-      {axes_skew, "axes_skew", "angle_rad", -0.05, 0.05, 0.001, "", Place::none, false, false, false, none},
-      {ring_radius, "ring_radius", "offset_mm", -50, 50, 1, "", Place::none, false, true, false, none},
-      {sprocket_radius, "sprocket_radius", "offset_mm", -3, 3, 0.17, "", Place::none, false, true, false, none},
-      {chain_sag, "chain_sag", "relative_weight", -0.95, 5, 0.3, "", Place::none, false, true, false, none},
-      {chain_stretch, "chain_stretch", "compliance_per_n", 0, 1e-4, 6e-6, "", Place::none, false, true, false, none},
-      {beam_flex, "beam_flex", "flexibility_mm_per_n", 0, 0.1, 0.01, "", Place::none, false, true, false, none},
+      {tape_scale,
+       "tape_scale",
+       "scale",
+       -0.05,
+       0.05,
+       0.0005,
+       "",
+       Place::none,
+       false,
+       false,
+       false,
+       {x, y, both}},
+      {axes_skew,
+       "axes_skew",
+       "angle_rad",
+       -0.05,
+       0.05,
+       0.001,
+       "",
+       Place::none,
+       false,
+       false,
+       false,
+       none},
+      {ring_radius,
+       "ring_radius",
+       "offset_mm",
+       -50,
+       50,
+       1,
+       "",
+       Place::none,
+       false,
+       true,
+       false,
+       none},
+      {sprocket_radius,
+       "sprocket_radius",
+       "offset_mm",
+       -3,
+       3,
+       0.17,
+       "",
+       Place::none,
+       false,
+       true,
+       false,
+       none},
+      {chain_sag,
+       "chain_sag",
+       "relative_weight",
+       -0.95,
+       5,
+       0.3,
+       "",
+       Place::none,
+       false,
+       true,
+       false,
+       none},
+      {chain_stretch,
+       "chain_stretch",
+       "compliance_per_n",
+       0,
+       1e-4,
+       6e-6,
+       "",
+       Place::none,
+       false,
+       true,
+       false,
+       none},
+      {beam_flex,
+       "beam_flex",
+       "flexibility_mm_per_n",
+       0,
+       0.1,
+       0.01,
+       "",
+       Place::none,
+       false,
+       true,
+       false,
+       none},
       {side_pull, "side_pull", "force_n", -10, 10, 3, "", Place::none, false, true, false, none},
-      {chain_plane_offset, "chain_plane_offset", "distance_mm", 0, 300, 30, "", Place::none, false, false, false, none},
-      {sprocket_eccentricity, "sprocket_eccentricity", "amplitude_mm", 0, 5, 0.3, "phase_rad", Place::phase, false, false, false, one},
-      {angular_kink, "angular_kink", "slope_mm_per_rad", -60, 60, 4.5, "knee_rad", Place::angle, false, false, false, one},
-      {direction_hysteresis, "direction_hysteresis", "half_width_mm", 0, 5, 0.35, "", Place::none, false, false, true, any},
-      {chain_pitch_error, "chain_pitch_error", "elongation", -0.05, 0.05, 0.001, "", Place::none, false, false, false, any},
+      {chain_plane_offset,
+       "chain_plane_offset",
+       "distance_mm",
+       0,
+       300,
+       30,
+       "",
+       Place::none,
+       false,
+       false,
+       false,
+       none},
+      {sprocket_eccentricity,
+       "sprocket_eccentricity",
+       "amplitude_mm",
+       0,
+       5,
+       0.3,
+       "phase_rad",
+       Place::phase,
+       false,
+       false,
+       false,
+       one},
+      {angular_kink,
+       "angular_kink",
+       "slope_mm_per_rad",
+       -60,
+       60,
+       4.5,
+       "knee_rad",
+       Place::angle,
+       false,
+       false,
+       false,
+       one},
+      {direction_hysteresis,
+       "direction_hysteresis",
+       "half_width_mm",
+       0,
+       5,
+       0.35,
+       "",
+       Place::none,
+       false,
+       false,
+       true,
+       any},
+      {chain_pitch_error,
+       "chain_pitch_error",
+       "elongation",
+       -0.05,
+       0.05,
+       0.001,
+       "",
+       Place::none,
+       false,
+       false,
+       false,
+       any},
       {drift, "drift", "rate_mm_per_visit", -1, 1, 0.03, "", Place::none, false, false, true, any},
-      {tooth_skip, "tooth_skip", "links", -20, 20, 1, "first_visit", Place::visit, true, false, true, one},
-      {link_miscount, "link_miscount", "links", -20, 20, 1, "visit", Place::visit, true, false, true, one},
+      {tooth_skip,
+       "tooth_skip",
+       "links",
+       -20,
+       20,
+       1,
+       "first_visit",
+       Place::visit,
+       true,
+       false,
+       true,
+       one},
+      {link_miscount,
+       "link_miscount",
+       "links",
+       -20,
+       20,
+       1,
+       "visit",
+       Place::visit,
+       true,
+       false,
+       true,
+       one},
   }};
 }
 
@@ -46,12 +200,18 @@ bool on_chain(Where where, std::size_t chain) {
 
 std::string_view word(Where where) {
   switch (where) {
-    case Where::left: return "left";
-    case Where::right: return "right";
-    case Where::both: return "both";
-    case Where::x: return "x";
-    case Where::y: return "y";
-    case Where::nowhere: break;
+    case Where::left:
+      return "left";
+    case Where::right:
+      return "right";
+    case Where::both:
+      return "both";
+    case Where::x:
+      return "x";
+    case Where::y:
+      return "y";
+    case Where::nowhere:
+      break;
   }
   return "";
 }
@@ -66,13 +226,26 @@ const CauseCard& card(Cause cause) { return cards()[static_cast<std::size_t>(cau
 TrueMachine altered(TrueMachine machine, std::span<const Hidden> effects) {
   for (const Hidden& e : effects) {
     switch (e.cause) {
-      case Cause::ring_radius: machine.ring_radius_mm += e.size; break;
-      case Cause::sprocket_radius: machine.wheel_radius_offset_mm += e.size; break;
-      case Cause::chain_sag: machine.chain_mass_kg_per_m *= 1.0 + e.size; break;
-      case Cause::chain_stretch: machine.compliance_per_n += e.size; break;
-      case Cause::beam_flex: machine.beam_give_mm_per_n += e.size; break;
-      case Cause::side_pull: machine.side_force_n += e.size; break;
-      default: break;
+      case Cause::ring_radius:
+        machine.ring_radius_mm += e.size;
+        break;
+      case Cause::sprocket_radius:
+        machine.wheel_radius_offset_mm += e.size;
+        break;
+      case Cause::chain_sag:
+        machine.chain_mass_kg_per_m *= 1.0 + e.size;
+        break;
+      case Cause::chain_stretch:
+        machine.compliance_per_n += e.size;
+        break;
+      case Cause::beam_flex:
+        machine.beam_give_mm_per_n += e.size;
+        break;
+      case Cause::side_pull:
+        machine.side_force_n += e.size;
+        break;
+      default:
+        break;
     }
   }
   return machine;

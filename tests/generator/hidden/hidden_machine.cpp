@@ -23,9 +23,7 @@ std::optional<std::vector<Lengths>> HiddenMachine::exact(std::span<const Visit> 
   return readings(with, hidden_, where, *at_rest);
 }
 
-std::optional<HiddenMachine::Note> HiddenMachine::measure(Vec2 mark,
-                                                          NoiseLevel noise,
-                                                          Dice& dice) {
+std::optional<HiddenMachine::Note> HiddenMachine::measure(Vec2 mark, NoiseLevel noise, Dice& dice) {
   const int number = visits_.empty() ? 0 : visits_.back().number + 1;
   std::vector<Visit> all = visits_;
   all.push_back({place_of(mark, hidden_), number});
@@ -59,8 +57,8 @@ std::optional<HiddenMachine::Reading> HiddenMachine::read(std::string_view what,
     double elongation = 0.0;
     for (const Hidden& e : hidden_) {
       if (e.cause != Cause::chain_pitch_error) continue;
-      const bool other = (e.where == Where::left && chain == 1) ||
-                         (e.where == Where::right && chain == 0);
+      const bool other =
+          (e.where == Where::left && chain == 1) || (e.where == Where::right && chain == 0);
       if (!other) elongation += e.size;
     }
     return noisy(with.pitch_mm * (1.0 + elongation), 0.001);

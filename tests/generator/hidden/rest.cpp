@@ -56,11 +56,11 @@ Hang hang(double h, double v, double free_mm, int pieces, double w, double c) {
 }
 
 struct Wheel {
-  double radius = 0.0;   ///< of the drum
-  double corner = 0.0;   ///< of the polygon's corners
-  double side = 0.0;     ///< of the polygon: one link
+  double radius = 0.0;  ///< of the drum
+  double corner = 0.0;  ///< of the polygon's corners
+  double side = 0.0;    ///< of the polygon: one link
   double tooth_rad = 0.0;
-  double sense = 1.0;    ///< +1 over the top
+  double sense = 1.0;  ///< +1 over the top
 };
 
 Wheel wheel_of(const TrueMachine& m) {
@@ -116,7 +116,8 @@ Closure hung(const Setting& s, Pull p, double free_mm, int pieces, int side) {
   Closure r;
   r.error = {rho * p.h / ta + chain.u + give * p.h - s.reach[i],
              rho * p.v / ta + chain.y + give * vb - s.rise[i]};
-  r.by[0] = {rho * p.v * p.v / ta3 + chain.u_h + give, -rho * p.h * p.v / ta3 + chain.u_v, chain.u_s};
+  r.by[0] = {
+      rho * p.v * p.v / ta3 + chain.u_h + give, -rho * p.h * p.v / ta3 + chain.u_v, chain.u_s};
   r.by[1] = {-rho * p.h * p.v / ta3 + chain.y_h,
              rho * p.h * p.h / ta3 + chain.y_v + give,
              chain.y_s + give * s.w};

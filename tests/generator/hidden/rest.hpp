@@ -53,10 +53,10 @@ struct TrueMachine {
 };
 
 struct ChainRest {
-  double free_mm = 0.0;     ///< S
-  double angle_rad = 0.0;   ///< below the horizontal at the sprocket
-  double tension_n = 0.0;   ///< there
-  double length_mm = 0.0;   ///< free chain and what lies on the wheel past 12 o'clock
+  double free_mm = 0.0;    ///< S
+  double angle_rad = 0.0;  ///< below the horizontal at the sprocket
+  double tension_n = 0.0;  ///< there
+  double length_mm = 0.0;  ///< free chain and what lies on the wheel past 12 o'clock
 };
 
 struct Rest {

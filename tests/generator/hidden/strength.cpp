@@ -174,8 +174,7 @@ std::vector<Rival> Yardstick::rivals() const {
     Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
     all.push_back({c.cause,
                    where,
-                   qr.householderQ() *
-                       Eigen::MatrixXd::Identity(columns.rows(), columns.cols())});
+                   qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols())});
   };
   for (const CauseCard& c : cards()) {
     for (const Where where : c.sides) {

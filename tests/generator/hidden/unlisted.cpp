@@ -59,11 +59,20 @@ Unlisted draw_oddity(Oddity oddity, Dice& dice) {
   u.direction_rad = dice.uniform(-kPi, kPi);
   u.phase_rad = dice.uniform(-kPi, kPi);
   switch (oddity) {
-    case Oddity::dent: u.extent_mm = dice.uniform(200.0, 400.0); break;
-    case Oddity::wavy_board: u.extent_mm = dice.uniform(700.0, 1400.0); break;
-    case Oddity::fold: break;
-    case Oddity::edge: u.extent_mm = dice.uniform(120.0, 250.0); break;
-    case Oddity::periodic_in_x: u.extent_mm = dice.uniform(900.0, 1500.0); break;
+    case Oddity::dent:
+      u.extent_mm = dice.uniform(200.0, 400.0);
+      break;
+    case Oddity::wavy_board:
+      u.extent_mm = dice.uniform(700.0, 1400.0);
+      break;
+    case Oddity::fold:
+      break;
+    case Oddity::edge:
+      u.extent_mm = dice.uniform(120.0, 250.0);
+      break;
+    case Oddity::periodic_in_x:
+      u.extent_mm = dice.uniform(900.0, 1500.0);
+      break;
   }
   return u;
 }

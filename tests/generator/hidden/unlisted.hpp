@@ -20,9 +20,9 @@ inline constexpr std::size_t kOddities = 5;
 struct Unlisted {
   Oddity oddity = Oddity::dent;
   double size_mm = 0.0;
-  Vec2 centre;                ///< of a dent; a point of a fold's line
-  double direction_rad = 0.0; ///< of a wave's run, across a fold
-  double extent_mm = 0.0;     ///< of a dent, an edge; wavelength of a wave
+  Vec2 centre;                 ///< of a dent; a point of a fold's line
+  double direction_rad = 0.0;  ///< of a wave's run, across a fold
+  double extent_mm = 0.0;      ///< of a dent, an edge; wavelength of a wave
   double phase_rad = 0.0;
 };
 
