@@ -20,7 +20,9 @@ constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 /// Beforehand: nothing, one cause, two, three, four; and how much rarer each is with an unknown
 /// pattern beside it.
 constexpr std::array kPriorOfCount = {0.50, 0.25, 0.06, 0.02, 0.01};
-constexpr double kPatternPrior = 0.12;
+constexpr double kPatternPrior = 0.06;
+/// A slip at one visit stands beside any number of causes: odds of one, shared by all effects.
+constexpr double kSlipOdds = 0.5;
 
 /// What is so far below the best does not count.
 constexpr double kNegligible = 16.0;
@@ -346,13 +348,18 @@ double log_prior(const std::vector<Direction>& directions,
                  const std::vector<int>& set,
                  bool pattern) {
   const auto effects = static_cast<double>(model::effects::catalogue().size());
-  double value =
-      std::log(kPriorOfCount[set.size()]) + std::lgamma(1.0 + static_cast<double>(set.size()));
-  if (pattern) value += std::log(kPatternPrior);
+  std::size_t lasting = 0;
+  double value = pattern ? std::log(kPatternPrior) : 0.0;
   for (const int k : set) {
-    value += directions[static_cast<std::size_t>(k)].log_prior - std::log(effects);
+    const Direction& d = directions[static_cast<std::size_t>(k)];
+    value += d.log_prior - std::log(effects);
+    if (d.slip) {
+      value += std::log(kSlipOdds);
+    } else {
+      ++lasting;
+    }
   }
-  return value;
+  return value + std::log(kPriorOfCount[lasting]) + std::lgamma(1.0 + static_cast<double>(lasting));
 }
 
 SingleScores single_scores(const Rows& rows,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/judgement.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +10,10 @@
 
 namespace chaintrue::grid::diagnosis {
 namespace {
+
+/// Probability that anything acts at all from which causes are spoken of.
+constexpr double kCaused = 0.65;
+constexpr double kAbsorbed = 1e-3;
 
 /// The most telling direction of each cause: the longest, and the nearest to the data among those
 /// of a cause with places.
@@ -54,7 +59,7 @@ class Judge {
   Judgement run(bool seen) {
     group();
     marginals();
-    const bool caused = seen && result_.caused > 0.5;
+    const bool caused = seen && result_.caused > kCaused;
     const Grouped* leading = caused ? leading_group() : nullptr;
     if (leading != nullptr) {
       name_causes(*leading);
@@ -177,10 +182,19 @@ class Judge {
       return;
     }
     result_.verdict = Verdict::named_set;
+    // Which, given that one cause acts.
+    std::vector<ClassProbability> alone;
     double all = 0.0;
-    for (const ClassProbability& one : result_.marginal) all += one.probability;
+    for (const auto& [key, grouped] : groups_) {
+      if (key.size() != 1) continue;
+      alone.push_back({key.front(), grouped.probability});
+      all += grouped.probability;
+    }
+    std::stable_sort(alone.begin(), alone.end(), [](const auto& a, const auto& b) {
+      return a.probability > b.probability;
+    });
     double sum = 0.0;
-    for (const ClassProbability& one : result_.marginal) {
+    for (const ClassProbability& one : alone) {
       result_.listed.push_back(one.index);
       sum += one.probability;
       if (sum >= kSetHolds * all) break;
@@ -226,18 +240,27 @@ class Judge {
 }  // namespace
 
 std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
+  // Free settings: what a class shares must not hang on how well the settings were stated.
+  const Eigen::MatrixXd settings = rows.by_setting(space.kept, Eigen::all);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(settings);
+  const Eigen::MatrixXd basis =
+      qr.householderQ() * Eigen::MatrixXd::Identity(settings.rows(), settings.cols());
   std::vector<CauseClass> classes;
-  std::vector<int> representative;
+  std::vector<Eigen::VectorXd> representative;
   for (const auto& [cause, direction] : leading_directions(rows, space)) {
-    const auto own = space.g.col(direction);
+    Eigen::VectorXd own = rows.g(space.kept, direction);
+    const double whole = own.norm();
+    own -= basis * (basis.transpose() * own);
+    // Of a signature that the settings take whole, only rounding would be compared.
+    const bool absorbed = own.norm() < kAbsorbed * whole;
+    own.normalize();
     std::size_t home = classes.size();
-    for (std::size_t k = 0; k < classes.size() && home == classes.size(); ++k) {
-      const auto other = space.g.col(representative[k]);
-      if (std::abs(own.dot(other)) >= kOneClass * own.norm() * other.norm()) home = k;
+    for (std::size_t k = 0; k < classes.size() && home == classes.size() && !absorbed; ++k) {
+      if (std::abs(own.dot(representative[k])) >= kOneClass) home = k;
     }
     if (home == classes.size()) {
       classes.emplace_back();
-      representative.push_back(direction);
+      representative.push_back(absorbed ? Eigen::VectorXd::Zero(own.size()) : own);
     }
     classes[home].push_back(cause);
   }

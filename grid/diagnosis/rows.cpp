@@ -111,13 +111,17 @@ const EffectParameter* place_parameter(const Effect& effect) {
 }
 
 /// Places where an effect may set in: visits, angles between those of the points, phases of a turn.
+bool is_slip(const Effect& effect) {
+  return effect.misread != nullptr && size_parameter(effect).integer &&
+         effect.misread({1, 1.0}, std::vector<double>{1.0, 0.0}) == 0.0;
+}
+
 std::vector<double> places(const Session& session, const Rows& rows, CauseId cause) {
   const EffectParameter& place = *place_parameter(*cause.effect);
   std::vector<double> result;
   if (place.integer) {
     // A skip before the first visit is a zero; a miscount may be at any visit.
-    const bool lasting = cause.effect->misread({1, 1.0}, std::vector<double>{1.0, 0.0}) != 0.0;
-    for (std::size_t i = lasting ? 1 : 0; i < session.points.size(); ++i) {
+    for (std::size_t i = is_slip(*cause.effect) ? 0 : 1; i < session.points.size(); ++i) {
       result.push_back(session.points[i].order);
     }
     return result;
@@ -212,7 +216,11 @@ class Builder {
     smaller.front() *= 0.5;
     const auto half = signature(session_, state_, rows_, cause, smaller);
     if (!half) return;
-    Direction direction{cause, values, power_of(*g, *half), false, 0.0, 0.0, log_prior};
+    Direction direction;
+    direction.cause = cause;
+    direction.values = values;
+    direction.power = power_of(*g, *half);
+    direction.log_prior = log_prior;
     limit(direction);
     columns_.push_back({std::move(direction), std::move(*g)});
   }
@@ -227,9 +235,14 @@ class Builder {
         values.front() = links;
         auto g = signature(session_, state_, rows_, cause, values);
         if (!g || !(g->norm() > 0.0)) continue;
-        columns_.push_back(
-            {{cause, values, 1, true, 1.0, 1.0, std::log(share * share_of_links(links))},
-             std::move(*g)});
+        Direction direction;
+        direction.cause = cause;
+        direction.values = values;
+        direction.fixed = true;
+        direction.slip = is_slip(*cause.effect);
+        direction.lowest = direction.highest = 1.0;
+        direction.log_prior = std::log(share * share_of_links(links));
+        columns_.push_back({std::move(direction), std::move(*g)});
       }
     }
   }

@@ -31,6 +31,8 @@ struct Direction {
   int power = 1;
   /// The size is a whole number: the coefficient is 1 and `values` hold it.
   bool fixed = false;
+  /// It acts at one visit alone.
+  bool slip = false;
   /// What the coefficient may be.
   double lowest = 0.0;
   double highest = 0.0;
