@@ -13,7 +13,6 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
-#include <mutex>
 #include <thread>
 
 #include "sealed/judge/table.hpp"
@@ -77,8 +76,6 @@ TrialOptions options_of(const Arguments& arguments) {
 std::vector<Trial> run_all(const Arguments& arguments, const TrialOptions& options) {
   std::vector<Trial> trials(static_cast<std::size_t>(arguments.sets));
   std::atomic<int> next{0};
-  std::mutex mutex;
-  std::exception_ptr trouble;
   const auto work = [&] {
     for (int i = next++; i < arguments.sets; i = next++) {
       TrialOptions own = options;
@@ -98,7 +95,6 @@ std::vector<Trial> run_all(const Arguments& arguments, const TrialOptions& optio
   for (int k = 0; k < arguments.jobs; ++k) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
   fmt::print(stderr, "\n");
-  if (trouble) std::rethrow_exception(trouble);
   return trials;
 }
 
