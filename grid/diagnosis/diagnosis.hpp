@@ -203,7 +203,7 @@ struct Separation {
   CauseId first;
   CauseId second;
   double rho = 0.0;
-  double delta_needed = 0.0;  ///< strength at which 95 of 100 are told apart
+  double delta_needed = 0.0;  ///< strength at which 95 of 100 are told apart; infinity: none
 };
 
 /// How well a model, calibrated elsewhere, predicts another grid: nothing is fitted but, where the
