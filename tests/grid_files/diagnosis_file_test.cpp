@@ -151,7 +151,8 @@ TEST(DiagnosisFile, ReportsEveryProblemAtOnceAndByItsPlace) {
         "/hypotheses/0/probability: found 1.5",
         "/bounds/1/upper_95",
         "/gain/position_rms_mm/calibrated: found \"wide\"",
-        "/gain/position_rms_90_percent_mm/extended: found [0.5, 0.1], expected a pair of numbers in "
+        "/gain/position_rms_90_percent_mm/extended: found [0.5, 0.1], expected a pair of numbers "
+        "in "
         "mm, the lower one first",
         "/bad_point_shifts: found [], expected as many shifts as there are bad_points",
         "/points/3/before_mm",
