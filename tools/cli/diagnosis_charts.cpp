@@ -195,13 +195,17 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
   constexpr double kLeastSpanMm = 0.2;
   Chart chart{
       .specification = "residual_scatter", .title = scatter.title, .caption = scatter.caption};
+  const bool has_after = !scatter.by_direction && !found.causes.empty();
   Span along, up;
   up.take(0.0);
   for (const PointPicture& point : found.points) {
     along.take(scatter.x(point, scatter.chain));
     if (point.bad) continue;
-    up.take(point.chain_before_mm[scatter.chain]);
-    if (!scatter.by_direction) up.take(point.chain_after_mm[scatter.chain]);
+    // Both chains at one scale, so that the noise of one does not look like the error of the other.
+    for (int chain = 0; chain < 2; ++chain) {
+      up.take(point.chain_before_mm[chain]);
+      if (has_after) up.take(point.chain_after_mm[chain]);
+    }
   }
   const Span x_window = along.widened(0.03, 1e-6), y_window = up.widened(0.08, kLeastSpanMm);
   DataTable points{"points", {"name", "x", "y_mm", "is_first", "is_bad"}, {}};
@@ -216,12 +220,11 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
   for (const PointPicture& point : found.points) {
     const int direction = scatter.chain == 0 ? point.direction_left : point.direction_right;
     add(point, point.chain_before_mm[scatter.chain], !scatter.by_direction || direction > 0);
-    if (!scatter.by_direction) add(point, point.chain_after_mm[scatter.chain], false);
+    if (has_after) add(point, point.chain_after_mm[scatter.chain], false);
   }
   DataTable curve{"curve", {"x", "y_mm"}, {}};
   if (!scatter.by_direction) curve = means_of(found, scatter, along);
   chart.data = {std::move(points), std::move(curve)};
-  const bool named = !found.causes.empty();
   chart.signals = {
       {"x_title", scatter.x_title},
       {"x_min", x_window.low},
@@ -231,8 +234,8 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
       {"first_label", std::string(scatter.by_direction ? "paid out to get there" : "calibrated")},
       {"second_label",
        std::string(scatter.by_direction ? "taken in"
-                   : named              ? "with the cause"
-                                        : "with what was named")},
+                   : has_after          ? "with the cause"
+                                        : "")},
       {"first_color", std::string(scatter.by_direction ? kPaidOutColor : report::kBeforeColor)},
       {"second_color", std::string(scatter.by_direction ? kTakenInColor : report::kAfterColor)}};
   return chart;
@@ -283,16 +286,15 @@ std::vector<report::ChartRow> length_charts(const Diagnosis& found) {
                   .x_title = "chain length, mm",
                   .x = length_mm,
                   .chain = chain};
-    Scatter folded{
-        .title = fmt::format("The same, folded at one turn of the sprocket ({:g} mm)", turn_mm),
-        .caption = "",
-        .x_title = "mm past a full turn",
-        .x =
-            [turn_mm](const PointPicture& point, int side) {
-              const double length = length_mm(point, side);
-              return length - turn_mm * std::floor(length / turn_mm);
-            },
-        .chain = chain};
+    Scatter folded{.title = fmt::format("Folded at one sprocket turn ({:g} mm)", turn_mm),
+                   .caption = "",
+                   .x_title = "mm past a full turn",
+                   .x =
+                       [turn_mm](const PointPicture& point, int side) {
+                         const double length = length_mm(point, side);
+                         return length - turn_mm * std::floor(length / turn_mm);
+                       },
+                   .chain = chain};
     if (chain == 1) {
       plain.caption =
           "A slope is a chain too long or short; a step is a skipped link. The line runs through "
@@ -379,10 +381,10 @@ Chart probability_chart(const Diagnosis& found) {
 }
 
 Chart gain_chart(const Diagnosis& found) {
-  Chart chart{
-      .specification = "gain_bars",
-      .title = "Error of the tool at points held out, rms",
-      .caption = "The thin line on a bar is its 90 % interval. " + found.gain->scheme + "."};
+  Chart chart{.specification = "gain_bars",
+              .title = "Error of the tool at points held out, rms",
+              .caption = "The thin line on a bar is its 90 % interval. Held out: " +
+                         found.gain->scheme + "."};
   DataTable table{"rows", {"what", "rms_mm", "low_mm", "high_mm", "most_mm", "color"}, {}};
   const auto color_of = [&](const grid::diagnosis::HeldOut* row) {
     if (row == &found.gain->extended || row == &found.gain->extended_and_surface)

@@ -73,7 +73,9 @@ Light data_light(const Diagnosis& found) {
   if (!found.not_testable.empty()) {
     return {Tone::caution,
             "Enough data?",
-            fmt::format("{} causes could not be tested", found.not_testable.size())};
+            found.not_testable.size() == 1
+                ? "one cause could not be tested"
+                : fmt::format("{} causes could not be tested", found.not_testable.size())};
   }
   return {Tone::good, "Enough data?", "yes"};
 }
@@ -111,22 +113,24 @@ std::vector<report::Figure> figures_of(const Diagnosis& found) {
   return figures;
 }
 
+std::string cause_and_remedy(const model::effects::Effect& effect) {
+  return fmt::format("{}. What to do: {}.", effect.cause, effect.remedy);
+}
+
 Section causes_section(const Diagnosis& found) {
-  Table table{{{"cause"}, {"size"}, {"probability", true}, {"what it is"}, {"remedy"}}, {}, ""};
+  Table table{{{"cause"}, {"size"}, {"probability", true}, {"what it is"}}, {}, ""};
   for (const Cause& cause : found.causes) {
     table.rows.push_back(
         {{cause_title(cause.cause) + (cause.order_assumed ? " (order assumed)" : ""),
           sizes_in_words(cause.parameters),
           percent(cause.probability),
-          std::string(cause.cause.effect->cause),
-          std::string(cause.cause.effect->remedy)},
+          cause_and_remedy(*cause.cause.effect)},
          false});
     for (const auto& same : cause.same_as) {
       table.rows.push_back({{"or " + cause_title(same.cause),
                              sizes_in_words(same.parameters),
                              "the same",
-                             std::string(same.cause.effect->cause),
-                             std::string(same.cause.effect->remedy)},
+                             cause_and_remedy(*same.cause.effect)},
                             false});
       table.caption =
           "No points of this kind tell the causes marked \"or\" from the one above them.";
@@ -280,8 +284,8 @@ Section terms_section(const Diagnosis& found) {
     table.rows.push_back({{cause_title(term.cause),
                            size_in_words(term.parameter, term.value, term.sigma),
                            fixed(term.delta, 1),
-                           percent(term.share_left),
-                           percent(term.p_value),
+                           share_percent(term.share_left),
+                           share_percent(term.p_value),
                            percent(term.probability),
                            fate},
                           fate == "named" || fate == "in the set"});

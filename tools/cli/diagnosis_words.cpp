@@ -168,18 +168,18 @@ std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
   if (left_over.p_value >= kSurprising) {
     return fmt::format(
         "What is left over looks like noise: noise alone leaves as much in {} of cases.",
-        percent(left_over.p_value));
+        share_percent(left_over.p_value));
   }
   std::string text = fmt::format(
       "Something is left over that noise does not explain: it is {:.1f} times as large as the "
       "noise "
       "allows for, which noise alone would do in {} of cases.",
       left_over.delta,
-      percent(left_over.p_value));
+      share_percent(left_over.p_value));
   if (!left_over.follows.empty()) {
     text += fmt::format(" It follows {} best ({} of its square): look there.",
                         coordinate_in_words(left_over.follows),
-                        percent(left_over.share));
+                        share_percent(left_over.share));
   }
   return text;
 }
@@ -211,6 +211,12 @@ std::string percent(double probability) {
   if (in_percent < 0.1) return "below 0.1 %";
   return in_percent > 99.0 || in_percent < 1.0 ? fmt::format("{:.1f} %", in_percent)
                                                : fmt::format("{:.0f} %", in_percent);
+}
+
+std::string share_percent(double share) {
+  if (share > 0.0 && share < 0.001) return "below 0.1 %";
+  const double in_percent = 100.0 * share;
+  return fmt::format("{:.{}f} %", in_percent, in_percent < 9.95 ? 1 : 0);
 }
 
 std::string fixed(double value, int digits) {

@@ -41,6 +41,8 @@ struct WorkshopSize {
 
 /// 97 %, or "above 99.9 %" and "below 0.1 %": certainty is never claimed.
 [[nodiscard]] std::string percent(double probability);
+/// A share or a chance: 100 % and 0 % are possible, "below 0.1 %" where it is neither.
+[[nodiscard]] std::string share_percent(double share);
 /// Fixed digits with a true minus sign, never "-0.00".
 [[nodiscard]] std::string fixed(double value, int digits);
 
