@@ -51,8 +51,8 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
   d.separations = separations(*analysis);
   d.points = pictures(*session, *analysis);
   d.left_over = left_over(*session, *analysis, options.seed);
-  extend(*session, *analysis, d);
   if (options.gain) d.gain = measure_gain(*session, *analysis, options);
+  extend(*session, *analysis, d);
   if (options.next_measurements) d.next_measurements = next_measurements(*session, *analysis);
   put_into_words(*session, *analysis, d);
   return d;

@@ -312,9 +312,7 @@ std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a
   // A link counted wrong is a bad point with a name.
   for (const int k : a.judgement.directions) {
     const Direction& d = direction(a, k);
-    if (d.cause.effect->misread == nullptr || !d.fixed) continue;
-    if (d.cause.effect->misread({static_cast<int>(d.values.back()) + 1, 1.0}, d.values) != 0.0)
-      continue;
+    if (!d.slip) continue;
     for (std::size_t i = 0; i < session.points.size(); ++i) {
       if (session.points[i].order == static_cast<int>(d.values.back())) bad[i] = true;
     }

@@ -62,7 +62,13 @@ class Folds {
 
  private:
   [[nodiscard]] bool bad_in_all(std::size_t point) const {
-    return a_.contest.spaces[a_.judgement.space].bad[point];
+    if (a_.contest.spaces[a_.judgement.space].bad[point]) return true;
+    // A reading wrong at its own visit alone says nothing of any other.
+    for (const int k : a_.judgement.directions) {
+      const Direction& d = a_.rows.directions[static_cast<std::size_t>(k)];
+      if (d.slip && session_.points[point].order == static_cast<int>(d.values.back())) return true;
+    }
+    return false;
   }
 
   /// The pattern that the points prefer beside these causes; none where they would rather have
@@ -260,7 +266,9 @@ std::optional<Gain> measure_gain(const Session& session,
   gain.as_delivered = summarise(before.as_stated, number, options.seed);
   if (!before.placed.empty()) gain.placed = summarise(before.placed, number, options.seed);
   gain.calibrated = summarise(all.calibrated, number, options.seed);
-  gain.extended = summarise(all.extended, number, options.seed);
+  // What would not help on points it has not seen is not made.
+  const bool helps = rms(all.extended) < rms(all.calibrated);
+  gain.extended = summarise(helps ? all.extended : all.calibrated, number, options.seed);
   gain.extended_and_surface = summarise(all.extended_and_surface, number, options.seed);
   gain.surface_only = summarise(all.surface_only, number, options.seed);
   gain.noise_floor_mm = noise_floor(session, a, points);

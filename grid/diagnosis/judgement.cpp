@@ -13,6 +13,7 @@ namespace {
 
 /// Probability that anything acts at all from which causes are spoken of.
 constexpr double kCaused = 0.65;
+constexpr double kLikelierThanNot = 0.5;
 constexpr double kAbsorbed = 1e-3;
 
 /// The most telling direction of each cause: the longest, and the nearest to the data among those
@@ -60,7 +61,7 @@ class Judge {
     group();
     marginals();
     const bool caused = seen && result_.caused > kCaused;
-    const Grouped* leading = caused ? leading_group() : nullptr;
+    const Grouped* leading = caused ? without_doubtful(leading_group()) : nullptr;
     if (leading != nullptr) {
       name_causes(*leading);
     } else {
@@ -158,6 +159,20 @@ class Judge {
       result_.directions = grouped.with_pattern->directions;
       result_.space = grouped.with_pattern->space;
     }
+  }
+
+  /// Of several causes those are spoken of that are likelier than not; a partner that could be any
+  /// of many is left over.
+  const Grouped* without_doubtful(const Grouped* leading) {
+    if (leading_key_.size() < 2) return leading;
+    Key sure;
+    for (const std::size_t k : leading_key_) {
+      if (marginal(k) >= kLikelierThanNot) sure.push_back(k);
+    }
+    const auto found = groups_.find(sure);
+    if (sure.empty() || found == groups_.end()) return leading;
+    leading_key_ = sure;
+    return &found->second;
   }
 
   void name_causes(const Grouped& leading) {
