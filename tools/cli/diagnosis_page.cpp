@@ -262,7 +262,7 @@ std::string fate_of(const Diagnosis& found, const grid::diagnosis::Term& term) {
   }
   for (const auto& bound : found.bounds) {
     if (bound.cause == term.cause && bound.parameter == term.parameter) {
-      return fmt::format("absent, below {}", size_in_words(bound.parameter, bound.upper_95, 0.0));
+      return fmt::format("absent, below {}", bound_in_words(bound));
     }
   }
   return "not named";
@@ -298,8 +298,7 @@ Section bounds_section(const Diagnosis& found) {
   if (!found.bounds.empty()) {
     Table table{{{"absent"}, {"larger than this it would have shown"}}, {}, "95 % bounds."};
     for (const auto& bound : found.bounds)
-      table.rows.push_back(
-          {{cause_title(bound.cause), size_in_words(bound.parameter, bound.upper_95, 0.0)}, false});
+      table.rows.push_back({{cause_title(bound.cause), bound_in_words(bound)}, false});
     section.blocks.emplace_back(std::move(table));
   }
   if (!found.not_testable.empty()) {

@@ -134,9 +134,7 @@ void write_rest(Text& text, const Diagnosis& found) {
   if (!found.bounds.empty()) {
     text.heading("Looked for and absent: larger than this it would have shown");
     for (const auto& bound : found.bounds) {
-      text.line("  {:<34}{}",
-                cause_title(bound.cause),
-                size_in_words(bound.parameter, bound.upper_95, 0.0));
+      text.line("  {:<34}{}", cause_title(bound.cause), bound_in_words(bound));
     }
   }
   if (!found.not_testable.empty()) {

@@ -18,22 +18,15 @@ namespace chaintrue::cli {
 /// Also for nothing, unknown, noise and bad_points.
 [[nodiscard]] std::string hypothesis_title(const grid::diagnosis::Hypothesis& hypothesis);
 
-/// A parameter's value in a workshop unit: `elongation` 0.0012 is "1.20 mm on a metre".
-struct WorkshopSize {
-  double value = 0.0;
-  double sigma = 0.0;
-  std::string_view unit;
-  int digits = 2;
-};
-[[nodiscard]] WorkshopSize workshop_size(std::string_view parameter, double value, double sigma);
-/// "1.20 ± 0.10 mm on a metre"; without a sigma where it is 0.
+/// A parameter in a workshop unit: `elongation` 0.0012 is "0.12 % longer links"; without a sigma
+/// where it is 0.
 [[nodiscard]] std::string size_in_words(std::string_view parameter, double value, double sigma);
-/// All parameters: "0.31 ± 0.02 mm, phase 41 ± 5 degrees".
+/// A bound's, to two digits.
+[[nodiscard]] std::string bound_in_words(const grid::diagnosis::Bound& bound);
+/// All parameters, parted by commas.
 [[nodiscard]] std::string sizes_in_words(
     const std::vector<grid::diagnosis::ParameterEstimate>& parameters);
 
-/// "the left chain's angle at the sprocket" for angle_left.
-[[nodiscard]] std::string coordinate_in_words(std::string_view coordinate);
 /// What is left over once the causes named are in the model, in a sentence.
 [[nodiscard]] std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over);
 /// What to do, where, and how well.

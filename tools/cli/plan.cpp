@@ -88,7 +88,7 @@ std::string in_words(const grid::MeasurementPlan& plan,
 
 /// The diagnosis is of these points: the same marks in the same order.
 bool is_of(const grid::diagnosis::Diagnosis& found, const grid::MeasuredGrid& measured) {
-  constexpr double kSamePlaceMm = 1e-6;
+  constexpr double kSamePlaceMm = 1e-3;
   return std::equal(found.points.begin(),
                     found.points.end(),
                     measured.points.begin(),
