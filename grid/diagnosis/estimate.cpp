@@ -9,26 +9,22 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// W K W' between these rows and those.
-Eigen::MatrixXd pattern_between(const Session& session,
-                                const Rows& rows,
-                                Pattern pattern,
-                                const std::vector<Eigen::Index>& these,
-                                const std::vector<Eigen::Index>& those) {
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(these.size()),
-                                            static_cast<Eigen::Index>(those.size()));
-  for (std::size_t a = 0; a < these.size(); ++a) {
-    if (these[a] >= session.point_rows()) continue;
-    const auto i = static_cast<std::size_t>(these[a] / 2);
-    for (std::size_t b = 0; b < those.size(); ++b) {
-      if (those[b] >= session.point_rows()) continue;
-      const auto j = static_cast<std::size_t>(those[b] / 2);
-      c(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
+/// W K W' between the kept rows.
+Eigen::MatrixXd pattern_covariance(const Session& session, const Rows& rows, const Space& space,
+                                   Pattern pattern) {
+  const auto n = static_cast<Eigen::Index>(space.kept.size());
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    const Eigen::Index row = space.kept[static_cast<std::size_t>(a)];
+    if (row >= session.point_rows()) continue;
+    const auto i = static_cast<std::size_t>(row / 2);
+    for (Eigen::Index b = 0; b <= a; ++b) {
+      const Eigen::Index other = space.kept[static_cast<std::size_t>(b)];
+      const auto j = static_cast<std::size_t>(other / 2);
+      c(a, b) = c(b, a) =
           pattern.sigma_mm * pattern.sigma_mm *
           pattern_correlation(session.points[i].mark, session.points[j].mark, pattern.length_mm) *
-          rows.points[i]
-              .whitening.row(these[a] % 2)
-              .dot(rows.points[j].whitening.row(those[b] % 2));
+          rows.points[i].whitening.row(row % 2).dot(rows.points[j].whitening.row(other % 2));
     }
   }
   return c;
@@ -92,7 +88,7 @@ Estimate estimate(const Session& session,
   Pattern shape;
   if (pattern >= 0) {
     shape = pattern_of(rows, session, space, pattern);
-    Eigen::MatrixXd c = pattern_between(session, rows, shape, space.kept, space.kept);
+    Eigen::MatrixXd c = pattern_covariance(session, rows, space, shape);
     c.diagonal().array() += 1.0;
     noise.compute(c);
   }
@@ -141,11 +137,15 @@ Estimate estimate(const Session& session,
   const Eigen::VectorXd kept = left(space.kept);
   double quadratic = kept.squaredNorm();
   if (pattern >= 0) {
-    const Eigen::VectorXd weights = noise.solve(kept);
-    quadratic = kept.dot(weights);
-    std::vector<Eigen::Index> all(static_cast<std::size_t>(session.rows()));
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Eigen::Index>(i);
-    result.left_beside_pattern -= pattern_between(session, rows, shape, all, space.kept) * weights;
+    result.pattern = shape;
+    result.pattern_weights = noise.solve(kept);
+    quadratic = kept.dot(result.pattern_weights);
+    for (std::size_t i = 0; i < session.points.size(); ++i) {
+      const auto row = 2 * static_cast<Eigen::Index>(i);
+      result.left_beside_pattern.segment<2>(row) -=
+          rows.points[i].whitening *
+          pattern_at(session, rows, space, result, session.points[i].mark);
+    }
   }
   const Eigen::VectorXd off =
       (result.setting_change - rows.expected_change).cwiseQuotient(rows.sigma);
@@ -159,6 +159,20 @@ Estimate estimate(const Session& session,
         std::sqrt(result.covariance(column, column));
   }
   return result;
+}
+
+Eigen::Vector2d pattern_at(const Session& session, const Rows& rows, const Space& space,
+                           const Estimate& estimate, model::BedPoint mark) {
+  Eigen::Vector2d mm = Eigen::Vector2d::Zero();
+  for (Eigen::Index a = 0; a < estimate.pattern_weights.size(); ++a) {
+    const Eigen::Index row = space.kept[static_cast<std::size_t>(a)];
+    if (row >= session.point_rows()) continue;
+    const auto i = static_cast<std::size_t>(row / 2);
+    mm += estimate.pattern.sigma_mm * estimate.pattern.sigma_mm * estimate.pattern_weights(a) *
+          pattern_correlation(mark, session.points[i].mark, estimate.pattern.length_mm) *
+          rows.points[i].whitening.row(row % 2).transpose();
+  }
+  return mm;
 }
 
 std::vector<Eigen::Vector2d> chain_residuals(const Rows& rows, const Eigen::VectorXd& whitened) {

@@ -20,6 +20,8 @@ struct Estimate {
   double noise_square = 1.0;            ///< s^2
   Eigen::VectorXd left;                 ///< whitened, all rows, the pattern not taken out
   Eigen::VectorXd left_beside_pattern;  ///< the same with the pattern taken out
+  Pattern pattern;
+  Eigen::VectorXd pattern_weights;  ///< per kept row; empty without a pattern
   /// Covariance of setting_change and of the free coefficients, in that order.
   Eigen::MatrixXd covariance;
   std::vector<std::size_t> free;  ///< positions in `directions`
@@ -32,6 +34,13 @@ struct Estimate {
                                 const Space& space,
                                 const std::vector<int>& directions,
                                 int pattern);
+
+/// What the unknown pattern adds to either chain at a mark [mm]; zero where the estimate has none.
+[[nodiscard]] Eigen::Vector2d pattern_at(const Session& session,
+                                         const Rows& rows,
+                                         const Space& space,
+                                         const Estimate& estimate,
+                                         model::BedPoint mark);
 
 /// Residuals at the points in the chains [mm].
 [[nodiscard]] std::vector<Eigen::Vector2d> chain_residuals(const Rows& rows,
