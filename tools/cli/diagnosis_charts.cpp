@@ -363,7 +363,9 @@ std::vector<Hypothesis> leading_hypotheses(const Diagnosis& found) {
 Chart probability_chart(const Diagnosis& found) {
   Chart chart{.specification = "probability_bars",
               .title = "How probable each explanation is",
-              .caption = "Explanations below 0.2 % are left out. Blue: what the verdict names."};
+              .caption =
+                  "Each for itself: causes can act together, so these need not add up to 100 %. "
+                  "Below 0.2 % is left out. Blue: what the verdict names."};
   DataTable table{"hypotheses", {"what", "probability", "text", "is_named"}, {}};
   for (const Hypothesis& hypothesis : leading_hypotheses(found)) {
     std::string what = hypothesis_title(hypothesis);
@@ -391,7 +393,7 @@ Chart gain_chart(const Diagnosis& found) {
       return report::kAfterColor;
     return row == &found.gain->surface_only ? report::kNeutralColor : report::kBeforeColor;
   };
-  for (const GainRow& row : gain_rows(*found.gain)) {
+  for (const GainRow& row : gain_rows(found)) {
     table.rows.push_back({std::string(row.what),
                           row.held_out->rms_mm,
                           row.held_out->low_mm,

@@ -23,7 +23,7 @@ struct Words {
 };
 
 constexpr Words kHypotheses[] = {{"nothing", "nothing hidden"},
-                                 {"unknown", "a pattern that no cause of the catalogue explains"},
+                                 {"unknown", "an unknown pattern"},
                                  {"noise", "noise larger than stated"},
                                  {"bad_points", "bad points alone"}};
 
@@ -41,13 +41,6 @@ std::string spaced(std::string_view id) {
 
 std::string title(std::string_view id, std::string_view side) {
   return side.empty() ? spaced(id) : fmt::format("{}, {}", spaced(id), side);
-}
-
-/// To its first two digits; the unit's factor comes later.
-double two_digits(double value) {
-  if (value == 0.0) return 0.0;
-  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1.0);
-  return step * std::round(value / step);
 }
 
 }  // namespace
@@ -72,7 +65,8 @@ std::string size_in_words(std::string_view parameter, double value, double sigma
 }
 
 std::string bound_in_words(const grid::diagnosis::Bound& bound) {
-  return size_in_words(bound.parameter, two_digits(bound.upper_95), 0.0);
+  if (bound.parameter == "links" && bound.upper_95 == 0.0) return "not one link";
+  return size_in_words(bound.parameter, bound.upper_95, 0.0);
 }
 
 std::string sizes_in_words(const std::vector<ParameterEstimate>& parameters) {
@@ -139,6 +133,14 @@ std::string share_percent(double share) {
   return fmt::format("{:.{}f} %", in_percent, in_percent < 9.95 ? 1 : 0);
 }
 
+std::string typeset(std::string text) {
+  for (std::size_t at = text.find("+-"); at != std::string::npos; at = text.find("+-", at))
+    text.replace(at, 2, "\u00b1");
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
 std::string fixed(double value, int digits) {
   const std::string text = fmt::format("{:.{}f}", value, digits);
   if (text.front() != '-') return text;
@@ -146,23 +148,32 @@ std::string fixed(double value, int digits) {
   return is_zero ? text.substr(1) : "\u2212" + text.substr(1);
 }
 
-std::vector<GainRow> gain_rows(const grid::diagnosis::Gain& gain) {
+std::vector<GainRow> gain_rows(const grid::diagnosis::Diagnosis& diagnosis) {
+  const grid::diagnosis::Gain& gain = *diagnosis.gain;
   std::vector<GainRow> rows = {{"as delivered", &gain.as_delivered, {}}};
   if (gain.placed) rows.push_back({"sheet placed, machine as stated", &*gain.placed, {}});
   rows.push_back({"calibrated", &gain.calibrated, gain.border.calibrated_mm});
-  rows.push_back({"with the cause", &gain.extended, gain.border.extended_mm});
-  rows.push_back({"with the cause and a surface",
-                  &gain.extended_and_surface,
-                  gain.border.extended_and_surface_mm});
+  if (!diagnosis.causes.empty()) {
+    rows.push_back({"with the cause", &gain.extended, gain.border.extended_mm});
+    rows.push_back({"with the cause and a surface",
+                    &gain.extended_and_surface,
+                    gain.border.extended_and_surface_mm});
+  }
   rows.push_back({"a surface only", &gain.surface_only, gain.border.surface_only_mm});
   return rows;
 }
 
-std::vector<GainRow> gain_rows(const grid::diagnosis::Transfer& transfer) {
-  return {{"as delivered", &transfer.as_delivered, {}},
-          {"calibrated", &transfer.calibrated, {}},
-          {"with the cause", &transfer.extended, {}},
-          {"with the cause and a surface", &transfer.extended_and_surface, {}}};
+std::vector<GainRow> transfer_rows(const grid::diagnosis::Diagnosis& diagnosis) {
+  const grid::diagnosis::Transfer& transfer = *diagnosis.transferred;
+  std::vector<GainRow> rows = {{"as delivered", &transfer.as_delivered, {}},
+                               {"calibrated", &transfer.calibrated, {}}};
+  if (!diagnosis.causes.empty()) {
+    rows.push_back({"with the cause", &transfer.extended, {}});
+    rows.push_back({"with the cause and a surface", &transfer.extended_and_surface, {}});
+  } else {
+    rows.push_back({"with a surface", &transfer.extended_and_surface, {}});
+  }
+  return rows;
 }
 
 }  // namespace chaintrue::cli

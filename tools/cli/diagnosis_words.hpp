@@ -21,7 +21,7 @@ namespace chaintrue::cli {
 /// A parameter in a workshop unit: `elongation` 0.0012 is "0.12 % longer links"; without a sigma
 /// where it is 0.
 [[nodiscard]] std::string size_in_words(std::string_view parameter, double value, double sigma);
-/// A bound's, to two digits.
+/// A bound in the same unit.
 [[nodiscard]] std::string bound_in_words(const grid::diagnosis::Bound& bound);
 /// All parameters, parted by commas.
 [[nodiscard]] std::string sizes_in_words(
@@ -36,6 +36,8 @@ namespace chaintrue::cli {
 [[nodiscard]] std::string percent(double probability);
 /// A share or a chance: 100 % and 0 % are possible, "below 0.1 %" where it is neither.
 [[nodiscard]] std::string share_percent(double share);
+/// A sentence with its first letter large and +- as one sign.
+[[nodiscard]] std::string typeset(std::string text);
 /// Fixed digits with a true minus sign, never "-0.00".
 [[nodiscard]] std::string fixed(double value, int digits);
 
@@ -45,9 +47,11 @@ struct GainRow {
   const grid::diagnosis::HeldOut* held_out = nullptr;
   std::optional<double> border_mm;
 };
-/// Rows point into `gain`.
-[[nodiscard]] std::vector<GainRow> gain_rows(const grid::diagnosis::Gain& gain);
-[[nodiscard]] std::vector<GainRow> gain_rows(const grid::diagnosis::Transfer& transfer);
+/// Rows point into the diagnosis. Precondition: it has a gain. Rows of an extension are left out
+/// where nothing was named.
+[[nodiscard]] std::vector<GainRow> gain_rows(const grid::diagnosis::Diagnosis& diagnosis);
+/// The same on the other grid. Precondition: there is one.
+[[nodiscard]] std::vector<GainRow> transfer_rows(const grid::diagnosis::Diagnosis& diagnosis);
 
 /// Everything for the terminal: verdict, advice, causes, gain, follow-up, settings, what is absent
 /// and what could not be tested.
