@@ -142,6 +142,12 @@ Section causes_section(const Diagnosis& found) {
           {std::move(table)}};
 }
 
+Section arrows_section(const Diagnosis& found) {
+  Section section{"What it does to the tool", {}};
+  for (report::ChartRow& row : arrow_charts(found)) section.blocks.emplace_back(std::move(row));
+  return section;
+}
+
 Section signature_section(const Diagnosis& found) {
   Section section{"Why this cause", {}};
   section.blocks.emplace_back(Paragraph{
@@ -378,18 +384,23 @@ report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
   page.title = fmt::format("Diagnosis: {}", found.grid_name);
   page.subtitle = fmt::format("{}, {} points", found.extended_machine.name, found.points.size());
   page.verdict = typeset(found.sentence);
-  page.tone = lights.tone;
-  page.lights = {{lights.found_tone, "Found?", std::string(lights.found)},
-                 {lights.named_tone, "Named?", std::string(lights.named)},
-                 data_light(found),
-                 corrected_light(found)};
+  const bool is_something_left = is_surprising(found.left_over);
+  page.tone = is_something_left && lights.tone == Tone::good ? Tone::caution : lights.tone;
+  page.lights = {
+      {lights.found_tone, "Found?", std::string(lights.found)},
+      {is_something_left ? std::max(lights.named_tone, Tone::caution) : lights.named_tone,
+       "Named?",
+       fmt::format("{}{}",
+                   lights.named,
+                   is_something_left && !found.causes.empty() ? "; not all of it" : "")},
+      data_light(found),
+      corrected_light(found)};
   for (const std::string& line : found.what_to_do) page.advice.push_back(typeset(line));
   page.figures = figures_of(found);
   if (!found.not_proved.empty())
     page.not_proved = "What this does not prove: " + typeset(found.not_proved);
   if (!found.causes.empty()) page.sections.push_back(causes_section(found));
-  if (!found.points.empty())
-    page.sections.push_back({"What it does to the tool", {arrow_charts(found)}});
+  if (!found.points.empty()) page.sections.push_back(arrows_section(found));
   if (!found.points.empty() && !found.causes.empty())
     page.sections.push_back(signature_section(found));
   if (found.gain) page.sections.push_back(gain_section(found));

@@ -78,17 +78,20 @@ std::string sizes_in_words(const std::vector<ParameterEstimate>& parameters) {
   return text;
 }
 
-std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
+bool is_surprising(const grid::diagnosis::LeftOver& left_over) {
   constexpr double kSurprising = 0.01;
-  if (left_over.p_value >= kSurprising) {
+  return left_over.p_value < kSurprising;
+}
+
+std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
+  if (!is_surprising(left_over)) {
     return fmt::format(
         "What is left over looks like noise: noise alone leaves as much in {} of cases.",
         share_percent(left_over.p_value));
   }
   std::string text = fmt::format(
-      "Something is left over that noise does not explain: it is {:.1f} times as large as the "
-      "noise "
-      "allows for, which noise alone would do in {} of cases.",
+      "Something is left over that noise does not explain: its strength is {:.1f} in units of "
+      "noise, and noise alone leaves as much in {} of cases.",
       left_over.delta,
       share_percent(left_over.p_value));
   if (!left_over.follows.empty()) {

@@ -27,6 +27,8 @@ namespace chaintrue::cli {
 [[nodiscard]] std::string sizes_in_words(
     const std::vector<grid::diagnosis::ParameterEstimate>& parameters);
 
+/// Noise alone leaves as much in less than one of a hundred cases.
+[[nodiscard]] bool is_surprising(const grid::diagnosis::LeftOver& left_over);
 /// What is left over once the causes named are in the model, in a sentence.
 [[nodiscard]] std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over);
 /// What to do, where, and how well.
