@@ -25,6 +25,15 @@ DiagnosisFailure unreachable(const Session& session, const model::VisitFailure& 
                       model::explain(failure.reason))};
 }
 
+DiagnosisFailure impossible(const model::MachineProblem& problem) {
+  return {DiagnosisFailure::Reason::contradictory_settings,
+          fmt::format("no machine near the stated one fits these points: calibrating leads to {} = "
+                      "{}. Check the feed, the attachment and the motors' positions, and that the "
+                      "lengths are those of this machine",
+                      problem.parameter,
+                      problem.value)};
+}
+
 /// Settings moved to where the points put them, no effect at work.
 tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const Steps& steps) {
   State state = stated_state(session);
@@ -39,6 +48,8 @@ tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const St
     const Space space = make_space(*rows, bad, projected);
     const Eigen::VectorXd change = estimate(session, *rows, space, {}, -1).setting_change;
     state = with_settings(session, state, rows->setting + change);
+    const auto problems = model::problems_of(state.machine);
+    if (!problems.empty()) return tl::unexpected(impossible(problems.front()));
     if (change.cwiseAbs().maxCoeff() < kSettled_mm) break;
   }
   return state;
@@ -112,6 +123,48 @@ bool has_continuous_place(const Direction& direction) {
   return parameters.size() > 1 && !parameters.back().integer;
 }
 
+/// Strength below which no point plan names a cause: what cannot get there is left out of the contest,
+/// where it would only take probability from the others.
+constexpr double kLeastReach = 4.0;
+
+/// Takes effects out that could not show at any size that they may have.
+void drop_invisible(const Session& session, const Steps& steps, Analysis& a) {
+  const Space space =
+      make_space(a.rows, std::vector<bool>(session.points.size(), false), steps);
+  const auto reach = [&](const CauseId& cause) {
+    double most = 0.0;
+    for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
+      const Direction& d = a.rows.directions[k];
+      if (!(d.cause == cause)) continue;
+      const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
+      most = std::max(most, size * space.g.col(static_cast<Eigen::Index>(k)).norm());
+    }
+    return most;
+  };
+  std::vector<CauseId> visible;
+  for (const CauseId& cause : a.candidates.testable) {
+    if (reach(cause) >= kLeastReach) {
+      visible.push_back(cause);
+    } else {
+      a.candidates.not_testable.push_back(
+          {cause, "at any size that it may have, calibrating the settings would hide it"});
+    }
+  }
+  const auto is_visible = [&](const Direction& d) {
+    return std::find(visible.begin(), visible.end(), d.cause) != visible.end();
+  };
+  std::vector<Eigen::Index> kept;
+  std::vector<Direction> directions;
+  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
+    if (!is_visible(a.rows.directions[k])) continue;
+    kept.push_back(static_cast<Eigen::Index>(k));
+    directions.push_back(a.rows.directions[k]);
+  }
+  a.rows.g = a.rows.g(Eigen::all, kept).eval();
+  a.rows.directions = std::move(directions);
+  a.candidates.testable = std::move(visible);
+}
+
 /// Sizes and places found, for secants that are exact there.
 std::vector<Refinement> refinements(const Session& session, const Analysis& a) {
   std::vector<Refinement> result;
@@ -170,6 +223,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     if (!rows) return tl::unexpected(unreachable(session, rows.error()));
     a.rows = std::move(*rows);
     add_directions(session, a.state, a.candidates.testable, known, a.rows);
+    if (pass == 0) drop_invisible(session, options.steps, a);
     contest_and_judge(session, contest, true, a);
     if (pass + 1 == kPasses || a.judgement.directions.empty()) break;
     known = refinements(session, a);

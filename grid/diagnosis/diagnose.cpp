@@ -7,6 +7,7 @@
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/gain.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
+#include "grid/diagnosis/slips.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -34,6 +35,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
                                                    const DiagnosisOptions& options) {
   const auto session = make_session(grid);
   if (!session) return tl::unexpected(session.error());
+  if (const auto slip = suspected_slip(*session)) return tl::unexpected(*slip);
   const auto analysis = analyse(*session, options);
   if (!analysis) return tl::unexpected(analysis.error());
   Diagnosis d;
@@ -54,7 +56,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
   if (options.gain) d.gain = measure_gain(*session, *analysis, options);
   extend(*session, *analysis, d);
   if (options.next_measurements) d.next_measurements = next_measurements(*session, *analysis);
-  put_into_words(*session, *analysis, d);
+  put_into_words(*session, d);
   return d;
 }
 

@@ -10,7 +10,9 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 /// W K W' between the kept rows.
-Eigen::MatrixXd pattern_covariance(const Session& session, const Rows& rows, const Space& space,
+Eigen::MatrixXd pattern_covariance(const Session& session,
+                                   const Rows& rows,
+                                   const Space& space,
                                    Pattern pattern) {
   const auto n = static_cast<Eigen::Index>(space.kept.size());
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
@@ -161,8 +163,11 @@ Estimate estimate(const Session& session,
   return result;
 }
 
-Eigen::Vector2d pattern_at(const Session& session, const Rows& rows, const Space& space,
-                           const Estimate& estimate, model::BedPoint mark) {
+Eigen::Vector2d pattern_at(const Session& session,
+                           const Rows& rows,
+                           const Space& space,
+                           const Estimate& estimate,
+                           model::BedPoint mark) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
   for (Eigen::Index a = 0; a < estimate.pattern_weights.size(); ++a) {
     const Eigen::Index row = space.kept[static_cast<std::size_t>(a)];

@@ -33,6 +33,6 @@ namespace chaintrue::grid::diagnosis {
 void extend(const Session& session, const Analysis& analysis, Diagnosis& diagnosis);
 
 /// verdict, sentence, what_to_do, not_proved and notes from everything else.
-void put_into_words(const Session& session, const Analysis& analysis, Diagnosis& diagnosis);
+void put_into_words(const Session& session, Diagnosis& diagnosis);
 
 }  // namespace chaintrue::grid::diagnosis

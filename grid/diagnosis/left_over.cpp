@@ -15,6 +15,8 @@ constexpr int kDraws = 999;
 constexpr int kDegree = 4;
 /// Share of what is left that a coordinate must explain, beyond what its terms take by chance.
 constexpr double kFollowsShare = 0.2;
+/// Of what no place explains, so much must follow the visits before they are named.
+constexpr double kTimeOverPlace = 0.3;
 
 /// e'K e / e'e against draws of noise: is there more in common between neighbours than chance has?
 double p_of_structure(const Session& session,
@@ -126,7 +128,11 @@ LeftOver left_over(const Session& session, const Analysis& a, std::uint64_t seed
   for (const Coordinate& coordinate : kCoordinates) {
     if (coordinate.name == std::string_view("order") && !session.ordered) continue;
     const double share = share_along(session, a.rows, space.bad, chain, coordinate);
-    if (share > result.share) {
+    // Where the bed was visited in order, time and place run together: place is the simpler guess.
+    const double needed = coordinate.name == std::string_view("order")
+                              ? result.share + kTimeOverPlace * (1.0 - result.share)
+                              : result.share;
+    if (share > needed) {
       result.share = share;
       result.follows = coordinate.name;
     }

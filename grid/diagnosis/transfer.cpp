@@ -37,7 +37,8 @@ class Placed {
         size.push_back(result.segment<2>(2 * static_cast<Eigen::Index>(i)).norm());
       }
       std::vector<double> sorted = size;
-      std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(size.size() / 2),
+      std::nth_element(sorted.begin(),
+                       sorted.begin() + static_cast<std::ptrdiff_t>(size.size() / 2),
                        sorted.end());
       // The median length of two standard normals is 1.18.
       const double s = std::max(1.0, sorted[size.size() / 2] / 1.18);
@@ -57,8 +58,11 @@ class Placed {
 };
 
 /// What a model of the first session leaves of the second, its sheet not yet placed.
-Eigen::VectorXd left_of(const Session& from, const Analysis& a, const Estimate& model,
-                        const Session& to, const Rows& rows) {
+Eigen::VectorXd left_of(const Session& from,
+                        const Analysis& a,
+                        const Estimate& model,
+                        const Session& to,
+                        const Rows& rows) {
   const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
   const Space& space = a.contest.spaces[a.judgement.space];
   Eigen::VectorXd left =
@@ -92,11 +96,14 @@ std::vector<std::size_t> block_numbers(const Session& session) {
   return number;
 }
 
-HeldOut summary(const Session& to, const Rows& rows, const Eigen::VectorXd& left,
+HeldOut summary(const Session& to,
+                const Rows& rows,
+                const Eigen::VectorXd& left,
                 std::uint64_t seed) {
   const auto chain = chain_residuals(rows, left);
   std::vector<Eigen::Vector2d> tool;
-  for (std::size_t i = 0; i < chain.size(); ++i) tool.push_back(tool_shift(rows.points[i], chain[i]));
+  for (std::size_t i = 0; i < chain.size(); ++i)
+    tool.push_back(tool_shift(rows.points[i], chain[i]));
   return summarise(tool, block_numbers(to), seed);
 }
 
@@ -120,8 +127,8 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   // The second grid is seen by the first one's machine, whatever its file says.
   MeasuredGrid other = to;
   other.machine = from.machine;
-  if (!other.noise) other.noise = StatedNoise{first->noise.length_mm, first->noise.position_mm,
-                                              first->noise_dof};
+  if (!other.noise)
+    other.noise = StatedNoise{first->noise.length_mm, first->noise.position_mm, first->noise_dof};
   other.readings.clear();
   auto second = make_session(other);
   if (!second) return tl::unexpected(second.error());

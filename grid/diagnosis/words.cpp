@@ -239,50 +239,9 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
   return text;
 }
 
-/// Residuals this large are no effect but a slip: columns exchanged, an axis turned round, inches.
-void suspect_slips(const Session& session, const Analysis& a, Diagnosis& d) {
-  constexpr double kSlip_mm = 50.0;
-  constexpr double kMends = 0.2;
-  const auto stated = base_rows(session, stated_state(session), {});
-  if (!stated) return;
-  const model::ReadingModel model(session.stated);
-  struct Trial {
-    const char* words;
-    double sum;
-  };
-  double plain = 0.0;
-  Trial trials[] = {{"The two chains' columns look exchanged.", 0.0},
-                    {"The x axis looks turned round: positive x is to the right.", 0.0},
-                    {"The lengths look like inches.", 0.0}};
-  for (const SessionPoint& p : session.points) {
-    const auto there = model.at(p.mark);
-    const auto mirrored = model.at({-p.mark.x_mm, p.mark.y_mm});
-    if (!there || !mirrored) return;
-    const auto square = [](const model::ChainLengths& x, double l, double r) {
-      return std::pow(x.left_mm - l, 2) + std::pow(x.right_mm - r, 2);
-    };
-    plain += square(there->lengths, p.lengths.left_mm, p.lengths.right_mm);
-    trials[0].sum += square(there->lengths, p.lengths.right_mm, p.lengths.left_mm);
-    trials[1].sum += square(mirrored->lengths, p.lengths.left_mm, p.lengths.right_mm);
-    trials[2].sum += square(there->lengths, 25.4 * p.lengths.left_mm, 25.4 * p.lengths.right_mm);
-  }
-  if (plain < kSlip_mm * kSlip_mm * static_cast<double>(session.points.size())) return;
-  for (const Trial& trial : trials) {
-    if (trial.sum < kMends * kMends * plain) d.notes.emplace_back(trial.words);
-  }
-  if (d.notes.empty()) {
-    d.notes.push_back(fmt::format(
-        "The points are {:.0f} mm off what the stated machine says: check feed, attachment and "
-        "motor positions before believing any cause.",
-        std::sqrt(plain / static_cast<double>(session.points.size()))));
-  }
-  static_cast<void>(a);
-}
-
 }  // namespace
 
-void put_into_words(const Session& session, const Analysis& a, Diagnosis& d) {
-  suspect_slips(session, a, d);
+void put_into_words(const Session& session, Diagnosis& d) {
   if (session.noise_from_repeats) {
     d.notes.push_back(fmt::format(
         "No noise was stated: {:.2f} mm in length and {:.2f} mm in position come from the repeats.",

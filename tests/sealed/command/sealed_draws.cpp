@@ -13,7 +13,6 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
-#include <mutex>
 #include <thread>
 
 #include "sealed/judge/table.hpp"
@@ -77,20 +76,21 @@ TrialOptions options_of(const Arguments& arguments) {
 std::vector<Trial> run_all(const Arguments& arguments, const TrialOptions& options) {
   std::vector<Trial> trials(static_cast<std::size_t>(arguments.sets));
   std::atomic<int> next{0};
-  std::mutex mutex;
-  std::exception_ptr trouble;
   const auto work = [&] {
     for (int i = next++; i < arguments.sets; i = next++) {
       TrialOptions own = options;
       own.recipe.points = points_of(arguments, i);
+      const auto seed = arguments.first_seed + static_cast<std::uint64_t>(i);
+      Trial& trial = trials[static_cast<std::size_t>(i)];
       try {
-        trials[static_cast<std::size_t>(i)] =
-            chaintrue::sealed::run_trial(own, arguments.first_seed + static_cast<std::uint64_t>(i));
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        trouble = std::current_exception();
-        next = arguments.sets;
+        trial = chaintrue::sealed::run_trial(own, seed);
+      } catch (const std::exception& trouble) {
+        trial.seed = seed;
+        trial.points = own.recipe.points;
+        trial.failed = true;
+        trial.failure = trouble.what();
       }
+      if (trial.failed) fmt::print(stderr, "\nseed {}: {}\n", seed, trial.failure);
       if (i % 50 == 49) fmt::print(stderr, "\r{} of {}", i + 1, arguments.sets);
     }
   };
@@ -98,7 +98,6 @@ std::vector<Trial> run_all(const Arguments& arguments, const TrialOptions& optio
   for (int k = 0; k < arguments.jobs; ++k) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
   fmt::print(stderr, "\n");
-  if (trouble) std::rethrow_exception(trouble);
   return trials;
 }
 
