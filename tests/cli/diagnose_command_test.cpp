@@ -185,7 +185,7 @@ TEST_F(DiagnoseCommand, RefusesAnOrderOfMarksThatStandInNoLines) {
   write("plain.json", grid::files::write_grid(grid));
   const Outcome told = run("diagnose plain.json --assume-order serpentine_columns");
   EXPECT_EQ(told.code, 3);
-  EXPECT_THAT(told.err, HasSubstr("expected marks that stand in columns"));
+  EXPECT_THAT(told.err, HasSubstr("expected marks that stand in columns; these do not"));
 }
 
 TEST_F(DiagnoseCommand, BadInputExitsWithThreeAndWritesNothing) {
@@ -248,7 +248,7 @@ TEST_F(PlanAfter, ListsWhatToMeasureAndTheLinesToAdd) {
   ASSERT_EQ(told.code, 0) << told.err;
   EXPECT_EQ(told.out,
             "\"points\": add, each null filled in\n"
-            "  {\"x_mm\": -1098.6, \"y_mm\": -499.9, \"left_mm\": null, \"right_mm\": null, "
+            "  {\"x_mm\": -1099.2, \"y_mm\": -499.5, \"left_mm\": null, \"right_mm\": null, "
             "\"order\": 28},\n"
             "  {\"x_mm\": 1150.0, \"y_mm\": 540.0, \"left_mm\": null, \"right_mm\": null, "
             "\"order\": 29},\n"
@@ -268,7 +268,7 @@ TEST_F(PlanAfter, SpeaksCsvToACsv) {
   // The CSV holds six decimals of the marks: the same points still.
   const Outcome told = run("plan grid.csv --after d.json");
   EXPECT_EQ(told.code, 0) << told.err;
-  EXPECT_EQ(told.out, "x_mm,y_mm,left_mm,right_mm\n-1098.6,-499.9,,\n1150.0,540.0,,\n");
+  EXPECT_EQ(told.out, "x_mm,y_mm,left_mm,right_mm\n-1099.2,-499.5,,\n1150.0,540.0,,\n");
   EXPECT_THAT(told.err, HasSubstr("A CSV holds no readings"));
 }
 

@@ -91,8 +91,9 @@ TEST_F(DiagnosisPage, DrawsEveryChartAndLogsNothing) {
   if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
   const Visit visited = visit(page_of(sample_diagnosis()));
   EXPECT_THAT(problems_of(visited), IsEmpty());
-  EXPECT_EQ(count_marks(visited, "bed_arrows", "point_marks"), 2 * kSamplePoints);
-  EXPECT_EQ(count_marks(visited, "bed_arrows", "noise_ellipses"), 2 * kSamplePoints);
+  // Before, after, and after under the magnifying glass.
+  EXPECT_EQ(count_marks(visited, "bed_arrows", "point_marks"), 3 * kSamplePoints);
+  EXPECT_EQ(count_marks(visited, "bed_arrows", "noise_ellipses"), 3 * kSamplePoints);
   // Two chains, four panels each.
   EXPECT_EQ(count_marks(visited, "residual_strip", "point_marks"), 8 * kSamplePoints);
   // Length, folded and angle before and after for two chains; the visits once for each.

@@ -151,7 +151,7 @@ std::string diagnosis_in_words(const Diagnosis& found) {
   text.line("{}", found.sentence);
   if (!found.what_to_do.empty()) {
     text.heading("What to do now");
-    for (const std::string& line : found.what_to_do) text.line("  - {}", typeset(line));
+    for (const std::string& line : found.what_to_do) text.line("  - {}", capitalised(line));
   }
   if (!found.not_proved.empty()) text.line("\nWhat this does not prove: {}", found.not_proved);
   for (const std::string& note : found.notes) text.line("Note: {}", note);

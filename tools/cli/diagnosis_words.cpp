@@ -136,12 +136,17 @@ std::string share_percent(double share) {
   return fmt::format("{:.{}f} %", in_percent, in_percent < 9.95 ? 1 : 0);
 }
 
-std::string typeset(std::string text) {
-  for (std::size_t at = text.find("+-"); at != std::string::npos; at = text.find("+-", at))
-    text.replace(at, 2, "\u00b1");
+std::string capitalised(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
     text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
+}
+
+std::string typeset(std::string text) {
+  constexpr std::string_view kTyped = " +- ", kSet = "\u00a0\u00b1\u00a0";
+  for (std::size_t at = text.find(kTyped); at != std::string::npos; at = text.find(kTyped, at))
+    text.replace(at, kTyped.size(), kSet);
+  return capitalised(std::move(text));
 }
 
 std::string fixed(double value, int digits) {

@@ -38,7 +38,8 @@ namespace chaintrue::cli {
 [[nodiscard]] std::string percent(double probability);
 /// A share or a chance: 100 % and 0 % are possible, "below 0.1 %" where it is neither.
 [[nodiscard]] std::string share_percent(double share);
-/// A sentence with its first letter large and +- as one sign.
+[[nodiscard]] std::string capitalised(std::string text);
+/// For the page: the first letter large, +- as one sign that no line is broken at.
 [[nodiscard]] std::string typeset(std::string text);
 /// Fixed digits with a true minus sign, never "-0.00".
 [[nodiscard]] std::string fixed(double value, int digits);
