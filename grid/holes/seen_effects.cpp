@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/holes/seen_effects.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "model/calibration/setting.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+/// cos 5 degrees: patterns nearer than this take hundreds of readings to tell apart.
+constexpr double kAlike = 0.9962;
+
+struct Pattern {
+  SeenEffect seen;
+  Eigen::VectorXd white;
+};
+
+bool is_seen_by_distances(const model::effects::Effect& effect) {
+  return effect.station != model::effects::Station::paper &&
+         !model::effects::depends_on_visit(effect);
+}
+
+}  // namespace
+
+std::vector<SeenEffect> seen_effects(const MeasuredHoles& set) {
+  if (!set.machine) throw std::invalid_argument("effects on distances need a machine");
+  const auto distances = HoleDistances::of(set);
+  if (!distances) return {};
+  const std::vector<model::Setting> settings(model::kMachineSettings.begin(),
+                                             model::kMachineSettings.end());
+  const auto stated = distances->linearise(model::ReadingModel(*set.machine), {}, settings);
+  if (!stated) return {};
+  const auto count = static_cast<Eigen::Index>(settings.size());
+  const Eigen::MatrixXd prior = stated_prior(*set.machine).covariance.topLeftCorner(count, count);
+  const Eigen::MatrixXd k = stated->covariance + stated->setting_jacobian * prior *
+                                                     stated->setting_jacobian.transpose();
+  const Eigen::LLT<Eigen::MatrixXd> factor(k);
+  std::vector<Pattern> patterns;
+  for (const model::effects::Effect* effect : model::effects::catalogue()) {
+    if (!is_seen_by_distances(*effect)) continue;
+    for (const model::effects::EffectSide side : effect->sides) {
+      model::Machine machine = *set.machine;
+      machine.effects.push_back(
+          model::effects::applied(*effect, side, model::effects::nominal_values(*effect)));
+      if (!model::effects::problems_of_effects(machine).empty()) continue;
+      const auto with = distances->linearise(model::ReadingModel(machine), {}, {});
+      if (!with) continue;
+      Pattern pattern;
+      pattern.seen.effect = effect->id;
+      pattern.seen.side = model::effects::name(side);
+      pattern.white = factor.matrixL().solve(stated->residual - with->residual);
+      pattern.seen.sigmas = pattern.white.norm();
+      patterns.push_back(std::move(pattern));
+    }
+  }
+  std::stable_sort(patterns.begin(), patterns.end(), [](const Pattern& a, const Pattern& b) {
+    return a.seen.sigmas > b.seen.sigmas;
+  });
+  std::vector<SeenEffect> seen;
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    for (std::size_t j = 0; j < patterns.size(); ++j) {
+      if (i == j) continue;
+      const double together = patterns[i].seen.sigmas * patterns[j].seen.sigmas;
+      if (together > 0.0 && std::abs(patterns[i].white.dot(patterns[j].white)) > kAlike * together)
+        patterns[i].seen.same_as.push_back(j);
+    }
+    seen.push_back(patterns[i].seen);
+  }
+  return seen;
+}
+
+}  // namespace chaintrue::grid
