@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <vector>
 
 namespace chaintrue::cli {
 namespace {
@@ -37,6 +38,14 @@ std::string distances_in_words(const grid::MeasuredHoles& set, const grid::Holes
                    distance.sigmas(),
                    distance.set_aside ? "  set aside" : "");
   }
+  const Eigen::MatrixXd& covariance = fit.posterior.covariance;
+  fmt::format_to(std::back_inserter(text),
+                 "Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % (readings over "
+                 "the model's lengths).\n",
+                 100.0 * fit.posterior.mean[6],
+                 100.0 * std::sqrt(covariance(6, 6)),
+                 100.0 * fit.posterior.mean[7],
+                 100.0 * std::sqrt(covariance(7, 7)));
   text += "Left out: measured less what a fit without this reading makes of it, mm.\n";
   return text;
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue plan: where to measure, as a list for the workshop, and how good the map will be.
+/// chaintrue plan: where to measure, as a list for the workshop, and how good the map will be; and
+/// after a diagnosis, what to measure next.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <memory>
@@ -11,14 +13,15 @@
 #include <string>
 #include <utility>
 
+#include "grid/files/diagnosis_file.hpp"
+#include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/holes/holes_plan.hpp"
 #include "grid/map/measurement_plan.hpp"
 #include "tools/cli/effect_argument.hpp"
-#include "tools/cli/holes_drawing.hpp"
-#include "tools/cli/holes_words.hpp"
+#include "tools/cli/follow_up.hpp"
 #include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/plan_holes.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -27,15 +30,12 @@ namespace {
 namespace files = grid::files;
 
 struct PlanOptions {
+  std::string grid;
+  std::string after;
   std::string machine;
   grid::PlanRequest request;
-  /// 0: points are planned.
-  int holes = 0;
-  grid::HolesPlanRequest hole_request;
+  HolesPlanOptions holes;
   std::optional<double> margin_mm;
-  double depth_mm = 3.0;
-  double clearance_mm = 5.0;
-  std::string gcode;
   std::string output = "-";
   std::string drawing;
 };
@@ -91,49 +91,72 @@ std::string in_words(const grid::MeasurementPlan& plan,
   return text;
 }
 
-void check_hole_options(const PlanOptions& options, const model::Bed& bed) {
-  OptionProblems problems;
-  const grid::HolesPlanRequest& request = options.hole_request;
-  problems.require("--holes", request.holes, grid::kFewestPlannedHoles, grid::kMostPlannedHoles);
-  if (request.distances != 0) {
-    problems.require("--distances",
-                     request.distances,
-                     static_cast<double>(grid::kFewestHoleDistances),
-                     request.holes * (request.holes - 1) / 2);
-  }
-  problems.require("--tape-sigma-mm", request.tape_sigma_mm, 0.001, 100.0);
-  problems.require("--hole-sigma-mm", request.hole_sigma_mm, 0.0, 100.0);
-  problems.require("--tape-length-mm", request.longest_mm, 500.0, 100000.0);
-  problems.require("--depth-mm", options.depth_mm, 0.1, 100.0);
-  problems.require("--clearance-mm", options.clearance_mm, 0.1, 100.0);
-  const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
-  problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 200.0));
-  problems.throw_if_any();
+/// The diagnosis is of these points: the same marks in the same order.
+bool is_of(const grid::diagnosis::Diagnosis& found, const grid::MeasuredGrid& measured) {
+  constexpr double kSamePlaceMm = 1e-6;
+  return std::equal(found.points.begin(),
+                    found.points.end(),
+                    measured.points.begin(),
+                    measured.points.end(),
+                    [](const auto& pictured, const grid::MeasuredPoint& point) {
+                      return std::abs(pictured.mark.x_mm - point.mark.x_mm) < kSamePlaceMm &&
+                             std::abs(pictured.mark.y_mm - point.mark.y_mm) < kSamePlaceMm;
+                    });
 }
 
-int plan_the_holes(PlanOptions options, const model::Machine& machine) {
-  options.hole_request.holes = options.holes;
-  options.hole_request.margin_mm = options.margin_mm.value_or(options.hole_request.margin_mm);
-  check_hole_options(options, machine.bed);
-  const auto plan = grid::plan_holes(machine, options.hole_request);
-  if (!plan) {
-    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence);
-    return kNotSupportedOrOutside;
+std::string draw_next(const grid::diagnosis::Diagnosis& found, const grid::MeasuredGrid& measured) {
+  FollowUpDrawing drawing;
+  for (const auto& point : measured.points) drawing.measured.push_back(point.mark);
+  int number = 0;
+  for (const auto& next : found.next_measurements) {
+    ++number;
+    if (next.mark) drawing.next.push_back({number, *next.mark});
   }
-  if (!options.drawing.empty()) files::write_whole_file(options.drawing, draw_holes_plan(*plan));
-  if (!options.gcode.empty()) {
-    files::write_whole_file(options.gcode,
-                            holes_gcode(*plan, options.depth_mm, options.clearance_mm));
+  return draw_follow_up(drawing, found.extended_machine.bed);
+}
+
+int run_follow_up(const PlanOptions& options) {
+  const std::string text = files::read_whole_file(options.grid);
+  const std::string file = files::name_in_messages(options.grid);
+  files::GridOptions grid_options;
+  if (!options.machine.empty()) grid_options.machine = files::read_machine(options.machine);
+  const grid::MeasuredGrid measured = files::parse_grid(text, file, grid_options).grid;
+  const grid::diagnosis::Diagnosis found = files::read_diagnosis(options.after);
+  if (!is_of(found, measured)) {
+    fmt::print(stderr,
+               "{} was made from other points than those of {}: diagnose these first.\n",
+               options.after,
+               file);
+    return kBadInput;
   }
-  files::write_whole_file(options.output, workshop_list(*plan));
-  fmt::print(stderr, "{}", plan_in_words(*plan, options.hole_request));
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  const bool is_json = begin != std::string::npos && text[begin] == '{';
+  std::vector<files::OutputFile> outputs;
+  if (!options.drawing.empty()) outputs.push_back({options.drawing, draw_next(found, measured)});
+  outputs.push_back(
+      {options.output, is_json ? follow_up_json(found, measured) : follow_up_csv(found, measured)});
+  files::write_whole_files(outputs);
+  fmt::print(stderr, "{}", follow_up_list(found));
+  const bool has_readings = std::any_of(found.next_measurements.begin(),
+                                        found.next_measurements.end(),
+                                        [](const auto& next) { return !next.mark.has_value(); });
+  if (!is_json && has_readings) {
+    fmt::print(stderr,
+               "A CSV holds no readings: make the grid a chaintrue_grid (JSON), which has a list "
+               "of them.\n");
+  }
   return kDone;
 }
 
 int run_plan(PlanOptions options) {
+  if (!options.after.empty()) return run_follow_up(options);
   const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
   for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
-  if (options.holes != 0) return plan_the_holes(std::move(options), read.machine);
+  if (options.holes.request.holes != 0) {
+    options.holes.request.margin_mm =
+        options.margin_mm.value_or(grid::HolesPlanRequest{}.margin_mm);
+    return plan_the_holes(options.holes, read.machine, options.output, options.drawing);
+  }
   options.request.margin_mm = options.margin_mm.value_or(options.request.margin_mm);
   check_options(options, read.machine.bed);
   const auto plan = grid::plan_measurement(read.machine, options.request);
@@ -152,42 +175,20 @@ int run_plan(PlanOptions options) {
 
 }  // namespace
 
-namespace {
-
-void add_hole_options(CLI::App& verb, PlanOptions& options, CLI::Option* points) {
-  verb.add_option("--holes",
-                  options.holes,
-                  fmt::format("Plan holes and tape distances instead: how many holes, {} to {}",
-                              grid::kFewestPlannedHoles,
-                              grid::kMostPlannedHoles))
-      ->excludes(points);
-  verb.add_option("--distances",
-                  options.hole_request.distances,
-                  "Of --holes: how many to measure; twice the holes and two more where unsaid");
-  verb.add_option("--tape-sigma-mm",
-                  options.hole_request.tape_sigma_mm,
-                  "Of --holes: one sigma of a tape reading")
-      ->capture_default_str();
-  verb.add_option("--hole-sigma-mm",
-                  options.hole_request.hole_sigma_mm,
-                  "Of --holes: one sigma of a hole beside where its chains put it, on each axis")
-      ->capture_default_str();
-  verb.add_option("--tape-length-mm", options.hole_request.longest_mm, "Of --holes: the tape's")
-      ->capture_default_str();
-  verb.add_option("--gcode", options.gcode, "Of --holes: write a program that drills them");
-  verb.add_option("--depth-mm", options.depth_mm, "Of --gcode: how deep")->capture_default_str();
-  verb.add_option("--clearance-mm", options.clearance_mm, "Of --gcode: how high between holes")
-      ->capture_default_str();
-}
-
-}  // namespace
-
 void add_plan(CLI::App& app, Run& run) {
   auto options = std::make_shared<PlanOptions>();
   CLI::App* verb = app.add_subcommand(
       "plan", "Where to measure: a list for the workshop, and how good the map will be");
-  verb->add_option("--machine", options->machine, "chaintrue_machine file; - is standard input")
-      ->required();
+  verb->add_option("--machine",
+                   options->machine,
+                   "chaintrue_machine file; - is standard input. With --after only where the grid "
+                   "names none");
+  auto* grid = verb->add_option("grid", options->grid, "With --after: the points measured so far");
+  verb->add_option("--after",
+                   options->after,
+                   "A chaintrue_diagnosis of them: what to measure next, and the lines to add to "
+                   "the grid's file")
+      ->needs(grid);
   auto* points =
       verb->add_option("--points",
                        options->request.points,
@@ -196,7 +197,7 @@ void add_plan(CLI::App& app, Run& run) {
   verb->add_option("--margin-mm",
                    options->margin_mm,
                    "From the bed's edge to the outermost marks; 10 for points, 50 for holes");
-  add_hole_options(*verb, *options, points);
+  add_plan_holes_options(*verb, options->holes, points);
   verb->add_option("--length-noise-mm",
                    options->request.noise.length_mm,
                    "Noise of a chain length, one sigma")
@@ -216,12 +217,18 @@ void add_plan(CLI::App& app, Run& run) {
       "chaintrue simulate --marks takes it. The expected error is told on standard error.\n"
       "With --holes the list is a holes file: write the tape's readings into it and hand it to\n"
       "chaintrue fit with --machine.\n\n"
-      "Example:\n"
+      "Examples:\n"
       "  build/chaintrue plan --machine fixtures/machines/classic.json --points 28 -o plan.csv "
       "--svg plan.svg\n"
+      "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
+      "  build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json\n"
       "  build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 "
       "--tape-sigma-mm 0.5 -o holes.csv --gcode holes.nc --svg holes.svg");
-  verb->callback([options, &run] { run = [options] { return run_plan(*options); }; });
+  verb->callback([options, &run] {
+    if (options->after.empty() && !options->grid.empty()) throw CLI::RequiredError("--after");
+    if (options->after.empty() && options->machine.empty()) throw CLI::RequiredError("--machine");
+    run = [options] { return run_plan(*options); };
+  });
 }
 
 }  // namespace chaintrue::cli
