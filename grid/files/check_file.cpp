@@ -37,9 +37,8 @@ std::string write_check(const MapCheck& check) {
   json["decided"] = check.decided;
   json["sentence"] = check.sentence;
   json["not_told_apart"] = check.not_told_apart;
-  for (const CheckVerdict verdict : {CheckVerdict::valid,
-                                     CheckVerdict::valid_after_rezeroing,
-                                     CheckVerdict::measure_again}) {
+  for (const CheckVerdict verdict :
+       {CheckVerdict::valid, CheckVerdict::valid_after_rezeroing, CheckVerdict::measure_again}) {
     json["probability"][std::string(name(verdict))] =
         check.probability[static_cast<std::size_t>(verdict)];
   }

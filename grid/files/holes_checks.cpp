@@ -74,7 +74,8 @@ bool check_inches(const MeasuredHoles& set, const HolesPlaces& places, Problems&
                  "(multiply the holes by 25.4)");
     return true;
   }
-  constexpr double kFarthestInInches = 70.0;  // half a 12-foot bed's width; in mm no set is so small
+  constexpr double kFarthestInInches =
+      70.0;  // half a 12-foot bed's width; in mm no set is so small
   if (set.holes.size() >= 3 && farthest_mm < kFarthestInInches) {
     problems.add(places.holes,
                  fmt::format("holes within {:.4g} of the middle", farthest_mm),
@@ -101,9 +102,7 @@ void check_apart(const MeasuredHoles& set, const HolesPlaces& places, Problems& 
 
 using Pair = std::pair<std::size_t, std::size_t>;
 
-Pair pair_of(const HoleDistance& distance) {
-  return std::minmax(distance.from, distance.to);
-}
+Pair pair_of(const HoleDistance& distance) { return std::minmax(distance.from, distance.to); }
 
 /// Each triangle whose three sides were measured: the longest is no longer than the others
 /// together, but for the tape's error.
@@ -191,10 +190,11 @@ void check_enough(const MeasuredHoles& set,
   const bool holes_suffice =
       set.holes.size() >= 2 && 2 * set.holes.size() - 3 >= fewest && !more.empty();
   expected += holes_suffice ? fmt::format("; {} missing, measure {}", lacking, more)
-                            : fmt::format("; cut at least {} holes, of which {} distances are "
-                                          "independent",
-                                          (fewest + 4) / 2,
-                                          2 * ((fewest + 4) / 2) - 3);
+                            : fmt::format(
+                                  "; cut at least {} holes, of which {} distances are "
+                                  "independent",
+                                  (fewest + 4) / 2,
+                                  2 * ((fewest + 4) / 2) - 3);
   problems.add(places.distances,
                fmt::format("{} independent distance{}", independent, independent == 1 ? "" : "s"),
                expected);

@@ -133,8 +133,7 @@ const Record<StatedHoles>& holes_record() {
           .optional("machine", &StatedHoles::machine, object(machine_record()))
           .sparse("machine_file", &StatedHoles::machine_file, text())
           .optional("tape", &StatedHoles::tape, object(tape_record()))
-          .optional(
-              "hole_sigma_mm", &StatedHoles::hole_sigma_mm, number({"mm", 0.0, 100.0}))
+          .optional("hole_sigma_mm", &StatedHoles::hole_sigma_mm, number({"mm", 0.0, 100.0}))
           .optional("noise_dof", &StatedHoles::noise_dof, number({"", 1.0, 1e9}))
           .optional("sheet", &StatedHoles::sheet, object(sheet_record()))
           .custom(
@@ -213,14 +212,13 @@ ReadHoles parse_json_holes(const std::string& text,
   const Json json = parse_json(text, problems);
   auto stated = holes_record().read(Cursor(json, problems), true);
   if (!stated) problems.throw_if_any();
-  const HolesPlaces places{
-      "/holes",
-      "/distances",
-      [](std::size_t index) { return fmt::format("/holes/{}", index); },
-      [](std::size_t index, std::string_view field) {
-        return field.empty() ? fmt::format("/distances/{}", index)
-                             : fmt::format("/distances/{}/{}", index, field);
-      }};
+  const HolesPlaces places{"/holes",
+                           "/distances",
+                           [](std::size_t index) { return fmt::format("/holes/{}", index); },
+                           [](std::size_t index, std::string_view field) {
+                             return field.empty() ? fmt::format("/distances/{}", index)
+                                                  : fmt::format("/distances/{}/{}", index, field);
+                           }};
   return finish(std::move(stated.value()), places, options, problems);
 }
 
@@ -336,16 +334,16 @@ ReadHoles parse_csv_holes(const std::string& text,
                  "from,to,distance_mm,sigma_mm");
   }
   problems.throw_if_any();
-  const HolesPlaces places{
-      "the holes",
-      "the distances",
-      [&hole_cells](std::size_t index) { return hole_cells[index].place(); },
-      [&distance_rows](std::size_t index, std::string_view field) {
-        for (std::size_t c = 0; c < std::size(kDistanceHeader); ++c) {
-          if (kDistanceHeader[c] == field) return cell_of(distance_rows[index], c).place();
-        }
-        return distance_rows[index].front().place();
-      }};
+  const HolesPlaces places{"the holes",
+                           "the distances",
+                           [&hole_cells](std::size_t index) { return hole_cells[index].place(); },
+                           [&distance_rows](std::size_t index, std::string_view field) {
+                             for (std::size_t c = 0; c < std::size(kDistanceHeader); ++c) {
+                               if (kDistanceHeader[c] == field)
+                                 return cell_of(distance_rows[index], c).place();
+                             }
+                             return distance_rows[index].front().place();
+                           }};
   return finish(std::move(stated), places, options, problems);
 }
 

@@ -47,8 +47,7 @@ std::optional<Eigen::MatrixXd> design_at(const ModelSurface& surface,
     by_motor.col(s) =
         model.sensitivity(*reading, model::kMachineSettings[static_cast<std::size_t>(s)]);
   }
-  return design_rows(
-      surface.residual.basis, surface.columns, mark, reading->lengths, by_setting);
+  return design_rows(surface.residual.basis, surface.columns, mark, reading->lengths, by_setting);
 }
 
 tl::expected<MapAt, std::string> map_at(const CompensationMap& map,
@@ -68,8 +67,8 @@ tl::expected<MapAt, std::string> map_at(const CompensationMap& map,
     const BedPoint mark = marks[static_cast<std::size_t>(i)];
     const auto answer = map.query(mark);
     if (!answer) {
-      return tl::unexpected(fmt::format(
-          "({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(answer.error())));
+      return tl::unexpected(
+          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(answer.error())));
     }
     at.lengths.push_back(answer->lengths);
     at.by_mark.push_back(answer->mark_jacobian);
@@ -78,9 +77,8 @@ tl::expected<MapAt, std::string> map_at(const CompensationMap& map,
     Eigen::Matrix<double, 2, 4> by_motor;
     const auto design = design_at(*surface, *model, mark, by_motor);
     if (!design) {
-      return tl::unexpected(fmt::format("({:.1f}, {:.1f}): the calibrated machine has no pose there",
-                                        mark.x_mm,
-                                        mark.y_mm));
+      return tl::unexpected(fmt::format(
+          "({:.1f}, {:.1f}): the calibrated machine has no pose there", mark.x_mm, mark.y_mm));
     }
     at.by_motor.middleRows(2 * i, 2) = by_motor;
     if (is_joint) factor.middleRows(2 * i, 2) = *design * surface->covariance_factor;
@@ -151,8 +149,7 @@ tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& m
   for (std::size_t i = 0; i < set.holes.size(); ++i) {
     const auto mark = map.inverse(distances->lengths()[i]);
     if (!mark) {
-      return tl::unexpected(
-          fmt::format("hole {}: {}", set.holes[i].name, explain(mark.error())));
+      return tl::unexpected(fmt::format("hole {}: {}", set.holes[i].name, explain(mark.error())));
     }
     marks.push_back(*mark);
   }

@@ -14,12 +14,12 @@
 namespace chaintrue::grid {
 
 struct CheckReadings {
-  Eigen::VectorXd residual_mm;    ///< n
-  Eigen::MatrixXd covariance;     ///< n x n: K of map_check.hpp (1)
+  Eigen::VectorXd residual_mm;  ///< n
+  Eigen::MatrixXd covariance;   ///< n x n: K of map_check.hpp (1)
   /// n x 2 N: by a change of the readings at each of N places, left and right.
   Eigen::MatrixXd by_chain;
-  Eigen::MatrixXd lengths_mm;     ///< 2 N x 2: the chain's length at its own rows, by side
-  Eigen::MatrixXd by_motor;       ///< 2 N x 4, or no columns where the map has no machine
+  Eigen::MatrixXd lengths_mm;  ///< 2 N x 2: the chain's length at its own rows, by side
+  Eigen::MatrixXd by_motor;    ///< 2 N x 4, or no columns where the map has no machine
   /// Rows of each point or reading that may be bad by itself.
   std::vector<std::vector<Eigen::Index>> groups;
   std::vector<std::string> names;        ///< of the rows

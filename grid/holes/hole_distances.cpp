@@ -93,12 +93,13 @@ tl::expected<HoleDistances, std::string> HoleDistances::of(MeasuredHoles set) {
   for (const Hole& hole : result.set_.holes) {
     const auto lengths = controller->lengths(hole.commanded);
     if (!lengths) {
-      return tl::unexpected(fmt::format("hole {} at ({:.1f}, {:.1f}) is out of the controller's "
-                                        "reach: {}",
-                                        hole.name,
-                                        hole.commanded.x_mm,
-                                        hole.commanded.y_mm,
-                                        model::explain(lengths.error())));
+      return tl::unexpected(
+          fmt::format("hole {} at ({:.1f}, {:.1f}) is out of the controller's "
+                      "reach: {}",
+                      hole.name,
+                      hole.commanded.x_mm,
+                      hole.commanded.y_mm,
+                      model::explain(lengths.error())));
     }
     result.lengths_.push_back(*lengths);
   }

@@ -25,7 +25,8 @@ Eigen::MatrixXd whole_motion(const std::vector<Hole>& holes) {
   const auto count = static_cast<Eigen::Index>(holes.size());
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const Hole& hole : holes)
-    middle += Eigen::Vector2d(hole.commanded.x_mm, hole.commanded.y_mm) / static_cast<double>(count);
+    middle +=
+        Eigen::Vector2d(hole.commanded.x_mm, hole.commanded.y_mm) / static_cast<double>(count);
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, 2 * count);
   double squares = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -197,8 +198,7 @@ void HoleMarks::add_surface_prior(Eigen::MatrixXd& prior, double amplitude_mm) c
     const Eigen::VectorXd row = basis_.row(x, y);
     variance += row.dot(bent * row) / (kRaster * kRaster);
   }
-  const Eigen::MatrixXd covariance =
-      covariance_at(unit * variance / (amplitude_mm * amplitude_mm));
+  const Eigen::MatrixXd covariance = covariance_at(unit * variance / (amplitude_mm * amplitude_mm));
   for (const Side side : model::kSides) {
     prior.block(columns_.spline(side), columns_.spline(side), basis_.size(), basis_.size()) =
         covariance;

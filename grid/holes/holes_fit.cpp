@@ -194,8 +194,7 @@ Solution HolesFitter::solve(const Eigen::MatrixXd& prior) const {
     const Eigen::Index k = rows[static_cast<std::size_t>(i)];
     solution.left_out[k] = pulled[i] / inverse(i, i);
     const double softened = soft(k, k) - noise(k, k);
-    solution.left_out_sigma[k] =
-        std::sqrt(1.0 / inverse(i, i) - solution.noise2 * softened);
+    solution.left_out_sigma[k] = std::sqrt(1.0 / inverse(i, i) - solution.noise2 * softened);
   }
   for (Eigen::Index k = 0; k < weights_.size(); ++k) {
     if (weights_[k] > 0.0) continue;
@@ -311,27 +310,28 @@ ErrorSummary summary_of(const std::vector<FittedDistance>& distances, bool with_
 }
 
 HolesFit HolesFitter::result() const {
-  HolesFit fit{view_.machine_at(u_),
-               view_.sheet_at(u_),
-               measured_,
-               view_.surface_of(
-                   u_, now_.follows * solution_.covariance * now_.follows.transpose(), has_surface_),
-               {},
-               std::sqrt(solution_.noise2),
-               surface_log_evidence_,
-               has_surface_,
-               {},
-               {},
-               {},
-               {},
-               {}};
+  HolesFit fit{
+      view_.machine_at(u_),
+      view_.sheet_at(u_),
+      measured_,
+      view_.surface_of(
+          u_, now_.follows * solution_.covariance * now_.follows.transpose(), has_surface_),
+      {},
+      std::sqrt(solution_.noise2),
+      surface_log_evidence_,
+      has_surface_,
+      {},
+      {},
+      {},
+      {},
+      {}};
   fit.posterior.covariance.resize(kHolesUnknowns, kHolesUnknowns);
   const auto place = machine_columns();
   for (Eigen::Index i = 0; i < kHolesUnknowns; ++i) {
     fit.posterior.mean[i] = u_[place[static_cast<std::size_t>(i)]];
     for (Eigen::Index j = 0; j < kHolesUnknowns; ++j) {
-      fit.posterior.covariance(i, j) = solution_.covariance(
-          place[static_cast<std::size_t>(i)], place[static_cast<std::size_t>(j)]);
+      fit.posterior.covariance(i, j) = solution_.covariance(place[static_cast<std::size_t>(i)],
+                                                            place[static_cast<std::size_t>(j)]);
     }
   }
   for (std::size_t k = 0; k < set_.distances.size(); ++k) {
@@ -348,11 +348,11 @@ HolesFit HolesFitter::result() const {
   for (std::size_t i = 0; i < set_.holes.size(); ++i) {
     const auto at = 2 * static_cast<Eigen::Index>(i);
     const BedPoint mark = now_.marks[i];
-    fit.holes.push_back({distances_.lengths()[i],
-                         as_stated_[i],
-                         mark,
-                         {mark.x_mm + solution_.hole_shift[at],
-                          mark.y_mm + solution_.hole_shift[at + 1]}});
+    fit.holes.push_back(
+        {distances_.lengths()[i],
+         as_stated_[i],
+         mark,
+         {mark.x_mm + solution_.hole_shift[at], mark.y_mm + solution_.hole_shift[at + 1]}});
   }
   fit.left_out_all = summary_of(fit.distances, true);
   fit.left_out_good = summary_of(fit.distances, false);
@@ -367,12 +367,12 @@ tl::expected<HolesFit, FitFailure> HolesFitter::run() {
   }
   const std::size_t good = used().size();
   if (3 * good < 2 * set_.distances.size() || good < kFewestHoleDistances) {
-    std::string sentence =
-        fmt::format("{} of {} distances contradict the others or the machine as stated; check the "
-                    "machine's measures, the controller's settings in force and which holes the "
-                    "distances join",
-                    set_.distances.size() - good,
-                    set_.distances.size());
+    std::string sentence = fmt::format(
+        "{} of {} distances contradict the others or the machine as stated; check the "
+        "machine's measures, the controller's settings in force and which holes the "
+        "distances join",
+        set_.distances.size() - good,
+        set_.distances.size());
     if (const auto hook = suspected_hook_offset_mm(set_)) {
       sentence += fmt::format(", and whether the tape's hook offset ({:.0f} mm?) was left out",
                               std::round(*hook));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The machine fitted to distances between holes. Unknown are the settings (each stated one is a
-/// datum with its sigma), a length scale of either chain, the sheet's placement where its edges were
-/// measured and, where the distances ask for it, a smooth correction of the chain lengths. Where
-/// the holes are follows from these (hole_distances.hpp).
+/// datum with its sigma), a length scale of either chain, the sheet's placement where its edges
+/// were measured and, where the distances ask for it, a smooth correction of the chain lengths.
+/// Where the holes are follows from these (hole_distances.hpp).
 ///
 /// The frame of the sheet is free in each direction that no edge was measured for: there it is laid
 /// so that the holes lie, as a whole, where they were commanded. That defines the frame and tells
@@ -16,10 +16,11 @@
 ///   left out:  y_k - E y_k = (K^-1 y)_k / (K^-1)_kk,  variance 1 / (K^-1)_kk                (2)
 ///
 /// s, the noise found as a multiple of what was stated, has the greatest posterior with its stated
-/// degrees of freedom. A reading beyond kBadDistanceSigmas of what the others alone make of it, with
-/// the noise that they alone show, is set aside, the worst first. Sources: C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning
-/// (2006), equations 2.25, 2.26, 5.8 and 5.12; P. Huber and E. Ronchetti, Robust Statistics (2009),
-/// section 7.7, for the weights of the first passes.
+/// degrees of freedom. A reading beyond kBadDistanceSigmas of what the others alone make of it,
+/// with the noise that they alone show, is set aside, the worst first. Sources: C. Rasmussen and C.
+/// Williams, Gaussian Processes for Machine Learning (2006), equations 2.25, 2.26, 5.8 and 5.12; P.
+/// Huber and E. Ronchetti, Robust Statistics (2009), section 7.7, for the weights of the first
+/// passes.
 #pragma once
 
 #include <Eigen/Core>
@@ -50,7 +51,7 @@ struct HolesPrior {
 [[nodiscard]] HolesPrior stated_prior(const model::Machine& machine);
 
 struct FittedDistance {
-  double measured_mm = 0.0;   ///< without the hook
+  double measured_mm = 0.0;  ///< without the hook
   double commanded_mm = 0.0;
   double predicted_mm = 0.0;  ///< by the fitted machine
   /// Measured less predicted by a fit without this reading, and one sigma of that.

@@ -81,12 +81,12 @@ std::vector<std::string> fit_notes(const MeasuredHoles& set, const HolesFit& fit
                     *hook > 0.0 ? "longer" : "shorter"));
   }
   if (fit.noise_factor > kNoiseDisagreement) {
-    notes.push_back(
-        fmt::format("The distances scatter {:.1f} times as much as stated ({:g} mm of tape, {:g} mm "
-                    "of hole): the intervals are that much wider.",
-                    fit.noise_factor,
-                    set.tape.sigma_mm,
-                    set.hole_sigma_mm));
+    notes.push_back(fmt::format(
+        "The distances scatter {:.1f} times as much as stated ({:g} mm of tape, {:g} mm "
+        "of hole): the intervals are that much wider.",
+        fit.noise_factor,
+        set.tape.sigma_mm,
+        set.hole_sigma_mm));
   }
   for (const SettingResult& setting : setting_results(set, fit)) {
     if (!setting.off) continue;
@@ -104,18 +104,20 @@ std::vector<std::string> fit_notes(const MeasuredHoles& set, const HolesFit& fit
                                             std::pair(measured.rotation, "in its turn")}) {
       if (!is_measured) free += fmt::format("{}{}", free.empty() ? "" : ", ", word);
     }
-    notes.push_back(fmt::format(
-        "No edge of the sheet tells its place {}: there the sheet is laid so that the holes lie, as "
-        "a whole, where they were commanded.",
-        free));
+    notes.push_back(
+        fmt::format("No edge of the sheet tells its place {}: there the sheet is laid so that the "
+                    "holes lie, as "
+                    "a whole, where they were commanded.",
+                    free));
   }
   notes.push_back(
       fit.has_surface
           ? std::string("The distances ask for more than settings can explain: the map bends "
                         "smoothly where they do.")
-          : std::string("The distances do not ask for more than settings and chain scales: the map "
-                        "is the calibrated machine. What no setting explains is not in its expected "
-                        "error."));
+          : std::string(
+                "The distances do not ask for more than settings and chain scales: the map "
+                "is the calibrated machine. What no setting explains is not in its expected "
+                "error."));
   return notes;
 }
 

@@ -177,8 +177,7 @@ class Chooser {
         Eigen::VectorXd::Zero(kHolesUnknowns + 2 * static_cast<Eigen::Index>(holes.size()));
     row.head(kHolesUnknowns) = (unit * (a.by_machine - b.by_machine)).transpose();
     row.segment<2>(kHolesUnknowns + 2 * static_cast<Eigen::Index>(pair.first)) = unit.transpose();
-    row.segment<2>(kHolesUnknowns + 2 * static_cast<Eigen::Index>(pair.second)) =
-        -unit.transpose();
+    row.segment<2>(kHolesUnknowns + 2 * static_cast<Eigen::Index>(pair.second)) = -unit.transpose();
     return row;
   }
 
@@ -318,11 +317,11 @@ MeasuredHoles set_of(const model::Machine& machine,
 
 void check(const model::Machine& machine, const HolesPlanRequest& request) {
   const double half = 0.5 * std::min(machine.bed.width_mm, machine.bed.height_mm);
-  const bool sound =
-      request.holes >= kFewestPlannedHoles && request.holes <= kMostPlannedHoles &&
-      request.distances >= 0 && request.tape_sigma_mm > 0.0 && request.hole_sigma_mm >= 0.0 &&
-      request.margin_mm >= 0.0 && request.margin_mm < half - kLeastApartMm &&
-      request.longest_mm > 2.0 * kLeastApartMm;
+  const bool sound = request.holes >= kFewestPlannedHoles && request.holes <= kMostPlannedHoles &&
+                     request.distances >= 0 && request.tape_sigma_mm > 0.0 &&
+                     request.hole_sigma_mm >= 0.0 && request.margin_mm >= 0.0 &&
+                     request.margin_mm < half - kLeastApartMm &&
+                     request.longest_mm > 2.0 * kLeastApartMm;
   if (sound) return;
   throw std::invalid_argument(
       fmt::format("a plan of {} holes and {} distances, {} mm from the edges, with a tape of {} mm "
@@ -370,7 +369,8 @@ std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
   for (const Known& row : rows) {
     const auto sigma = [&](const Eigen::MatrixXd& covariance) {
       return row.factor *
-             std::sqrt(std::max(0.0, (row.combination * covariance * row.combination.transpose())(0)));
+             std::sqrt(
+                 std::max(0.0, (row.combination * covariance * row.combination.transpose())(0)));
     };
     result.push_back({row.what, row.unit, sigma(before), sigma(after)});
   }

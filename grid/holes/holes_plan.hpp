@@ -44,8 +44,8 @@ struct HolesPlanRequest {
 
 /// One thing that the set tells: a combination of settings and scales, before and after.
 struct PlannedKnowledge {
-  std::string what;   ///< "motor spacing", "left chain scale"
-  std::string unit;   ///< "mm" or "%"
+  std::string what;     ///< "motor spacing", "left chain scale"
+  std::string unit;     ///< "mm" or "%"
   double before = 0.0;  ///< one sigma as stated
   double after = 0.0;
 };
@@ -54,7 +54,8 @@ struct PlannedKnowledge {
 struct SeenEffect {
   std::string effect;
   std::string side;
-  /// Length of what it does to the distances beyond what settings and scales can imitate, in sigmas.
+  /// Length of what it does to the distances beyond what settings and scales can imitate, in
+  /// sigmas.
   double sigmas = 0.0;
   /// Effects whose pattern is the same to within 5 degrees, as indices.
   std::vector<std::size_t> same_as;

@@ -164,7 +164,8 @@ double weigh(Proposal& proposal, const CheckReadings& readings) {
   const Eigen::VectorXd y = readings.residual_mm - proposal.mean;
   const Eigen::VectorXd pulled = factor.solve(y);
   const Eigen::MatrixXd lower = factor.matrixL();
-  double value = std::log(proposal.prior) - lower.diagonal().array().log().sum() - 0.5 * y.dot(pulled);
+  double value =
+      std::log(proposal.prior) - lower.diagonal().array().log().sum() - 0.5 * y.dot(pulled);
   const Eigen::MatrixXd cross = p * proposal.by_q.transpose();
   const Eigen::VectorXd q = cross * pulled;
   const Eigen::MatrixXd covariance = p - cross * factor.solve(cross.transpose());
@@ -201,7 +202,8 @@ std::string in_words(const CheckHypothesis& h, const CheckReadings& readings) {
   }
   if (h.what == "zero") {
     const Side side = h.side == "left" ? Side::left : Side::right;
-    return fmt::format("the zero of {} has shifted by {:+.2f} mm", side_words(h.side), h.zero_mm[side]);
+    return fmt::format(
+        "the zero of {} has shifted by {:+.2f} mm", side_words(h.side), h.zero_mm[side]);
   }
   if (h.what == "tooth") {
     return fmt::format("{} skipped {} {}: it reads {:.2f} mm too {}",
@@ -237,7 +239,8 @@ void tell(MapCheck& check, const CheckReadings& readings) {
       break;
     case CheckVerdict::valid_after_rezeroing:
       check.sentence = fmt::format(
-          "The map is valid after re-zeroing ({:.0f} %): {}. New zeros: left {:.2f} mm, right {:.2f} "
+          "The map is valid after re-zeroing ({:.0f} %): {}. New zeros: left {:.2f} mm, right "
+          "{:.2f} "
           "mm.",
           percent,
           why,
@@ -245,12 +248,14 @@ void tell(MapCheck& check, const CheckReadings& readings) {
           check.new_zero.right_mm);
       break;
     case CheckVerdict::measure_again:
-      check.sentence = first.what == "bad_point"
-                           ? fmt::format("Measure {} again ({:.0f} %): it is wrong by itself, and "
-                                         "says nothing of the map.",
-                                         readings.group_names[static_cast<std::size_t>(first.count)],
-                                         percent)
-                           : fmt::format("The map is to be measured again ({:.0f} %): {}.", percent, why);
+      check.sentence =
+          first.what == "bad_point"
+              ? fmt::format(
+                    "Measure {} again ({:.0f} %): it is wrong by itself, and "
+                    "says nothing of the map.",
+                    readings.group_names[static_cast<std::size_t>(first.count)],
+                    percent)
+              : fmt::format("The map is to be measured again ({:.0f} %): {}.", percent, why);
       break;
   }
   if (first.probability >= kDecided) return;
@@ -258,10 +263,10 @@ void tell(MapCheck& check, const CheckReadings& readings) {
   std::vector<std::string> others;
   for (const CheckHypothesis& h : check.hypotheses) {
     if (h.probability < kWorthNaming) continue;
-    others.push_back(
-        fmt::format("{} ({:.0f} %)", in_words(h, readings), 100.0 * h.probability));
+    others.push_back(fmt::format("{} ({:.0f} %)", in_words(h, readings), 100.0 * h.probability));
   }
-  check.not_told_apart = fmt::format("These points cannot tell apart: {}.", fmt::join(others, "; "));
+  check.not_told_apart =
+      fmt::format("These points cannot tell apart: {}.", fmt::join(others, "; "));
   if (!check.decided)
     check.not_told_apart += " Measure more points, far from each other, before you rely on either.";
 }
@@ -280,9 +285,9 @@ MapCheck judge(const CheckReadings& readings) {
     check.probability[static_cast<std::size_t>(hypothesis.verdict)] += hypothesis.probability;
     check.hypotheses.push_back(std::move(hypothesis));
   }
-  std::stable_sort(check.hypotheses.begin(), check.hypotheses.end(), [](const auto& a, const auto& b) {
-    return a.probability > b.probability;
-  });
+  std::stable_sort(check.hypotheses.begin(),
+                   check.hypotheses.end(),
+                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
   const auto best = std::max_element(check.probability.begin(), check.probability.end());
   check.verdict = static_cast<CheckVerdict>(best - check.probability.begin());
   check.decided = *best >= kDecided;
@@ -317,7 +322,8 @@ std::string_view name(CheckVerdict verdict) {
   return "measure_again";
 }
 
-tl::expected<MapCheck, std::string> check_map(const CompensationMap& map, const MeasuredGrid& grid) {
+tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
+                                              const MeasuredGrid& grid) {
   return check_readings(map, grid).map(judge);
 }
 

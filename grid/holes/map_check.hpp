@@ -5,7 +5,8 @@
 ///
 /// Each hypothesis predicts the residuals r (measured less map) as a Gaussian,
 ///
-///   r ~ N(X m, K + X P X'),   K = noise of the new points + what the map does not know of itself (1)
+///   r ~ N(X m, K + X P X'),   K = noise of the new points + what the map does not know of itself
+///   (1)
 ///
 /// where X is what the changed quantities do to r, m and P their size beforehand; the probabilities
 /// follow by Bayes' theorem from the priors stated in kCheckPriors. A pitch only grows: half of its
@@ -93,9 +94,7 @@ struct MapCheck {
   std::string sentence;
   /// What these points cannot tell apart; empty where all is clear.
   std::string not_told_apart;
-  [[nodiscard]] bool is_valid_as_it_is() const {
-    return decided && verdict == CheckVerdict::valid;
-  }
+  [[nodiscard]] bool is_valid_as_it_is() const { return decided && verdict == CheckVerdict::valid; }
 };
 inline constexpr double kDecided = 0.8;
 

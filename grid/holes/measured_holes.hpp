@@ -38,8 +38,8 @@ struct Hole {
 /// One reading of the tape, the hook's offset still in it: from a hole's centre to another's, or
 /// square to an edge of the sheet.
 struct HoleDistance {
-  std::size_t from = 0;           ///< into the holes
-  std::size_t to = 0;             ///< into the holes; not used where `edge` is set
+  std::size_t from = 0;  ///< into the holes
+  std::size_t to = 0;    ///< into the holes; not used where `edge` is set
   std::optional<SheetEdge> edge = std::nullopt;
   double distance_mm = 0.0;
   /// One sigma; absent: the tape's.

@@ -33,8 +33,8 @@ struct HolesSpec {
 };
 
 struct SyntheticHoles {
-  MeasuredHoles set;      ///< with the machine as stated
-  model::Machine truth;   ///< with what is hidden
+  MeasuredHoles set;                    ///< with the machine as stated
+  model::Machine truth;                 ///< with what is hidden
   std::vector<model::BedPoint> places;  ///< where the holes truly are
 };
 

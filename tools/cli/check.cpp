@@ -51,14 +51,12 @@ int run_check(const CheckCommand& command) {
   const auto check =
       std::visit([&map](const auto& measured) { return grid::check_map(map, measured); }, input);
   if (!check) {
-    fmt::print(stderr,
-               "{}: {}\n",
-               grid::files::name_in_messages(command.input.grid),
-               check.error());
+    fmt::print(
+        stderr, "{}: {}\n", grid::files::name_in_messages(command.input.grid), check.error());
     return kBadInput;
   }
-  grid::files::write_whole_file(
-      command.output, command.json ? grid::files::write_check(*check) : in_words(*check));
+  grid::files::write_whole_file(command.output,
+                                command.json ? grid::files::write_check(*check) : in_words(*check));
   return check->is_valid_as_it_is() ? kDone : kCheckFailed;
 }
 

@@ -103,8 +103,7 @@ std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(const 
   options.hook_offset_mm = tape.hook_offset_mm;
   options.hole_sigma_mm = tape.hole_sigma_mm;
   if (use == MeasuredUse::check) options.fewest_distances = 1;
-  files::ReadHoles read =
-      files::parse_holes(text, files::name_in_messages(input.grid), options);
+  files::ReadHoles read = files::parse_holes(text, files::name_in_messages(input.grid), options);
   print_warnings(read.warnings);
   return std::move(read.holes);
 }

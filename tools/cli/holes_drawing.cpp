@@ -38,10 +38,12 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
   const double wide = kBedWide + 2.0 * kLeft;
   const double high = kTop + sheet.bed_high() + kBelow;
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 "
+      "0 "
       "{0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"14\">\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
-      "<text x=\"{2:.0f}\" y=\"32\" font-size=\"18\">{3} holes, {4} distances: {5:.2f} mm expected at "
+      "<text x=\"{2:.0f}\" y=\"32\" font-size=\"18\">{3} holes, {4} distances: {5:.2f} mm expected "
+      "at "
       "the tool (rms, one sigma)</text>\n"
       "<rect x=\"{2:.1f}\" y=\"{6:.1f}\" width=\"{7:.1f}\" height=\"{8:.1f}\" fill=\"#fff7ec\" "
       "stroke=\"#333333\"/>\n",
@@ -87,11 +89,12 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
                    hole.commanded.x_mm + 0.0,
                    hole.commanded.y_mm + 0.0);
   }
-  fmt::format_to(std::back_inserter(svg),
-                 "<text x=\"{:.0f}\" y=\"{:.1f}\">Seen from the front; the origin is the middle of "
-                 "the bed. Each line is one reading of the tape, centre to centre.</text>\n</svg>\n",
-                 kLeft,
-                 high - 18.0);
+  fmt::format_to(
+      std::back_inserter(svg),
+      "<text x=\"{:.0f}\" y=\"{:.1f}\">Seen from the front; the origin is the middle of "
+      "the bed. Each line is one reading of the tape, centre to centre.</text>\n</svg>\n",
+      kLeft,
+      high - 18.0);
   return svg;
 }
 

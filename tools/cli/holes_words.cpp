@@ -7,6 +7,8 @@
 #include <iterator>
 #include <vector>
 
+#include "grid/holes/seen_effects.hpp"
+
 namespace chaintrue::cli {
 namespace {
 
@@ -25,8 +27,7 @@ std::string listed(const std::vector<std::string>& words) {
 }  // namespace
 
 std::string distances_in_words(const grid::MeasuredHoles& set, const grid::HolesFit& fit) {
-  std::string text =
-      "\nDistance                  measured  commanded   left out    sigmas\n";
+  std::string text = "\nDistance                  measured  commanded   left out    sigmas\n";
   for (std::size_t k = 0; k < fit.distances.size(); ++k) {
     const grid::FittedDistance& distance = fit.distances[k];
     fmt::format_to(std::back_inserter(text),
@@ -50,6 +51,45 @@ std::string distances_in_words(const grid::MeasuredHoles& set, const grid::Holes
   return text;
 }
 
+std::string causes_in_words(const grid::MeasuredHoles& set, const grid::HolesFit& fit) {
+  constexpr double kWorthNaming = 0.03;
+  const std::vector<grid::ScoredCause> causes = scored_causes(set, fit);
+  if (causes.empty()) return "No effect of the catalogue can act on this machine.\n";
+  const grid::ScoredCause& first = causes.front();
+  constexpr double kNamed = 0.8;
+  const auto called = [](const grid::ScoredCause& cause) {
+    return cause.side.empty() ? cause.effect : fmt::format("{} ({})", cause.effect, cause.side);
+  };
+  std::string text;
+  if (first.effect == "nothing") {
+    text = fmt::format("Settings alone explain the distances ({:.0f} %).\n",
+                       100.0 * first.probability);
+  } else if (first.probability >= kNamed) {
+    text = fmt::format("{} explains the distances ({:.0f} %): {} = {:.3g} +- {:.2g}.\n",
+                       called(first),
+                       100.0 * first.probability,
+                       first.parameter,
+                       first.value,
+                       first.sigma);
+  } else {
+    text = "These distances do not tell the causes below apart.\n";
+  }
+  text += "\nOne cause at a time               probability   size\n";
+  for (const grid::ScoredCause& cause : causes) {
+    if (cause.probability < kWorthNaming) continue;
+    fmt::format_to(
+        std::back_inserter(text),
+        "  {:<32}{:>9.0f} %   {}\n",
+        called(cause),
+        100.0 * cause.probability,
+        cause.parameter.empty()
+            ? std::string{}
+            : fmt::format("{} {:.3g} +- {:.2g}", cause.parameter, cause.value, cause.sigma));
+  }
+  text += "Not proved: two causes together, and any that moves the whole machine or the sheet.\n";
+  return text;
+}
+
 std::string workshop_list(const grid::HolesPlan& plan) {
   std::string text = "hole,x_mm,y_mm\n";
   for (const grid::Hole& hole : plan.set.holes) {
@@ -59,7 +99,8 @@ std::string workshop_list(const grid::HolesPlan& plan) {
                    hole.commanded.x_mm + 0.0,
                    hole.commanded.y_mm + 0.0);
   }
-  text += "# Write what the tape says in the third column; as commanded it would say about so much:\n";
+  text +=
+      "# Write what the tape says in the third column; as commanded it would say about so much:\n";
   text += "from,to,distance_mm\n";
   for (const grid::HoleDistance& distance : plan.set.distances) {
     fmt::format_to(std::back_inserter(text),
@@ -75,7 +116,8 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
   std::string text = fmt::format(
       "{} holes, {} distances. With {:g} mm of tape and {:g} mm of hole (one sigma) the tool is "
       "expected {:.2f} mm beside, rms over the bed, the sheet laid as well as it can be; with "
-      "nothing measured it is {:.2f} mm.\n\nWhat the set tells                 as stated     after\n",
+      "nothing measured it is {:.2f} mm.\n\nWhat the set tells                 as stated     "
+      "after\n",
       plan.set.holes.size(),
       plan.set.distances.size(),
       request.tape_sigma_mm,
@@ -108,8 +150,8 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
         .push_back(effect_words(effect));
     for (const std::size_t other : effect.same_as) {
       if (other <= i || effect.sigmas < kDoubtfulSigmas) continue;
-      alike.push_back(fmt::format(
-          "{} and {}", effect_words(effect), effect_words(plan.effects[other])));
+      alike.push_back(
+          fmt::format("{} and {}", effect_words(effect), effect_words(plan.effects[other])));
     }
   }
   fmt::format_to(std::back_inserter(text),
@@ -124,7 +166,8 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
 
 std::string holes_gcode(const grid::HolesPlan& plan, double depth_mm, double clearance_mm) {
   std::string text = fmt::format(
-      "(chaintrue plan: {} holes, {:g} mm deep)\n(Zero is the middle of the bed. Look whether every "
+      "(chaintrue plan: {} holes, {:g} mm deep)\n(Zero is the middle of the bed. Look whether "
+      "every "
       "hole lies on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
       plan.set.holes.size(),
       depth_mm,

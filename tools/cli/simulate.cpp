@@ -405,7 +405,9 @@ void add_simulate(CLI::App& app, Run& run) {
   add_holes_options(*verb, options->holes);
   add_truth_options(*verb, *options);
   verb->add_option("--name", options->name, "Name of the grid");
-  verb->add_option("-o,--output", options->output, "chaintrue_grid (of --holes: chaintrue_holes) file; - is standard output")
+  verb->add_option("-o,--output",
+                   options->output,
+                   "chaintrue_grid (of --holes: chaintrue_holes) file; - is standard output")
       ->capture_default_str();
   verb->add_option("--answer", options->answer, "Write what was hidden to this file");
   verb->footer(
@@ -418,7 +420,8 @@ void add_simulate(CLI::App& app, Run& run) {
       "  printf 'x_mm,y_mm\\n0,0\\n' | build/chaintrue simulate --machine "
       "fixtures/machines/classic.json "
       "--points -\n"
-      "  build/chaintrue simulate --machine fixtures/machines/classic.json --holes 9 --distances 20 "
+      "  build/chaintrue simulate --machine fixtures/machines/classic.json --holes 9 --distances "
+      "20 "
       "--tape-sigma-mm 0.5 --draw-settings --seed 1 -o holes.json");
   verb->callback([options, &run] { run = [options] { return run_simulate(*options); }; });
 }
