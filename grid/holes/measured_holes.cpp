@@ -72,17 +72,29 @@ std::optional<double> suspected_hook_offset_mm(const MeasuredHoles& set) {
   constexpr std::size_t kFewest = 3;
   constexpr double kLeastMm = 8.0;  // tapes are held to a hook or a mark at 10 mm or more
   std::vector<double> excess;
+  std::vector<double> ratio;
+  std::vector<double> commanded;
   for (const HoleDistance& distance : set.distances) {
     if (distance.edge) continue;
-    excess.push_back(length_of(set, distance) - commanded_mm(set, distance));
+    commanded.push_back(commanded_mm(set, distance));
+    excess.push_back(length_of(set, distance) - commanded.back());
+    ratio.push_back(excess.back() / commanded.back());
   }
   if (excess.size() < kFewest) return std::nullopt;
   const double middle = median(excess);
   if (std::abs(middle) < kLeastMm) return std::nullopt;
-  for (double& value : excess) value = std::abs(value - middle);
   // An error of scale grows with the distance; an offset is the same for all.
+  const double scale = median(ratio);
+  std::vector<double> beside_scale;
+  for (std::size_t i = 0; i < excess.size(); ++i) {
+    beside_scale.push_back(std::abs(excess[i] - scale * commanded[i]));
+    excess[i] = std::abs(excess[i] - middle);
+  }
   constexpr double kAlike = 0.25;
-  if (median(excess) > kAlike * std::abs(middle)) return std::nullopt;
+  constexpr double kClearlyBetter = 0.5;
+  const double spread = median(excess);
+  if (spread > kAlike * std::abs(middle) || spread > kClearlyBetter * median(beside_scale))
+    return std::nullopt;
   return middle;
 }
 

@@ -46,7 +46,7 @@ struct HolesPass {
 };
 
 /// A pass that would take less than this off the expected error is not worth the holes.
-inline constexpr double kWorthwhileMm = 0.05;
+inline constexpr double kWorthwhileMm = 0.03;
 
 class HolesPasses {
  public:

@@ -42,7 +42,8 @@ TEST_P(GoodInput, IsReadAndWrittenTheSameEachTime) {
               UnorderedElementsAreArray(each_with(remarks_in(GetParam(), "warn: "))));
   EXPECT_EQ(read_fixture(GetParam()).written, first.written);
   // What is written is a chaintrue file, whatever was read.
-  const std::string kind = first.written.find("chaintrue_grid") != std::string::npos ? "grid"
+  const std::string kind = first.written.find("chaintrue_holes") != std::string::npos  ? "holes"
+                           : first.written.find("chaintrue_grid") != std::string::npos ? "grid"
                            : first.written.find("chaintrue_machine") != std::string::npos
                                ? "machine"
                                : "points";

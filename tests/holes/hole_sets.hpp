@@ -25,7 +25,7 @@ inline const grid::MeasuredHoles& nine_holes() {
 }
 
 /// Motors, zeros and scales off by draws from what is stated.
-inline grid::synthetic::HolesSpec usual_spec(std::uint64_t seed) {
+inline grid::synthetic::HolesSpec usual_holes(std::uint64_t seed) {
   grid::synthetic::HolesSpec spec;
   spec.draw_settings = true;
   spec.scale_sigma = 0.001;

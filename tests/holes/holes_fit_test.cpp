@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 using testing_support::classic;
 using testing_support::nine_holes;
-using testing_support::usual_spec;
+using testing_support::usual_holes;
 
 /// Nine holes with each edge measured from two of them.
 MeasuredHoles with_edges() {
@@ -85,7 +85,7 @@ TEST(HoleDistances, HolesAreWhereTheirChainsPutThem) {
 TEST(HolesFit, WithoutNoiseTheMapIsTheTruth) {
   MeasuredHoles design = nine_holes();
   design.hole_sigma_mm = 0.0;
-  auto made = synthetic::simulate_holes(design, usual_spec(5));
+  auto made = synthetic::simulate_holes(design, usual_holes(5));
   ASSERT_TRUE(made);
   // Readings to all digits, and a fit that knows it.
   const DistanceGeometry exact = distance_geometry(design, made->places);
@@ -103,7 +103,7 @@ TEST(HolesFit, WithoutNoiseTheMapIsTheTruth) {
 TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
   MeasuredHoles design = with_edges();
   design.sheet.size_sigma_mm = 0.2;
-  auto made = synthetic::simulate_holes(design, usual_spec(7));
+  auto made = synthetic::simulate_holes(design, usual_holes(7));
   ASSERT_TRUE(made);
   // Lay the sheet elsewhere: the places on it are those of the bed, moved back.
   const model::SheetPlacement laid{7.0, -4.0, 0.006};
@@ -123,7 +123,7 @@ TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
 }
 
 TEST(HolesFit, AFreeSheetLiesSoThatTheHolesAreWhereTheyWereCommanded) {
-  const auto made = synthetic::simulate_holes(nine_holes(), usual_spec(11));
+  const auto made = synthetic::simulate_holes(nine_holes(), usual_holes(11));
   const auto fit = fit_holes(made->set);
   ASSERT_TRUE(fit);
   double x = 0.0;
@@ -149,7 +149,7 @@ TEST(HolesFit, ALeftOutPredictionIsThatOfAFitWithoutTheReading) {
   design.tape.sigma_mm = 2.0;  // and no reading is far out
   MeasuredHoles quiet = design;
   quiet.tape.sigma_mm = 0.5;
-  auto made = synthetic::simulate_holes(quiet, usual_spec(13));
+  auto made = synthetic::simulate_holes(quiet, usual_holes(13));
   made->set.tape.sigma_mm = 2.0;
   const auto whole = fit_holes(made->set);
   ASSERT_TRUE(whole);
@@ -178,7 +178,7 @@ struct Tally {
 Tally tally(const MeasuredHoles& design, int sets) {
   Tally result;
   for (int seed = 1; seed <= sets; ++seed) {
-    synthetic::HolesSpec spec = usual_spec(static_cast<std::uint64_t>(seed));
+    synthetic::HolesSpec spec = usual_holes(static_cast<std::uint64_t>(seed));
     spec.scale_sigma = 0.002;  // as the fit believes beforehand
     const auto made = synthetic::simulate_holes(design, spec);
     const auto fit = fit_holes(made->set);
@@ -233,7 +233,7 @@ TEST(HolesFit, ABadReadingIsNamedAndSetAside) {
   constexpr int kSets = 100;
   for (int seed = 1; seed <= kSets; ++seed) {
     auto made =
-        synthetic::simulate_holes(nine_holes(), usual_spec(static_cast<std::uint64_t>(seed)));
+        synthetic::simulate_holes(nine_holes(), usual_holes(static_cast<std::uint64_t>(seed)));
     const std::size_t bad = static_cast<std::size_t>(seed) % made->set.distances.size();
     made->set.distances[bad].distance_mm += seed % 2 == 0 ? 10.0 : -10.0;
     const auto fit = fit_holes(made->set);
@@ -253,7 +253,7 @@ TEST(HolesFit, ABadReadingIsNamedAndSetAside) {
 TEST(HolesFit, AHookOffsetLeftOutIsSaidWhereTheFitFails) {
   MeasuredHoles design = nine_holes();
   design.tape.hook_offset_mm = 40.0;
-  auto made = synthetic::simulate_holes(design, usual_spec(3));
+  auto made = synthetic::simulate_holes(design, usual_holes(3));
   EXPECT_TRUE(fit_holes(made->set)) << "stated, it does no harm";
   made->set.tape.hook_offset_mm = 0.0;
   const auto fit = fit_holes(made->set);
@@ -262,7 +262,7 @@ TEST(HolesFit, AHookOffsetLeftOutIsSaidWhereTheFitFails) {
 }
 
 TEST(HolesFit, TheMapIsTheFittedMachineAndKeepsInItsFile) {
-  const auto made = synthetic::simulate_holes(nine_holes(), usual_spec(21));
+  const auto made = synthetic::simulate_holes(nine_holes(), usual_holes(21));
   const auto fit = fit_holes(made->set);
   const CompensationMap map = map_of(made->set, *fit);
   for (const FittedHole& hole : fit->holes) {

@@ -33,7 +33,7 @@ TEST(HolesPlan, HasTheHolesAndDistancesAskedForOnTheSheet) {
 
 TEST(HolesPlan, PromisesWhatAFitReaches) {
   const auto plan = plan_holes(classic(), {.holes = 9, .distances = 20});
-  const auto made = synthetic::simulate_holes(plan->set, testing_support::usual_spec(2));
+  const auto made = synthetic::simulate_holes(plan->set, testing_support::usual_holes(2));
   const auto fit = fit_holes(made->set);
   ASSERT_TRUE(fit);
   const double reached = tool_sigma_mm(classic(), fit->posterior.covariance);
@@ -145,8 +145,8 @@ TEST(HolesPasses, ConvergeInAtMostThree) {
       EXPECT_LT(result->passes[i].expected_mm, result->passes[i - 1].expected_mm);
     EXPECT_LT(*last.true_mm, 0.5 * result->before_mm + 0.3);
     // The second pass is cut through the first one's map: holes come out where they were wanted.
-    if (result->passes.size() > 1)
-      EXPECT_LT(result->passes[1].as_cut_rms_mm, 1.5) << "mm of tape and holes, and what is left";
+    if (result->passes.size() < 2) continue;
+    EXPECT_LT(result->passes[1].as_cut_rms_mm, 1.5) << "mm of tape and holes, and what is left";
   }
   EXPECT_EQ(converged, kMachines);
   EXPECT_LT(worst_mm, 0.6) << "four times the expected 0.15 mm";

@@ -118,9 +118,10 @@ TEST_P(AfterSomething, IsRightInNineteenOfTwentyCases) {
   // standard deviations, sqrt(300 * 0.95 * 0.05) = 3.8.
   EXPECT_GE(right, 285 - 8) << "of " << count;
   EXPECT_GE(named, 285 - 8) << "of " << count;
-  if (GetParam().verdict == CheckVerdict::valid_after_rezeroing)
+  if (GetParam().verdict == CheckVerdict::valid_after_rezeroing) {
     EXPECT_LT(std::sqrt(new_zero2 / count), 0.4)
         << "mm; five readings of 0.3 mm and the map's error";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, AfterSomething, testing::ValuesIn(kCases), [](const auto& one) {
@@ -183,10 +184,10 @@ TEST(MapCheck, APointThatIsWrongByItselfIsNamed) {
 
 TEST(MapCheck, HolesTellAToothAndAGrownPitch) {
   const auto made =
-      synthetic::simulate_holes(testing_support::nine_holes(), testing_support::usual_spec(4));
+      synthetic::simulate_holes(testing_support::nine_holes(), testing_support::usual_holes(4));
   const auto first = fit_holes(made->set);
   const CompensationMap map = map_of(made->set, *first);
-  synthetic::HolesSpec again = testing_support::usual_spec(5);
+  synthetic::HolesSpec again = testing_support::usual_holes(5);
   const auto unchanged =
       synthetic::simulate_holes(testing_support::nine_holes(), again, made->truth);
   EXPECT_EQ(check_map(map, unchanged->set)->verdict, CheckVerdict::valid);

@@ -25,7 +25,7 @@ constexpr double k95PerCent = 1.7308;
 
 report::Section measured_section(const grid::CompensationMap& map) {
   const MapContents& contents = map.contents();
-  report::Table table{.columns = {{"What was measured"}, {"", false}}, .rows = {}, .caption = {}};
+  report::Table table{.columns = {{"what"}, {"how much, how well"}}, .rows = {}, .caption = {}};
   const auto row = [&table](std::string what, std::string value) {
     table.rows.push_back({{std::move(what), std::move(value)}});
   };
@@ -60,7 +60,9 @@ report::Section measured_section(const grid::CompensationMap& map) {
             contents.noise.position_mm,
             contents.noise.source == "stated" ? "as stated" : "from " + contents.noise.source));
   }
-  return {"What was measured", {std::move(table)}};
+  report::Section section{"What was measured", {}};
+  section.blocks.push_back(std::move(table));
+  return section;
 }
 
 report::Section named_section(const MapContents& contents) {
@@ -126,6 +128,7 @@ report::Page certificate(const grid::CompensationMap& map, std::string_view sour
       "part of the bed.",
       k95PerCent * expected.rms_mm);
   page.tone = full.tone;
+  page.is_one_sheet = true;
   page.figures = {
       {fmt::format("{:.2f} mm", expected.rms_mm), "expected over the bed, rms, one sigma"},
       {fmt::format("0 to {:.2f} mm", k95PerCent * expected.rms_mm), "95 % interval"},
@@ -138,7 +141,9 @@ report::Page certificate(const grid::CompensationMap& map, std::string_view sour
       "chain or the sheet is moved.";
   report::Chart chart = report::error_map_chart(full);
   chart.caption = "One sigma at the tool.";
-  page.sections.push_back({"Expected error over the bed", {std::move(chart)}});
+  report::Section error_section{"Where to expect which error", {}};
+  error_section.blocks.push_back(std::move(chart));
+  page.sections.push_back(std::move(error_section));
   page.sections.push_back(measured_section(map));
   page.sections.push_back(named_section(contents));
   page.sections.push_back(remaining_section(contents));
