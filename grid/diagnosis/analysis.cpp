@@ -123,14 +123,13 @@ bool has_continuous_place(const Direction& direction) {
   return parameters.size() > 1 && !parameters.back().integer;
 }
 
-/// Strength below which no point plan names a cause: what cannot get there is left out of the contest,
-/// where it would only take probability from the others.
+/// Strength below which no point plan names a cause: what cannot get there is left out of the
+/// contest, where it would only take probability from the others.
 constexpr double kLeastReach = 4.0;
 
 /// Takes effects out that could not show at any size that they may have.
 void drop_invisible(const Session& session, const Steps& steps, Analysis& a) {
-  const Space space =
-      make_space(a.rows, std::vector<bool>(session.points.size(), false), steps);
+  const Space space = make_space(a.rows, std::vector<bool>(session.points.size(), false), steps);
   const auto reach = [&](const CauseId& cause) {
     double most = 0.0;
     for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
@@ -182,13 +181,42 @@ std::vector<Refinement> refinements(const Session& session, const Analysis& a) {
   return result;
 }
 
+}  // namespace
+
+Judgement decide(const Session& session,
+                 const Rows& rows,
+                 const Contest& contest,
+                 const std::vector<bool>& excluded,
+                 bool seen) {
+  constexpr double kOverPattern = 1.8;  // strength of the leading cause over what is left
+  Judgement judged = judge(rows, contest, excluded, seen);
+  if (judged.listed.empty() || judged.pattern <= kPatternPossible || judged.best_pattern < 0) {
+    return judged;
+  }
+  // A pattern that nobody knows may lend a name its strength: the leading cause must stand above
+  // it.
+  const Space& space = contest.spaces[judged.space];
+  const Estimate fitted = estimate(session, rows, space, judged.directions, judged.best_pattern);
+  double strongest = 0.0;
+  for (std::size_t k = 0; k < fitted.directions.size(); ++k) {
+    strongest = std::max(strongest,
+                         std::abs(fitted.coefficient(static_cast<Eigen::Index>(k))) *
+                             space.g.col(fitted.directions[k]).norm());
+  }
+  const Eigen::VectorXd pattern = fitted.left - fitted.left_beside_pattern;
+  if (strongest >= kOverPattern * pattern(space.kept).norm()) return judged;
+  return judge(rows, contest, excluded, false);
+}
+
+namespace {
+
 void contest_and_judge(const Session& session,
                        const ContestOptions& options,
                        bool seen,
                        Analysis& a) {
   const std::vector<bool> none(session.points.size(), false);
   a.contest = hold_contest(session, a.rows, none, options);
-  a.judgement = judge(a.rows, a.contest, none, seen);
+  a.judgement = decide(session, a.rows, a.contest, none, seen);
   a.estimate = estimate(session,
                         a.rows,
                         a.contest.spaces[a.judgement.space],
@@ -232,7 +260,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
   test_significance(session, options, a);
   if (a.family_wise_p >= kFalseAlarm && !options.told) {
     const std::vector<bool> none(session.points.size(), false);
-    a.judgement = judge(a.rows, a.contest, none, false);
+    a.judgement = decide(session, a.rows, a.contest, none, false);
     a.estimate = estimate(session,
                           a.rows,
                           a.contest.spaces[a.judgement.space],

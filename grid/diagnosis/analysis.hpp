@@ -24,6 +24,14 @@ struct Analysis {
   Estimate estimate;  ///< of the judgement's causes
 };
 
+/// judge(), and silence where an unknown pattern is as strong as the cause it would be named
+/// beside.
+[[nodiscard]] Judgement decide(const Session& session,
+                               const Rows& rows,
+                               const Contest& contest,
+                               const std::vector<bool>& excluded,
+                               bool seen);
+
 [[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
                                                                const DiagnosisOptions& options);
 

@@ -43,7 +43,7 @@ Seen seen_by(const Seen& nothing,
   std::vector<Eigen::VectorXd> taken;
   for (const int k : set) {
     if (rows.directions[static_cast<std::size_t>(k)].fixed) continue;
-    const double prior = space.g.col(k).squaredNorm() / (kDeltaSigma * kDeltaSigma);
+    const double prior = space.g.col(k).squaredNorm() / (kWideDelta * kWideDelta);
     // P g for the precision so far
     Eigen::VectorXd pg = upper.solve(Eigen::VectorXd(space.g.col(k)));
     const Eigen::VectorXd g = space.factor * space.g.col(k);

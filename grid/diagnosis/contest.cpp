@@ -10,6 +10,7 @@
 #include <set>
 
 #include "grid/diagnosis/bad_points.hpp"
+#include "grid/diagnosis/estimate.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -32,6 +33,10 @@ constexpr std::size_t kKeptFixed = 60;
 constexpr std::size_t kBeam = 24;
 /// Sets that are also tried beside an unknown pattern.
 constexpr std::size_t kBesidePattern = 24;
+/// A set of bad points so much less probable than the best is not tried beside patterns.
+constexpr double kWorthPatterns = 6.0;
+/// Sets of bad points in one contest.
+constexpr std::size_t kMostSpaces = 8;
 
 double log_sum(const std::vector<double>& terms) {
   double high = kMinusInfinity;
@@ -56,7 +61,7 @@ class Search {
  public:
   Search(const Session& session,
          const Rows& rows,
-         const Space& space,
+         Space& space,
          std::size_t number,
          const ContestOptions& options)
       : session_(session),
@@ -75,9 +80,17 @@ class Search {
       pairs();
       grow();
     }
-    if (options_.patterns) beside_patterns();
     return std::move(models_);
   }
+
+  /// The best sets once more, with a pattern that nobody knows beside them.
+  std::vector<Model> run_beside_patterns() {
+    models_.clear();
+    beside_patterns();
+    return std::move(models_);
+  }
+
+  [[nodiscard]] double best() const { return best_; }
 
  private:
   /// Directions worth their place: those of no whole number, and of the others the best, alone or
@@ -171,7 +184,7 @@ class Search {
     double cb = metric_.ge(j);
     const double ab = metric_.gg(i, j);
     double occam = 0.0;
-    constexpr double kPrecision = 1.0 / (kDeltaSigma * kDeltaSigma);
+    constexpr double kPrecision = 1.0 / (kWideDelta * kWideDelta);
     if (a.fixed && b.fixed) {
       q += aa + bb + 2.0 * (ab - ca - cb);
     } else if (a.fixed || b.fixed) {
@@ -180,7 +193,7 @@ class Search {
       const double oo = a.fixed ? bb : aa;
       const double co = (a.fixed ? cb : ca) - ab;
       q += ff - 2.0 * cf - co * co / (oo * (1.0 + kPrecision));
-      occam = std::log(kDeltaSigma);
+      occam = std::log(kUsualDelta);
     } else {
       ca /= std::sqrt(aa);
       cb /= std::sqrt(bb);
@@ -188,7 +201,7 @@ class Search {
       const double one = 1.0 + kPrecision;
       const double det = one * one - rho * rho;
       q -= (one * (ca * ca + cb * cb) - 2.0 * rho * ca * cb) / det;
-      occam = 2.0 * std::log(kDeltaSigma) + 0.5 * std::log(det);
+      occam = 2.0 * std::log(kUsualDelta) + 0.5 * std::log(det);
     }
     const auto n = static_cast<double>(space_.kept.size());
     return -0.5 * (n + session_.noise_dof) * std::log(session_.noise_dof + std::max(q, 0.0)) -
@@ -258,7 +271,6 @@ class Search {
     }
   }
 
-  /// The best sets once more, with a pattern that nobody knows beside them.
   void beside_patterns() {
     std::stable_sort(scored_.begin(), scored_.end(), heavier);
     std::vector<std::vector<Eigen::Index>> sets = {{}};
@@ -312,7 +324,7 @@ class Search {
 
   const Session& session_;
   const Rows& rows_;
-  const Space& space_;
+  Space& space_;
   std::size_t number_;
   const ContestOptions& options_;
   NoiseDensity noise_;
@@ -407,28 +419,85 @@ SingleScores single_scores(const Rows& rows,
   return scores;
 }
 
-Contest hold_contest(const Session& session,
-                     const Rows& rows,
-                     const std::vector<bool>& excluded,
-                     const ContestOptions& options) {
-  Contest contest;
-  const auto sets = bad_point_sets(rows,
-                                   excluded,
-                                   first_hypotheses(session, rows, excluded, options),
-                                   session.noise_dof,
-                                   options.steps);
-  for (const auto& bad : sets) contest.spaces.push_back(make_space(rows, bad, options.steps));
-  contest.rows = static_cast<Eigen::Index>(contest.spaces.front().kept.size());
-  for (std::size_t k = 0; k < contest.spaces.size(); ++k) {
-    auto models = Search(session, rows, contest.spaces[k], k, options).run();
-    std::move(models.begin(), models.end(), std::back_inserter(contest.models));
+namespace {
+
+/// Of the best model's bad points those that are off by just what a whole number of links does:
+/// each set of bad points once more without one of them.
+std::vector<std::vector<bool>> sets_without_links(const Session& session,
+                                                  const Rows& rows,
+                                                  const std::vector<bool>& excluded,
+                                                  const Contest& contest) {
+  constexpr double kAlike = 25.0;  // squared, in sigmas: two rows, 1 in 270 000
+  const Model& best = contest.best();
+  const Space& space = contest.spaces[best.space];
+  const Estimate fitted = estimate(session, rows, space, best.directions, -1);
+  std::vector<std::vector<bool>> result;
+  for (std::size_t i = 0; i < space.bad.size(); ++i) {
+    if (!space.bad[i] || excluded[i]) continue;
+    const auto row = 2 * static_cast<Eigen::Index>(i);
+    bool links = false;
+    for (std::size_t k = 0; k < rows.directions.size() && !links; ++k) {
+      if (!rows.directions[k].fixed) continue;
+      const auto g = rows.g.col(static_cast<Eigen::Index>(k)).segment<2>(row);
+      links = g.squaredNorm() > 0.0 &&
+              (fitted.left.segment<2>(row) - g).squaredNorm() < kAlike * fitted.noise_square;
+    }
+    if (!links) continue;
+    std::vector<bool> without = space.bad;
+    without[i] = false;
+    const bool known = std::any_of(contest.spaces.begin(),
+                                   contest.spaces.end(),
+                                   [&](const Space& s) { return s.bad == without; });
+    if (!known) result.push_back(std::move(without));
   }
+  return result;
+}
+
+void finish(Contest& contest) {
   std::stable_sort(contest.models.begin(),
                    contest.models.end(),
                    [](const Model& a, const Model& b) { return a.log_weight > b.log_weight; });
   std::vector<double> weights;
   for (const Model& model : contest.models) weights.push_back(model.log_weight);
   contest.log_total = log_sum(weights);
+}
+
+}  // namespace
+
+Contest hold_contest(const Session& session,
+                     const Rows& rows,
+                     const std::vector<bool>& excluded,
+                     const ContestOptions& options) {
+  Contest contest;
+  const auto hold_with = [&](const std::vector<std::vector<bool>>& sets) {
+    contest.spaces.reserve(kMostSpaces);
+    std::vector<Search> searches;
+    double best = kMinusInfinity;
+    const auto take = [&](std::vector<Model> models) {
+      std::move(models.begin(), models.end(), std::back_inserter(contest.models));
+    };
+    for (const auto& bad : sets) {
+      if (contest.spaces.size() == kMostSpaces) break;
+      contest.spaces.push_back(make_space(rows, bad, options.steps));
+      searches.emplace_back(
+          session, rows, contest.spaces.back(), contest.spaces.size() - 1, options);
+      take(searches.back().run());
+      best = std::max(best, searches.back().best());
+    }
+    for (Search& search : searches) {
+      if (options.patterns && search.best() > best - kWorthPatterns) {
+        take(search.run_beside_patterns());
+      }
+    }
+    finish(contest);
+  };
+  hold_with(bad_point_sets(rows,
+                           excluded,
+                           first_hypotheses(session, rows, excluded, options),
+                           session.noise_dof,
+                           options.steps));
+  const auto more = sets_without_links(session, rows, excluded, contest);
+  if (!more.empty()) hold_with(more);
   return contest;
 }
 

@@ -30,7 +30,6 @@ struct Contest {
   std::vector<Space> spaces;
   std::vector<Model> models;  ///< those that matter, best first
   double log_total = 0.0;
-  Eigen::Index rows = 0;  ///< of the first space
   [[nodiscard]] const Model& best() const { return models.front(); }
   [[nodiscard]] double probability(const Model& model) const;
 };

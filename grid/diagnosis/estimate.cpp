@@ -9,29 +9,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// W K W' between the kept rows.
-Eigen::MatrixXd pattern_covariance(const Session& session,
-                                   const Rows& rows,
-                                   const Space& space,
-                                   Pattern pattern) {
-  const auto n = static_cast<Eigen::Index>(space.kept.size());
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index a = 0; a < n; ++a) {
-    const Eigen::Index row = space.kept[static_cast<std::size_t>(a)];
-    if (row >= session.point_rows()) continue;
-    const auto i = static_cast<std::size_t>(row / 2);
-    for (Eigen::Index b = 0; b <= a; ++b) {
-      const Eigen::Index other = space.kept[static_cast<std::size_t>(b)];
-      const auto j = static_cast<std::size_t>(other / 2);
-      c(a, b) = c(b, a) =
-          pattern.sigma_mm * pattern.sigma_mm *
-          pattern_correlation(session.points[i].mark, session.points[j].mark, pattern.length_mm) *
-          rows.points[i].whitening.row(row % 2).dot(rows.points[j].whitening.row(other % 2));
-    }
-  }
-  return c;
-}
-
 /// Linear unknowns with a prior each.
 struct Unknowns {
   Eigen::MatrixXd design;
@@ -89,8 +66,9 @@ Estimate estimate(const Session& session,
   Eigen::LLT<Eigen::MatrixXd> noise;
   Pattern shape;
   if (pattern >= 0) {
-    shape = pattern_of(rows, session, space, pattern);
-    Eigen::MatrixXd c = pattern_covariance(session, rows, space, shape);
+    shape = pattern_of(space, pattern);
+    Eigen::MatrixXd c = shape.sigma_mm * shape.sigma_mm *
+                        pattern_covariance(session, rows, space.kept, shape.shape);
     c.diagonal().array() += 1.0;
     noise.compute(c);
   }
@@ -108,7 +86,7 @@ Estimate estimate(const Session& session,
     for (Eigen::Index k = 0; k < free; ++k) {
       const int column = directions[result.free[static_cast<std::size_t>(k)]];
       unknowns.design.col(settings + k) = rows.g(space.kept, column);
-      unknowns.sigma(settings + k) = kDeltaSigma / std::max(space.g.col(column).norm(), 1e-12);
+      unknowns.sigma(settings + k) = kWideDelta / std::max(space.g.col(column).norm(), 1e-12);
     }
     solution = solve(unknowns, data(space.kept), pattern >= 0 ? &noise : nullptr);
     std::size_t outside = result.free.size();
@@ -146,7 +124,8 @@ Estimate estimate(const Session& session,
       const auto row = 2 * static_cast<Eigen::Index>(i);
       result.left_beside_pattern.segment<2>(row) -=
           rows.points[i].whitening *
-          pattern_at(session, rows, space, result, session.points[i].mark);
+          pattern_at(
+              session, rows, space, result, {session.points[i].mark, rows.points[i].by_mark});
     }
   }
   const Eigen::VectorXd off =
@@ -167,17 +146,17 @@ Eigen::Vector2d pattern_at(const Session& session,
                            const Rows& rows,
                            const Space& space,
                            const Estimate& estimate,
-                           model::BedPoint mark) {
+                           const PatternPlace& place) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
-  for (Eigen::Index a = 0; a < estimate.pattern_weights.size(); ++a) {
+  for (Eigen::Index a = 0; a + 1 < estimate.pattern_weights.size(); a += 2) {
     const Eigen::Index row = space.kept[static_cast<std::size_t>(a)];
-    if (row >= session.point_rows()) continue;
+    if (row >= session.point_rows()) break;
     const auto i = static_cast<std::size_t>(row / 2);
-    mm += estimate.pattern.sigma_mm * estimate.pattern.sigma_mm * estimate.pattern_weights(a) *
-          pattern_correlation(mark, session.points[i].mark, estimate.pattern.length_mm) *
-          rows.points[i].whitening.row(row % 2).transpose();
+    mm += pattern_block(
+              estimate.pattern.shape, place, {session.points[i].mark, rows.points[i].by_mark}) *
+          rows.points[i].whitening.transpose() * estimate.pattern_weights.segment<2>(a);
   }
-  return mm;
+  return estimate.pattern.sigma_mm * estimate.pattern.sigma_mm * mm;
 }
 
 std::vector<Eigen::Vector2d> chain_residuals(const Rows& rows, const Eigen::VectorXd& whitened) {

@@ -35,12 +35,12 @@ struct Estimate {
                                 const std::vector<int>& directions,
                                 int pattern);
 
-/// What the unknown pattern adds to either chain at a mark [mm]; zero where the estimate has none.
+/// What the unknown pattern adds to either chain at a place [mm]; zero where the estimate has none.
 [[nodiscard]] Eigen::Vector2d pattern_at(const Session& session,
                                          const Rows& rows,
                                          const Space& space,
                                          const Estimate& estimate,
-                                         model::BedPoint mark);
+                                         const PatternPlace& place);
 
 /// Residuals at the points in the chains [mm].
 [[nodiscard]] std::vector<Eigen::Vector2d> chain_residuals(const Rows& rows,

@@ -25,37 +25,12 @@ double log_mass(double mean, double sigma, double low, double high) {
   return log_normal_mass((low - mean) / sigma, (high - mean) / sigma);
 }
 
-Eigen::MatrixXd correlations(const Session& session, double length_mm) {
-  const auto n = static_cast<Eigen::Index>(session.points.size());
-  Eigen::MatrixXd k(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      k(i, j) = k(j, i) = pattern_correlation(session.points[static_cast<std::size_t>(i)].mark,
-                                              session.points[static_cast<std::size_t>(j)].mark,
-                                              length_mm);
-    }
-  }
-  return k;
-}
-
-/// L^-1 W K W' L^-T for a standard deviation of 1 mm on either chain.
-Eigen::MatrixXd pattern_covariance(const Rows& rows,
-                                   const Session& session,
-                                   const Space& space,
-                                   double length_mm) {
-  const Eigen::MatrixXd k = correlations(session, length_mm);
-  const auto kept = static_cast<Eigen::Index>(space.kept.size());
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(kept, kept);
-  for (Eigen::Index a = 0; a < kept; ++a) {
-    const Eigen::Index row = space.kept[static_cast<std::size_t>(a)];
-    if (row >= session.point_rows()) continue;
-    for (Eigen::Index b = 0; b <= a; ++b) {
-      const Eigen::Index other = space.kept[static_cast<std::size_t>(b)];
-      const auto& wi = rows.points[static_cast<std::size_t>(row / 2)].whitening;
-      const auto& wj = rows.points[static_cast<std::size_t>(other / 2)].whitening;
-      c(a, b) = c(b, a) = k(row / 2, other / 2) * wi.row(row % 2).dot(wj.row(other % 2));
-    }
-  }
+/// L^-1 W K W' L^-T for a pattern of 1 mm.
+Eigen::MatrixXd reduced_pattern(const Rows& rows,
+                                const Session& session,
+                                const Space& space,
+                                const PatternShape& shape) {
+  Eigen::MatrixXd c = pattern_covariance(session, rows, space.kept, shape);
   const auto lower = space.factor.triangularView<Eigen::Lower>();
   c = lower.solve(c).eval();
   return lower.solve(c.transpose()).eval();
@@ -154,23 +129,19 @@ Metric plain_metric(const Space& space, std::vector<int> columns) {
   return metric;
 }
 
-double pattern_correlation(model::BedPoint a, model::BedPoint b, double length_mm) {
-  const double dx = (a.x_mm - b.x_mm) / length_mm;
-  const double dy = (a.y_mm - b.y_mm) / length_mm;
-  return std::exp(-0.5 * (dx * dx + dy * dy));
-}
-
 std::vector<Metric> pattern_metrics(const Rows& rows,
                                     const Session& session,
-                                    const Space& space,
+                                    Space& space,
                                     const std::vector<int>& columns) {
   std::vector<int> sorted = columns;
   std::sort(sorted.begin(), sorted.end());
   std::vector<Metric> metrics;
-  for (const double length_mm : kPatternLengths_mm) {
+  space.pattern_trace.clear();
+  for (const PatternShape& shape : kPatternShapes) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        pattern_covariance(rows, session, space, length_mm));
+        reduced_pattern(rows, session, space, shape));
     const Eigen::ArrayXd values = eigen.eigenvalues().array().max(0.0);
+    space.pattern_trace.push_back(values.sum());
     const Eigen::VectorXd e = eigen.eigenvectors().transpose() * space.e;
     const Eigen::MatrixXd g = eigen.eigenvectors().transpose() * space.g(Eigen::all, sorted).eval();
     for (const double delta : kPatternDeltas) {
@@ -188,31 +159,35 @@ std::vector<Metric> pattern_metrics(const Rows& rows,
   return metrics;
 }
 
-Pattern pattern_of(const Rows& rows, const Session& session, const Space& space, int index) {
+Pattern pattern_of(const Space& space, int index) {
   const auto deltas = static_cast<int>(std::size(kPatternDeltas));
-  const double length_mm = kPatternLengths_mm[index / deltas];
-  const double delta = kPatternDeltas[index % deltas];
-  const double trace = pattern_covariance(rows, session, space, length_mm).trace();
-  return {length_mm, delta / std::sqrt(trace)};
+  const int shape = index / deltas;
+  const double trace = space.pattern_trace.at(static_cast<std::size_t>(shape));
+  return {kPatternShapes[shape], kPatternDeltas[index % deltas] / std::sqrt(trace)};
 }
 
-SetEvidence set_evidence(const Metric& metric,
-                         const std::vector<Direction>& directions,
-                         std::span<const Eigen::Index> set,
-                         const NoiseDensity& noise) {
+namespace {
+
+/// Set evidence for one sigma of delta.
+SetEvidence evidence_at(const Metric& metric,
+                        const std::vector<Direction>& directions,
+                        std::span<const Eigen::Index> set,
+                        const NoiseDensity& noise,
+                        double delta_sigma) {
   SetEvidence result;
   std::vector<Eigen::Index> free;
+  const auto direction = [&](Eigen::Index i) -> const Direction& {
+    return directions[static_cast<std::size_t>(metric.columns[static_cast<std::size_t>(i)])];
+  };
   double q = metric.ee;
   for (const Eigen::Index i : set) {
-    const auto column = static_cast<std::size_t>(metric.columns[static_cast<std::size_t>(i)]);
-    if (!directions[column].fixed) {
+    if (!direction(i).fixed) {
       free.push_back(i);
       continue;
     }
     q -= 2.0 * metric.ge(i);
     for (const Eigen::Index j : set) {
-      const auto other = static_cast<std::size_t>(metric.columns[static_cast<std::size_t>(j)]);
-      if (directions[other].fixed) q += metric.gg(i, j);
+      if (direction(j).fixed) q += metric.gg(i, j);
     }
   }
   const auto m = static_cast<Eigen::Index>(free.size());
@@ -224,15 +199,14 @@ SetEvidence set_evidence(const Metric& metric,
     length(i) = std::sqrt(metric.gg(at, at));
     c(i) = metric.ge(at);
     for (const Eigen::Index j : set) {
-      const auto other = static_cast<std::size_t>(metric.columns[static_cast<std::size_t>(j)]);
-      if (directions[other].fixed) c(i) -= metric.gg(at, j);
+      if (direction(j).fixed) c(i) -= metric.gg(at, j);
     }
     c(i) /= length(i);
     for (Eigen::Index j = 0; j <= i; ++j) {
       a(i, j) = a(j, i) =
           metric.gg(at, free[static_cast<std::size_t>(j)]) / (length(i) * length(j));
     }
-    a(i, i) += 1.0 / (kDeltaSigma * kDeltaSigma);
+    a(i, i) += 1.0 / (delta_sigma * delta_sigma);
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(a);
   result.delta = llt.solve(c);
@@ -240,18 +214,32 @@ SetEvidence set_evidence(const Metric& metric,
   result.delta_square = llt.solve(Eigen::MatrixXd::Identity(m, m)).diagonal();
   const double half_log_det = Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
   result.log_evidence = noise.log_density(result.quadratic) - 0.5 * metric.log_det - half_log_det -
-                        static_cast<double>(m) * std::log(kDeltaSigma);
+                        static_cast<double>(m) * std::log(delta_sigma);
   const double s = std::sqrt(noise.noise_square(result.quadratic));
   for (Eigen::Index i = 0; i < m; ++i) {
-    const auto column = static_cast<std::size_t>(
-        metric.columns[static_cast<std::size_t>(free[static_cast<std::size_t>(i)])]);
-    const double low = directions[column].lowest * length(i);
-    const double high = directions[column].highest * length(i);
+    const Direction& own = direction(free[static_cast<std::size_t>(i)]);
+    const double low = own.lowest * length(i);
+    const double high = own.highest * length(i);
     result.log_evidence +=
         log_mass(result.delta(i), s * std::sqrt(result.delta_square(i)), low, high) -
-        log_mass(0.0, s * kDeltaSigma, low, high);
+        log_mass(0.0, s * delta_sigma, low, high);
   }
   return result;
+}
+
+}  // namespace
+
+SetEvidence set_evidence(const Metric& metric,
+                         const std::vector<Direction>& directions,
+                         std::span<const Eigen::Index> set,
+                         const NoiseDensity& noise) {
+  SetEvidence wide = evidence_at(metric, directions, set, noise, kWideDelta);
+  const bool all_fixed = wide.delta.size() == 0;
+  if (all_fixed) return wide;
+  const SetEvidence usual = evidence_at(metric, directions, set, noise, kUsualDelta);
+  wide.log_evidence = log_sum(std::log(1.0 - kWideDeltaPrior) + usual.log_evidence,
+                              std::log(kWideDeltaPrior) + wide.log_evidence);
+  return wide;
 }
 
 }  // namespace chaintrue::grid::diagnosis

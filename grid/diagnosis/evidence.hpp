@@ -12,7 +12,7 @@
 ///            cut to what the parameter may be
 ///   s^2      the noise's square over the stated one: scaled inverse chi^2, dof as stated, about 1;
 ///            with a small weight about one of kLargerNoise squared
-///   K        a Gaussian process on either chain, squared exponential: the unknown pattern
+///   K        covariance of the unknown pattern (pattern.hpp)
 ///
 /// With conjugate priors all integrals are closed but for the cut, which is the mass of the
 /// posterior inside the bounds over that of the prior (exact for one cause).
@@ -26,22 +26,19 @@
 #include <span>
 #include <vector>
 
-#include "grid/diagnosis/rows.hpp"
+#include "grid/diagnosis/pattern.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
-inline constexpr double kDeltaSigma = 12.0;
+inline constexpr double kUsualDelta = 12.0;
+inline constexpr double kWideDelta = 60.0;
+inline constexpr double kWideDeltaPrior = 0.15;
 inline constexpr double kLargerNoise[] = {1.5, 2.0, 2.7};
 inline constexpr double kLargerNoisePrior = 0.06;  ///< shared by all of them
 /// A bad point's whitened reading is spread this wide, in sigmas.
 inline constexpr double kBadPointSpread = 40.0;
 /// Chance beforehand that a point is bad.
 inline constexpr double kBadPointPrior = 0.01;
-inline constexpr double kPatternLengths_mm[] = {250.0, 450.0, 800.0};
-inline constexpr double kPatternDeltas[] = {4.0, 6.5, 10.0, 16.0, 25.0};
-inline constexpr int kPatterns =
-    static_cast<int>(std::size(kPatternLengths_mm) * std::size(kPatternDeltas));
-
 /// The data's density as a function of their quadratic form, the noise averaged out.
 class NoiseDensity {
  public:
@@ -68,6 +65,8 @@ struct Space {
   Eigen::MatrixXd g;               ///< L^-1
   double log_det = 0.0;            ///< of V
   double log_bad = 0.0;            ///< prior and density of the points set aside
+  /// Per shape: trace of its covariance in this space, for a pattern of 1 mm.
+  std::vector<double> pattern_trace;
 };
 [[nodiscard]] Space make_space(const Rows& rows, const std::vector<bool>& bad, const Steps& steps);
 /// L^-1 of a column of all rows.
@@ -84,22 +83,13 @@ struct Metric {
 };
 [[nodiscard]] Metric plain_metric(const Space& space, std::vector<int> columns);
 
-/// The unknown pattern beside some columns, at every length and size.
+/// The unknown pattern beside some columns, at every shape and size; notes the traces in the space.
 [[nodiscard]] std::vector<Metric> pattern_metrics(const Rows& rows,
                                                   const Session& session,
-                                                  const Space& space,
+                                                  Space& space,
                                                   const std::vector<int>& columns);
-/// Length and standard deviation [mm] of pattern number `index`.
-struct Pattern {
-  double length_mm = 0.0;
-  double sigma_mm = 0.0;
-};
-[[nodiscard]] Pattern pattern_of(const Rows& rows,
-                                 const Session& session,
-                                 const Space& space,
-                                 int index);
-/// The process' covariance between points, one chain, for a standard deviation of 1.
-[[nodiscard]] double pattern_correlation(model::BedPoint a, model::BedPoint b, double length_mm);
+/// Shape and size of pattern number `index`, in a space whose traces are noted.
+[[nodiscard]] Pattern pattern_of(const Space& space, int index);
 
 /// What a set of directions makes of the data.
 struct SetEvidence {

@@ -39,7 +39,7 @@ class Folds {
     const SingleScore score(a_.rows, first, session_.noise_dof);
     const bool seen = options_.told.has_value() ||
                       a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
-    const Judgement judged = judge(a_.rows, contest, excluded, seen);
+    const Judgement judged = decide(session_, a_.rows, contest, excluded, seen);
     const Space& space = contest.spaces[judged.space];
     Fold fold;
     for (const std::size_t i : points) {

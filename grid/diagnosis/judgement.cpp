@@ -13,6 +13,7 @@ namespace {
 
 /// Probability that anything acts at all from which causes are spoken of.
 constexpr double kCaused = 0.65;
+constexpr double kNeededBesidePattern = 0.98;
 constexpr double kLikelierThanNot = 0.5;
 constexpr double kAbsorbed = 1e-3;
 
@@ -176,6 +177,12 @@ class Judge {
   }
 
   void name_causes(const Grouped& leading) {
+    // Beside a pattern that nobody knows a cause must be needed, not only possible.
+    if (result_.pattern > kPatternPossible &&
+        result_.marginal.front().probability < kNeededBesidePattern) {
+      keep_silent();
+      return;
+    }
     if (leading_key_.size() > 1) {
       result_.verdict = Verdict::several_causes;
       result_.listed = leading_key_;
@@ -186,10 +193,6 @@ class Judge {
       return;
     }
     const double top = result_.marginal.front().probability;
-    if (result_.pattern > 0.5 && top < kNamedAlone) {
-      keep_silent();
-      return;
-    }
     take(leading);
     if (top >= kNamedAlone) {
       result_.verdict = Verdict::named;

@@ -19,6 +19,9 @@ inline constexpr double kSetHolds = 0.98;
 /// Chance of a false alarm over the whole catalogue.
 inline constexpr double kFalseAlarm = 0.01;
 
+/// From this probability of an unknown pattern on, names are given more sparingly.
+inline constexpr double kPatternPossible = 0.25;
+
 /// Causes that these data cannot separate, however strong; the one that gives the class its name
 /// first: a cause in the machine before one on the paper.
 using CauseClass = std::vector<CauseId>;

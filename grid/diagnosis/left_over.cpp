@@ -20,21 +20,13 @@ constexpr double kTimeOverPlace = 0.3;
 
 /// e'K e / e'e against draws of noise: is there more in common between neighbours than chance has?
 double p_of_structure(const Session& session,
+                      const Rows& rows,
                       const std::vector<Eigen::Index>& kept,
                       const Eigen::VectorXd& left,
                       std::uint64_t seed) {
   const Eigen::VectorXd e = left(kept);
-  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(e.size(), e.size());
-  for (Eigen::Index a = 0; a < e.size(); ++a) {
-    for (Eigen::Index b = 0; b < e.size(); ++b) {
-      const Eigen::Index i = kept[static_cast<std::size_t>(a)];
-      const Eigen::Index j = kept[static_cast<std::size_t>(b)];
-      if (i >= session.point_rows() || j >= session.point_rows() || i % 2 != j % 2) continue;
-      k(a, b) = pattern_correlation(session.points[static_cast<std::size_t>(i / 2)].mark,
-                                    session.points[static_cast<std::size_t>(j / 2)].mark,
-                                    kSmooth_mm);
-    }
-  }
+  const Eigen::MatrixXd k =
+      pattern_covariance(session, rows, kept, {PatternKind::chains, kSmooth_mm});
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(k, Eigen::EigenvaluesOnly);
   const Eigen::ArrayXd values = eigen.eigenvalues().array();
   const double seen = e.dot(k * e) / std::max(e.squaredNorm(), 1e-300);
@@ -116,7 +108,7 @@ double share_along(const Session& session,
 LeftOver left_over(const Session& session, const Analysis& a, std::uint64_t seed) {
   const Space& space = a.contest.spaces[a.judgement.space];
   LeftOver result;
-  result.p_value = p_of_structure(session, space.kept, a.estimate.left, seed);
+  result.p_value = p_of_structure(session, a.rows, space.kept, a.estimate.left, seed);
   if (a.judgement.best_pattern >= 0) {
     const Estimate beside =
         estimate(session, a.rows, space, a.judgement.directions, a.judgement.best_pattern);

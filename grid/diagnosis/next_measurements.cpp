@@ -35,12 +35,13 @@ struct MachineReading {
   const char* side;
   double sigma;
 };
+constexpr double kLinkPitchSigmaMm = 0.001;  // 100 links to 0.1 mm
 constexpr MachineReading kReadings[] = {
     {"motor_spacing_mm", "", 1.0},
     {"beam_rise_mm", "", 1.0},
     {"ring_radius_mm", "", 0.5},
-    {"link_pitch_mm", "left", 0.001},  // 100 links to 0.1 mm
-    {"link_pitch_mm", "right", 0.001},
+    {"link_pitch_mm", "left", kLinkPitchSigmaMm},
+    {"link_pitch_mm", "right", kLinkPitchSigmaMm},
     {"chain_mass_kg_per_m", "", 0.002},
 };
 
@@ -104,7 +105,8 @@ void add_link_reading(const Session& session,
       std::any_of(session.readings.begin(), session.readings.end(), is_pitch)) {
     return;
   }
-  NextMeasurement reading{MeasurementKind::reading, "link_pitch_mm", "left", std::nullopt, 0.0};
+  NextMeasurement reading{
+      MeasurementKind::reading, "link_pitch_mm", "left", std::nullopt, kLinkPitchSigmaMm};
   for (const ClassProbability& one : a.judgement.marginal) {
     if (one.index == a.judgement.listed.front()) reading.raises_probability_to = one.probability;
   }
@@ -187,7 +189,7 @@ class CandidateSession {
       if (done || (std::string_view(r.what) == "ring_radius_mm" && !ring)) continue;
       session_.readings.push_back({r.what, r.side, 0.0, r.sigma});
       candidates_.push_back(
-          {{MeasurementKind::reading, r.what, r.side, std::nullopt, 0.0}, {row++}, 1});
+          {{MeasurementKind::reading, r.what, r.side, std::nullopt, r.sigma}, {row++}, 1});
     }
   }
 

@@ -79,7 +79,8 @@ Eigen::VectorXd left_of(const Session& from,
   if (model.pattern_weights.size() > 0) {
     for (std::size_t i = 0; i < to.points.size(); ++i) {
       left.segment<2>(2 * static_cast<Eigen::Index>(i)) -=
-          rows.points[i].whitening * pattern_at(from, a.rows, space, model, to.points[i].mark);
+          rows.points[i].whitening *
+          pattern_at(from, a.rows, space, model, {to.points[i].mark, rows.points[i].by_mark});
     }
   }
   return left;

@@ -40,9 +40,16 @@ constexpr std::array kUnits = {
     Unit{"distance_mm", 1.0, "{} mm"},
 };
 
-/// As many digits as the sigma bears: its first two.
+/// To its first two digits.
+double two_digits(double value) {
+  if (value == 0.0) return 0.0;
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1.0);
+  return step * std::round(value / step);
+}
+
+/// As many digits as the sigma bears: its first two; of a value without one, its own first two.
 std::string with_sigma(double value, double sigma) {
-  if (!(sigma > 0.0)) return fmt::format("{:g}", value);
+  if (!(sigma > 0.0)) return fmt::format("{:g}", two_digits(value));
   const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 6);
   return fmt::format("{:.{}f} +- {:.{}f}", value, digits, sigma, digits);
 }

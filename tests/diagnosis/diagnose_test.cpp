@@ -129,7 +129,8 @@ TEST(DiagnoseBadInput, AnotherMachineAltogether) {
     // The right chain of another machine: what calibrating leads to is none.
     p.lengths->right_mm = 5000.0 - p.lengths->right_mm;
   }
-  expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings,
+  expect_refused(grid,
+                 DiagnosisFailure::Reason::contradictory_settings,
                  "no machine near the stated one fits these points");
 }
 

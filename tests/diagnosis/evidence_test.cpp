@@ -51,8 +51,9 @@ double log_normal_density(double x, double mean, double sigma) {
 
 /// p(e) with setting, size and noise integrated on a raster. Priors scale with the noise, as the
 /// conjugate form has it.
-double brute_force(const Rows& rows, const Space& space, double lowest, bool with_cause) {
-  const double size_sigma = kDeltaSigma / space.g.col(0).norm();
+double brute_force_at(const Rows& rows, const Space& space, double lowest, bool with_cause,
+                      double delta_sigma) {
+  const double size_sigma = delta_sigma / space.g.col(0).norm();
   double total = 0.0;
   const double step_u = 0.05;
   for (double u = -3.0; u <= 3.0; u += step_u) {  // u = log of the noise's square
@@ -94,7 +95,13 @@ double brute_force(const Rows& rows, const Space& space, double lowest, bool wit
     if (with_cause && lowest == 0.0) inner *= 2.0;
     total += prior * inner * step_u;
   }
-  return std::log(total);
+  return total;
+}
+
+double brute_force(const Rows& rows, const Space& space, double lowest, bool with_cause) {
+  return std::log(
+      (1.0 - kWideDeltaPrior) * brute_force_at(rows, space, lowest, with_cause, kUsualDelta) +
+      kWideDeltaPrior * brute_force_at(rows, space, lowest, with_cause, kWideDelta));
 }
 
 TEST(Evidence, OfNothingEqualsTheIntegral) {

@@ -271,7 +271,7 @@ TEST(GroundcontrolSettings, TakeUpWhatADiagnosisNamed) {
   EXPECT_THAT(typed.text, HasSubstr("rightchaintolerance = -0.04\n"));
   EXPECT_THAT(typed.text, Not(HasSubstr("chainelongationfactor")));
   // 5.17e-6 + 4e-6.
-  EXPECT_THAT(typed.remarks, Contains(HasSubstr("($45): 9.17e-06 per N")));
+  EXPECT_THAT(typed.remarks, Contains(HasSubstr("$45): 9.17e-06 per N")));
   EXPECT_THAT(typed.remarks, Contains(HasSubstr("10.106 mm; here it is 10.274 mm")));
   EXPECT_THAT(typed.remarks, Contains(HasSubstr("no setting for the effect angular_kink left")));
   EXPECT_EQ(typed.remarks.size(), 3U);

@@ -14,6 +14,8 @@ using grid::files::VisitOrder;
 
 constexpr double kRepeatDistanceMm = 25.0;
 constexpr double kLineGapShare = 0.25;
+/// Marks further apart than so many gaps across a line are no line but a cloud.
+constexpr double kWidestLine = 2.0;
 /// Fewer marks a line than this on average are no lines.
 constexpr double kFewestALine = 2.0;
 
@@ -95,12 +97,13 @@ tl::expected<std::vector<int>, std::string> assumed_order(const std::vector<Meas
       lines.emplace_back();
     lines.back().push_back(place);
   }
-  if (lines.size() < 2 ||
+  const bool is_blurred = std::any_of(lines.begin(), lines.end(), [&](const auto& line) {
+    return line.back().across_mm - line.front().across_mm > kWidestLine * gap_mm;
+  });
+  if (is_blurred || lines.size() < 2 ||
       static_cast<double>(places.size()) < kFewestALine * static_cast<double>(lines.size())) {
-    return tl::unexpected(fmt::format("marks that stand in {}; {} marks make {} of them here",
-                                      by_rows ? "rows" : "columns",
-                                      places.size(),
-                                      lines.size()));
+    return tl::unexpected(
+        fmt::format("marks that stand in {}; these do not", by_rows ? "rows" : "columns"));
   }
   std::vector<int> numbers(points.size());
   int visit = 0;

@@ -3,6 +3,7 @@
 /// chaintrue diagnose: what the simulation gets wrong on these points, why, what naming the cause
 /// gains, and what to measure next.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -108,11 +109,21 @@ tl::expected<Diagnosis, std::string> diagnosed(const DiagnoseCommand& command,
   grid::diagnosis::DiagnosisOptions options;
   options.seed = command.seed;
   options.order_assumed = !command.assume_order.empty();
+  // Seconds, where there are hundreds of points.
+  const bool is_watched = ::isatty(STDERR_FILENO) != 0;
+  if (is_watched) fmt::print(stderr, "Diagnosing {} points ...", measured.points.size());
   auto found = grid::diagnosis::diagnose(measured, options);
+  if (is_watched) fmt::print(stderr, "\r\x1b[K");
   if (!found) return sentence(command.input.grid, found.error());
   if (found->grid_name.empty())
     found->grid_name = measured.name.empty() ? file_name(command.input.grid) : measured.name;
   if (!found->stated_noise) found->stated_noise = measured.noise;
+  if (options.order_assumed) {
+    found->notes.insert(found->notes.begin(),
+                        fmt::format("The visiting order was not measured but assumed: {}, lines "
+                                    "from the top left.",
+                                    command.assume_order));
+  }
   if (!command.held_out.empty()) {
     GridInput other = command.input;
     other.grid = command.held_out;

@@ -154,6 +154,8 @@ struct Scatter {
   OfChain x;
   int chain = 0;
   bool by_direction = false;
+  /// Of the dots that the first colour bears.
+  Eigen::Vector2d PointPicture::*first = &PointPicture::chain_before_mm;
 };
 
 struct Span {
@@ -203,7 +205,7 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
     if (point.bad) continue;
     // Both chains at one scale, so that the noise of one does not look like the error of the other.
     for (int chain = 0; chain < 2; ++chain) {
-      up.take(point.chain_before_mm[chain]);
+      up.take((point.*scatter.first)[chain]);
       if (has_after) up.take(point.chain_after_mm[chain]);
     }
   }
@@ -219,7 +221,7 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
   };
   for (const PointPicture& point : found.points) {
     const int direction = scatter.chain == 0 ? point.direction_left : point.direction_right;
-    add(point, point.chain_before_mm[scatter.chain], !scatter.by_direction || direction > 0);
+    add(point, (point.*scatter.first)[scatter.chain], !scatter.by_direction || direction > 0);
     if (has_after) add(point, point.chain_after_mm[scatter.chain], false);
   }
   DataTable curve{"curve", {"x", "y_mm"}, {}};
@@ -247,22 +249,31 @@ double length_mm(const PointPicture& point, int chain) {
 
 }  // namespace
 
-report::ChartRow arrow_charts(const Diagnosis& found) {
+std::vector<report::ChartRow> arrow_charts(const Diagnosis& found) {
   const std::vector<Arrow> before = arrows_of(found, &PointPicture::before_mm);
   const std::vector<Arrow> after = arrows_of(found, &PointPicture::after_mm);
   const Outline sheet = sheet_of(found);
-  const double scale = report::magnification_of(sheet, before);
-  Chart first = report::arrows_chart(sheet, before, scale, report::kBeforeColor);
+  const double coarse = report::magnification_of(sheet, before);
+  const double fine = report::magnification_of(sheet, after);
+  Chart first = report::arrows_chart(sheet, before, coarse, report::kBeforeColor);
   first.title = "Before: the machine calibrated";
   first.caption =
       "From where the tool should be to where it was. Grey: one sigma of the noise at that mark. "
       "Ringed: bad points.";
-  Chart second = report::arrows_chart(sheet, after, scale, report::kAfterColor);
-  second.title = found.causes.empty() ? "After: nothing was named" : "After: with what was named";
+  if (found.causes.empty()) return {{{std::move(first)}}};
+  Chart second = report::arrows_chart(sheet, after, coarse, report::kAfterColor);
+  second.title = "After: with what was named, same scale";
   second.caption =
-      "The same scale. Arrows of the size of their grey ellipse, in all directions, are noise; "
-      "neighbours that point the same way are something not explained.";
-  return {{std::move(first), std::move(second)}};
+      "Arrows of the size of their grey ellipse, in all directions, are noise; neighbours that "
+      "point the same way are something not explained.";
+  std::vector<report::ChartRow> rows = {{{std::move(first), std::move(second)}}};
+  if (fine >= 2.0 * coarse) {
+    Chart close = report::arrows_chart(sheet, after, fine, report::kAfterColor);
+    close.title = "After, under the magnifying glass";
+    close.caption = fmt::format("The same arrows, {:g} times larger.", fine / coarse);
+    rows.push_back({{std::move(close)}});
+  }
+  return rows;
 }
 
 std::vector<Chart> strip_charts(const Diagnosis& found) {
@@ -333,18 +344,27 @@ bool has_order(const Diagnosis& found) {
 }
 
 report::ChartRow order_charts(const Diagnosis& found) {
+  // A cause of the visit shows before it is taken out; where there is none, what other causes do
+  // would only hide what may be left.
+  const bool of_the_visit =
+      std::any_of(found.causes.begin(), found.causes.end(), [](const auto& cause) {
+        return model::effects::depends_on_visit(*cause.cause.effect);
+      });
+  const bool shows_rest = !of_the_visit && !found.causes.empty();
   report::ChartRow row;
   for (int chain = 0; chain < 2; ++chain) {
     row.charts.push_back(scatter_chart(
         found,
-        {.title = fmt::format("The {} chain, visit by visit", kChains[chain]),
+        {.title = fmt::format(
+             "The {} chain, visit by visit{}", kChains[chain], shows_rest ? ": what is left" : ""),
          .caption = chain == 0 ? "Two layers of colour are friction or play; a slope is drift; a "
                                  "step is a skipped link."
                                : "",
          .x_title = "number of the visit",
          .x = [](const PointPicture& point, int) { return static_cast<double>(*point.order); },
          .chain = chain,
-         .by_direction = true}));
+         .by_direction = true,
+         .first = shows_rest ? &PointPicture::chain_after_mm : &PointPicture::chain_before_mm}));
   }
   return row;
 }
@@ -363,7 +383,9 @@ std::vector<Hypothesis> leading_hypotheses(const Diagnosis& found) {
 Chart probability_chart(const Diagnosis& found) {
   Chart chart{.specification = "probability_bars",
               .title = "How probable each explanation is",
-              .caption = "Explanations below 0.2 % are left out. Blue: what the verdict names."};
+              .caption =
+                  "Each for itself: causes can act together, so these need not add up to 100 %. "
+                  "Below 0.2 % is left out. Blue: what the verdict names."};
   DataTable table{"hypotheses", {"what", "probability", "text", "is_named"}, {}};
   for (const Hypothesis& hypothesis : leading_hypotheses(found)) {
     std::string what = hypothesis_title(hypothesis);
@@ -391,7 +413,7 @@ Chart gain_chart(const Diagnosis& found) {
       return report::kAfterColor;
     return row == &found.gain->surface_only ? report::kNeutralColor : report::kBeforeColor;
   };
-  for (const GainRow& row : gain_rows(*found.gain)) {
+  for (const GainRow& row : gain_rows(found)) {
     table.rows.push_back({std::string(row.what),
                           row.held_out->rms_mm,
                           row.held_out->low_mm,

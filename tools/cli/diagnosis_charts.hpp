@@ -11,8 +11,8 @@
 
 namespace chaintrue::cli {
 
-/// Arrows of the tool before and after, at one scale.
-[[nodiscard]] report::ChartRow arrow_charts(const grid::diagnosis::Diagnosis& found);
+/// Arrows of the tool before and after, at one scale, and after once more where it is much smaller.
+[[nodiscard]] std::vector<report::ChartRow> arrow_charts(const grid::diagnosis::Diagnosis& found);
 /// Measured, best cause, rival, remainder: one chart a chain. Empty where no cause is named.
 [[nodiscard]] std::vector<report::Chart> strip_charts(const grid::diagnosis::Diagnosis& found);
 /// Against the chain's length, and beside it the same folded at one turn of the sprocket; a row a

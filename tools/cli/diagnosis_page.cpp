@@ -114,7 +114,7 @@ std::vector<report::Figure> figures_of(const Diagnosis& found) {
 }
 
 std::string cause_and_remedy(const model::effects::Effect& effect) {
-  return fmt::format("{}. What to do: {}.", effect.cause, effect.remedy);
+  return typeset(fmt::format("{}. What to do: {}.", effect.cause, effect.remedy));
 }
 
 Section causes_section(const Diagnosis& found) {
@@ -122,13 +122,13 @@ Section causes_section(const Diagnosis& found) {
   for (const Cause& cause : found.causes) {
     table.rows.push_back(
         {{cause_title(cause.cause) + (cause.order_assumed ? " (order assumed)" : ""),
-          sizes_in_words(cause.parameters),
+          typeset(sizes_in_words(cause.parameters)),
           percent(cause.probability),
           cause_and_remedy(*cause.cause.effect)},
          false});
     for (const auto& same : cause.same_as) {
       table.rows.push_back({{"or " + cause_title(same.cause),
-                             sizes_in_words(same.parameters),
+                             typeset(sizes_in_words(same.parameters)),
                              "the same",
                              cause_and_remedy(*same.cause.effect)},
                             false});
@@ -140,6 +140,12 @@ Section causes_section(const Diagnosis& found) {
           : found.causes.size() > 1           ? "The causes"
                                               : "The cause",
           {std::move(table)}};
+}
+
+Section arrows_section(const Diagnosis& found) {
+  Section section{"What it does to the tool", {}};
+  for (report::ChartRow& row : arrow_charts(found)) section.blocks.emplace_back(std::move(row));
+  return section;
 }
 
 Section signature_section(const Diagnosis& found) {
@@ -195,7 +201,7 @@ Table error_table(const std::vector<GainRow>& rows, double floor_mm, bool has_bo
 Section gain_section(const Diagnosis& found) {
   const auto& gain = *found.gain;
   Section section{"What naming it gains", {gain_chart(found)}};
-  Table table = error_table(gain_rows(gain), gain.noise_floor_mm, true);
+  Table table = error_table(gain_rows(found), gain.noise_floor_mm, true);
   table.caption = fmt::format(
       "Error of the tool at points that had no part in the fit: {}. The naming was repeated in "
       "every "
@@ -209,7 +215,7 @@ Section gain_section(const Diagnosis& found) {
 
 Section transfer_section(const Diagnosis& found) {
   const auto& other = *found.transferred;
-  Table table = error_table(gain_rows(other), other.noise_floor_mm, false);
+  Table table = error_table(transfer_rows(found), other.noise_floor_mm, false);
   table.caption =
       "Nothing was fitted to these points but, where the sheet was placed by hand, its place.";
   return {fmt::format("On other points: {} ({})", other.to, other.points), {std::move(table)}};
@@ -261,9 +267,7 @@ std::string fate_of(const Diagnosis& found, const grid::diagnosis::Term& term) {
       return found.verdict == Verdict::named_set ? "in the set" : "named";
   }
   for (const auto& bound : found.bounds) {
-    if (bound.cause == term.cause && bound.parameter == term.parameter) {
-      return fmt::format("absent, below {}", size_in_words(bound.parameter, bound.upper_95, 0.0));
-    }
+    if (bound.cause == term.cause) return "absent";
   }
   return "not named";
 }
@@ -282,7 +286,7 @@ Section terms_section(const Diagnosis& found) {
   for (const auto& term : found.terms) {
     const std::string fate = fate_of(found, term);
     table.rows.push_back({{cause_title(term.cause),
-                           size_in_words(term.parameter, term.value, term.sigma),
+                           typeset(size_in_words(term.parameter, term.value, term.sigma)),
                            fixed(term.delta, 1),
                            share_percent(term.share_left),
                            share_percent(term.p_value),
@@ -298,8 +302,7 @@ Section bounds_section(const Diagnosis& found) {
   if (!found.bounds.empty()) {
     Table table{{{"absent"}, {"larger than this it would have shown"}}, {}, "95 % bounds."};
     for (const auto& bound : found.bounds)
-      table.rows.push_back(
-          {{cause_title(bound.cause), size_in_words(bound.parameter, bound.upper_95, 0.0)}, false});
+      table.rows.push_back({{cause_title(bound.cause), bound_in_words(bound)}, false});
     section.blocks.emplace_back(std::move(table));
   }
   if (!found.not_testable.empty()) {
@@ -354,7 +357,7 @@ Section settings_section(const Diagnosis& found) {
 
 Section method_section(const Diagnosis& found) {
   Section section{"What this rests on", {}};
-  for (const std::string& note : found.notes) section.blocks.emplace_back(Paragraph{note});
+  for (const std::string& note : found.notes) section.blocks.emplace_back(Paragraph{typeset(note)});
   std::string noise = found.stated_noise
                           ? fmt::format(
                                 "Noise as stated: {:g} mm a chain and {:g} mm a mark (one "
@@ -380,18 +383,24 @@ report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
   report::Page page;
   page.title = fmt::format("Diagnosis: {}", found.grid_name);
   page.subtitle = fmt::format("{}, {} points", found.extended_machine.name, found.points.size());
-  page.verdict = found.sentence;
-  page.tone = lights.tone;
-  page.lights = {{lights.found_tone, "Found?", std::string(lights.found)},
-                 {lights.named_tone, "Named?", std::string(lights.named)},
-                 data_light(found),
-                 corrected_light(found)};
-  page.advice = found.what_to_do;
+  page.verdict = typeset(found.sentence);
+  const bool is_something_left = is_surprising(found.left_over);
+  page.tone = is_something_left && lights.tone == Tone::good ? Tone::caution : lights.tone;
+  page.lights = {
+      {lights.found_tone, "Found?", std::string(lights.found)},
+      {is_something_left ? std::max(lights.named_tone, Tone::caution) : lights.named_tone,
+       "Named?",
+       fmt::format("{}{}",
+                   lights.named,
+                   is_something_left && !found.causes.empty() ? "; not all of it" : "")},
+      data_light(found),
+      corrected_light(found)};
+  for (const std::string& line : found.what_to_do) page.advice.push_back(typeset(line));
   page.figures = figures_of(found);
-  if (!found.not_proved.empty()) page.not_proved = "What this does not prove: " + found.not_proved;
+  if (!found.not_proved.empty())
+    page.not_proved = "What this does not prove: " + typeset(found.not_proved);
   if (!found.causes.empty()) page.sections.push_back(causes_section(found));
-  if (!found.points.empty())
-    page.sections.push_back({"What it does to the tool", {arrow_charts(found)}});
+  if (!found.points.empty()) page.sections.push_back(arrows_section(found));
   if (!found.points.empty() && !found.causes.empty())
     page.sections.push_back(signature_section(found));
   if (found.gain) page.sections.push_back(gain_section(found));

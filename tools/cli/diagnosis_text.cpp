@@ -54,7 +54,7 @@ void write_causes(Text& text, const Diagnosis& found) {
 }
 
 void write_hypotheses(Text& text, const Diagnosis& found) {
-  text.heading("Probabilities");
+  text.heading("Probabilities, each for itself: causes can act together");
   for (const auto& hypothesis : found.hypotheses) {
     if (hypothesis.probability < kWorthALine) continue;
     text.line("  {:>13}  {}", percent(hypothesis.probability), hypothesis_title(hypothesis));
@@ -78,7 +78,7 @@ void write_errors(Text& text, const std::vector<GainRow>& rows, double floor_mm)
 void write_gain(Text& text, const Diagnosis& found) {
   if (found.gain) {
     text.heading("Error of the tool at points held out, mm");
-    write_errors(text, gain_rows(*found.gain), found.gain->noise_floor_mm);
+    write_errors(text, gain_rows(found), found.gain->noise_floor_mm);
     text.line("  {}; the same cause was named in {} of {} folds.",
               found.gain->scheme,
               found.gain->folds_agree,
@@ -88,7 +88,7 @@ void write_gain(Text& text, const Diagnosis& found) {
     text.heading(fmt::format("Error of the tool on \"{}\", {} points that had no part in this, mm",
                              found.transferred->to,
                              found.transferred->points));
-    write_errors(text, gain_rows(*found.transferred), found.transferred->noise_floor_mm);
+    write_errors(text, transfer_rows(found), found.transferred->noise_floor_mm);
   }
 }
 
@@ -134,9 +134,7 @@ void write_rest(Text& text, const Diagnosis& found) {
   if (!found.bounds.empty()) {
     text.heading("Looked for and absent: larger than this it would have shown");
     for (const auto& bound : found.bounds) {
-      text.line("  {:<34}{}",
-                cause_title(bound.cause),
-                size_in_words(bound.parameter, bound.upper_95, 0.0));
+      text.line("  {:<34}{}", cause_title(bound.cause), bound_in_words(bound));
     }
   }
   if (!found.not_testable.empty()) {
@@ -153,7 +151,7 @@ std::string diagnosis_in_words(const Diagnosis& found) {
   text.line("{}", found.sentence);
   if (!found.what_to_do.empty()) {
     text.heading("What to do now");
-    for (const std::string& line : found.what_to_do) text.line("  - {}", line);
+    for (const std::string& line : found.what_to_do) text.line("  - {}", capitalised(line));
   }
   if (!found.not_proved.empty()) text.line("\nWhat this does not prove: {}", found.not_proved);
   for (const std::string& note : found.notes) text.line("Note: {}", note);

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <iterator>
+
+#include "grid/diagnosis/workshop_units.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -15,81 +17,21 @@ using grid::diagnosis::MeasurementKind;
 using grid::diagnosis::NextMeasurement;
 using grid::diagnosis::ParameterEstimate;
 
-constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
-
-struct ParameterWords {
-  std::string_view parameter;
-  std::string_view what;  ///< before the value, where the effect's name does not say it
-  double factor;
-  std::string_view unit;
-  int digits;
-};
-
-constexpr ParameterWords kParameterWords[] = {
-    {"elongation", "", 1000.0, "mm on a metre", 2},
-    {"scale", "", 1000.0, "mm on a metre", 2},
-    {"angle_rad", "", 1000.0, "mm on a metre", 2},
-    {"offset_mm", "", 1.0, "mm", 2},
-    {"relative_weight", "", 100.0, "% of its weight", 1},
-    {"compliance_per_n", "", 1e5, "mm on a metre at 100 N", 3},
-    {"flexibility_mm_per_n", "", 100.0, "mm at 100 N", 2},
-    {"force_n", "", 1.0, "N", 2},
-    {"distance_mm", "", 1.0, "mm", 1},
-    {"amplitude_mm", "", 1.0, "mm", 3},
-    {"phase_rad", "phase", kDegreesPerRad, "degrees", 0},
-    {"slope_mm_per_rad", "", 10.0 / kDegreesPerRad, "mm per 10 degrees", 2},
-    {"knee_rad", "from", kDegreesPerRad, "degrees below the horizontal on", 0},
-    {"half_width_mm", "\u00b1", 1.0, "mm", 3},
-    {"rate_mm_per_visit", "", 1.0, "mm a visit", 4},
-    {"links", "", 1.0, "links", 0},
-    {"first_visit", "from visit", 1.0, "on", 0},
-    {"visit", "at visit", 1.0, "", 0},
-};
-
-const ParameterWords* find_words(std::string_view parameter) {
-  for (const ParameterWords& words : kParameterWords) {
-    if (words.parameter == parameter) return &words;
-  }
-  return nullptr;
-}
-
 struct Words {
   std::string_view word;
   std::string_view words;
 };
 
 constexpr Words kHypotheses[] = {{"nothing", "nothing hidden"},
-                                 {"unknown", "a pattern that no cause of the catalogue explains"},
+                                 {"unknown", "an unknown pattern"},
                                  {"noise", "noise larger than stated"},
                                  {"bad_points", "bad points alone"}};
 
-constexpr Words kCoordinates[] = {{"angle_left", "the left chain's angle at its sprocket"},
-                                  {"angle_right", "the right chain's angle at its sprocket"},
-                                  {"length_left", "the left chain's length"},
-                                  {"length_right", "the right chain's length"},
-                                  {"tension_left", "the left chain's tension"},
-                                  {"tension_right", "the right chain's tension"},
-                                  {"turn_left", "the left sprocket's turn"},
-                                  {"turn_right", "the right sprocket's turn"},
-                                  {"order", "the order of the visits"},
-                                  {"x", "the place across the sheet (x)"},
-                                  {"y", "the height on the sheet (y)"}};
-
-struct ReadingWords {
-  std::string_view what;
-  std::string_view words;
+struct UnitEnding {
+  std::string_view ending;
   std::string_view unit;
 };
-
-constexpr ReadingWords kReadings[] = {
-    {"motor_spacing_mm", "Tape the distance between the motors' axes", "mm"},
-    {"beam_rise_mm",
-     "Level the beam: how much higher the right motor's axis is than the left",
-     "mm"},
-    {"ring_radius_mm", "Measure the ring from the bit to the chain's pin", "mm"},
-    {"sled_mass_kg", "Weigh the sled with the router in it", "kg"},
-    {"link_pitch_mm", "Measure 100 links of the chain under load and divide by 100", "mm"},
-    {"chain_mass_kg_per_m", "Weigh a metre of chain", "kg/m"}};
+constexpr UnitEnding kUnitEndings[] = {{"_kg_per_m", "kg/m"}, {"_kg", "kg"}, {"_mm", "mm"}};
 
 std::string spaced(std::string_view id) {
   std::string text(id);
@@ -99,18 +41,6 @@ std::string spaced(std::string_view id) {
 
 std::string title(std::string_view id, std::string_view side) {
   return side.empty() ? spaced(id) : fmt::format("{}, {}", spaced(id), side);
-}
-
-std::string one_size(const ParameterWords* words,
-                     std::string_view parameter,
-                     const WorkshopSize& size) {
-  std::string text;
-  if (words == nullptr) text = spaced(parameter) + " ";
-  if (words != nullptr && !words->what.empty()) text = fmt::format("{} ", words->what);
-  text += fixed(size.value, size.digits);
-  if (size.sigma > 0.0) text += fmt::format(" \u00b1 {}", fixed(size.sigma, size.digits));
-  if (!size.unit.empty()) text += fmt::format(" {}", size.unit);
-  return text;
 }
 
 }  // namespace
@@ -130,55 +60,43 @@ std::string hypothesis_title(const Hypothesis& hypothesis) {
   return title(hypothesis.effect, hypothesis.side);
 }
 
-WorkshopSize workshop_size(std::string_view parameter, double value, double sigma) {
-  const ParameterWords* words = find_words(parameter);
-  if (words == nullptr) return {value, sigma, "", 4};
-  WorkshopSize size{words->factor * value, words->factor * sigma, words->unit, words->digits};
-  // A sigma that would read as zero gets the digits that show it.
-  for (int more = 0;
-       more < 3 && size.sigma > 0.0 && std::pow(10.0, -size.digits) > 2.0 * size.sigma;
-       ++more) {
-    ++size.digits;
-  }
-  return size;
+std::string size_in_words(std::string_view parameter, double value, double sigma) {
+  return grid::diagnosis::in_workshop_units({std::string(parameter), value, sigma});
 }
 
-std::string size_in_words(std::string_view parameter, double value, double sigma) {
-  return one_size(find_words(parameter), parameter, workshop_size(parameter, value, sigma));
+std::string bound_in_words(const grid::diagnosis::Bound& bound) {
+  if (bound.parameter == "links" && bound.upper_95 == 0.0) return "not one link";
+  return size_in_words(bound.parameter, bound.upper_95, 0.0);
 }
 
 std::string sizes_in_words(const std::vector<ParameterEstimate>& parameters) {
   std::string text;
   for (const ParameterEstimate& estimate : parameters) {
     if (!text.empty()) text += ", ";
-    text += size_in_words(estimate.parameter, estimate.value, estimate.sigma);
+    text += grid::diagnosis::in_workshop_units(estimate);
   }
   return text;
 }
 
-std::string coordinate_in_words(std::string_view coordinate) {
-  for (const Words& known : kCoordinates) {
-    if (known.word == coordinate) return std::string(known.words);
-  }
-  return spaced(coordinate);
+bool is_surprising(const grid::diagnosis::LeftOver& left_over) {
+  constexpr double kSurprising = 0.01;
+  return left_over.p_value < kSurprising;
 }
 
 std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
-  constexpr double kSurprising = 0.01;
-  if (left_over.p_value >= kSurprising) {
+  if (!is_surprising(left_over)) {
     return fmt::format(
         "What is left over looks like noise: noise alone leaves as much in {} of cases.",
         share_percent(left_over.p_value));
   }
   std::string text = fmt::format(
-      "Something is left over that noise does not explain: it is {:.1f} times as large as the "
-      "noise "
-      "allows for, which noise alone would do in {} of cases.",
+      "Something is left over that noise does not explain: its strength is {:.1f} in units of "
+      "noise, and noise alone leaves as much in {} of cases.",
       left_over.delta,
       share_percent(left_over.p_value));
   if (!left_over.follows.empty()) {
     text += fmt::format(" It follows {} best ({} of its square): look there.",
-                        coordinate_in_words(left_over.follows),
+                        grid::diagnosis::coordinate_words(left_over.follows),
                         share_percent(left_over.share));
   }
   return text;
@@ -186,22 +104,21 @@ std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
 
 std::string follow_up_in_words(const NextMeasurement& next) {
   if (next.kind != MeasurementKind::reading) {
-    // The sentence says the place where it matters; a place that it does not say is added.
+    std::string text = next.what;
+    if (text.empty() || text.back() != '.') text += '.';
+    if (!next.mark) return text;
     const std::string place =
-        next.mark ? fmt::format("({:.0f}, {:.0f})", next.mark->x_mm + 0.0, next.mark->y_mm + 0.0)
-                  : std::string();
-    if (place.empty() || next.what.find(place) != std::string::npos) return next.what;
-    return fmt::format("{}: {}", place, next.what);
+        fmt::format("({:.0f}, {:.0f})", next.mark->x_mm + 0.0, next.mark->y_mm + 0.0);
+    return text.find(place) != std::string::npos ? text : fmt::format("{}: {}", place, text);
   }
-  std::string text = spaced(next.what);
-  std::string_view unit;
-  for (const ReadingWords& known : kReadings) {
-    if (known.what != next.what) continue;
-    text = known.words;
-    unit = known.unit;
-  }
-  if (!next.side.empty()) text += fmt::format(", {}", next.side);
-  if (next.sigma > 0.0) text += fmt::format(", to {:g} {}", next.sigma, unit);
+  std::string text =
+      fmt::format("Measure {}", grid::diagnosis::reading_words(next.what, next.side));
+  const auto* unit =
+      std::find_if(std::begin(kUnitEndings), std::end(kUnitEndings), [&](const auto& known) {
+        return next.what.ends_with(known.ending);
+      });
+  if (next.sigma > 0.0 && unit != std::end(kUnitEndings))
+    text += fmt::format(", to {:g} {}", next.sigma, unit->unit);
   return text + ".";
 }
 
@@ -219,6 +136,19 @@ std::string share_percent(double share) {
   return fmt::format("{:.{}f} %", in_percent, in_percent < 9.95 ? 1 : 0);
 }
 
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+std::string typeset(std::string text) {
+  constexpr std::string_view kTyped = " +- ", kSet = "\u00a0\u00b1\u00a0";
+  for (std::size_t at = text.find(kTyped); at != std::string::npos; at = text.find(kTyped, at))
+    text.replace(at, kTyped.size(), kSet);
+  return capitalised(std::move(text));
+}
+
 std::string fixed(double value, int digits) {
   const std::string text = fmt::format("{:.{}f}", value, digits);
   if (text.front() != '-') return text;
@@ -226,23 +156,32 @@ std::string fixed(double value, int digits) {
   return is_zero ? text.substr(1) : "\u2212" + text.substr(1);
 }
 
-std::vector<GainRow> gain_rows(const grid::diagnosis::Gain& gain) {
+std::vector<GainRow> gain_rows(const grid::diagnosis::Diagnosis& diagnosis) {
+  const grid::diagnosis::Gain& gain = *diagnosis.gain;
   std::vector<GainRow> rows = {{"as delivered", &gain.as_delivered, {}}};
   if (gain.placed) rows.push_back({"sheet placed, machine as stated", &*gain.placed, {}});
   rows.push_back({"calibrated", &gain.calibrated, gain.border.calibrated_mm});
-  rows.push_back({"with the cause", &gain.extended, gain.border.extended_mm});
-  rows.push_back({"with the cause and a surface",
-                  &gain.extended_and_surface,
-                  gain.border.extended_and_surface_mm});
+  if (!diagnosis.causes.empty()) {
+    rows.push_back({"with the cause", &gain.extended, gain.border.extended_mm});
+    rows.push_back({"with the cause and a surface",
+                    &gain.extended_and_surface,
+                    gain.border.extended_and_surface_mm});
+  }
   rows.push_back({"a surface only", &gain.surface_only, gain.border.surface_only_mm});
   return rows;
 }
 
-std::vector<GainRow> gain_rows(const grid::diagnosis::Transfer& transfer) {
-  return {{"as delivered", &transfer.as_delivered, {}},
-          {"calibrated", &transfer.calibrated, {}},
-          {"with the cause", &transfer.extended, {}},
-          {"with the cause and a surface", &transfer.extended_and_surface, {}}};
+std::vector<GainRow> transfer_rows(const grid::diagnosis::Diagnosis& diagnosis) {
+  const grid::diagnosis::Transfer& transfer = *diagnosis.transferred;
+  std::vector<GainRow> rows = {{"as delivered", &transfer.as_delivered, {}},
+                               {"calibrated", &transfer.calibrated, {}}};
+  if (!diagnosis.causes.empty()) {
+    rows.push_back({"with the cause", &transfer.extended, {}});
+    rows.push_back({"with the cause and a surface", &transfer.extended_and_surface, {}});
+  } else {
+    rows.push_back({"with a surface", &transfer.extended_and_surface, {}});
+  }
+  return rows;
 }
 
 }  // namespace chaintrue::cli

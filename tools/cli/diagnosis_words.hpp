@@ -18,22 +18,17 @@ namespace chaintrue::cli {
 /// Also for nothing, unknown, noise and bad_points.
 [[nodiscard]] std::string hypothesis_title(const grid::diagnosis::Hypothesis& hypothesis);
 
-/// A parameter's value in a workshop unit: `elongation` 0.0012 is "1.20 mm on a metre".
-struct WorkshopSize {
-  double value = 0.0;
-  double sigma = 0.0;
-  std::string_view unit;
-  int digits = 2;
-};
-[[nodiscard]] WorkshopSize workshop_size(std::string_view parameter, double value, double sigma);
-/// "1.20 ± 0.10 mm on a metre"; without a sigma where it is 0.
+/// A parameter in a workshop unit: `elongation` 0.0012 is "0.12 % longer links"; without a sigma
+/// where it is 0.
 [[nodiscard]] std::string size_in_words(std::string_view parameter, double value, double sigma);
-/// All parameters: "0.31 ± 0.02 mm, phase 41 ± 5 degrees".
+/// A bound in the same unit.
+[[nodiscard]] std::string bound_in_words(const grid::diagnosis::Bound& bound);
+/// All parameters, parted by commas.
 [[nodiscard]] std::string sizes_in_words(
     const std::vector<grid::diagnosis::ParameterEstimate>& parameters);
 
-/// "the left chain's angle at the sprocket" for angle_left.
-[[nodiscard]] std::string coordinate_in_words(std::string_view coordinate);
+/// Noise alone leaves as much in less than one of a hundred cases.
+[[nodiscard]] bool is_surprising(const grid::diagnosis::LeftOver& left_over);
 /// What is left over once the causes named are in the model, in a sentence.
 [[nodiscard]] std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over);
 /// What to do, where, and how well.
@@ -43,6 +38,9 @@ struct WorkshopSize {
 [[nodiscard]] std::string percent(double probability);
 /// A share or a chance: 100 % and 0 % are possible, "below 0.1 %" where it is neither.
 [[nodiscard]] std::string share_percent(double share);
+[[nodiscard]] std::string capitalised(std::string text);
+/// For the page: the first letter large, +- as one sign that no line is broken at.
+[[nodiscard]] std::string typeset(std::string text);
 /// Fixed digits with a true minus sign, never "-0.00".
 [[nodiscard]] std::string fixed(double value, int digits);
 
@@ -52,9 +50,11 @@ struct GainRow {
   const grid::diagnosis::HeldOut* held_out = nullptr;
   std::optional<double> border_mm;
 };
-/// Rows point into `gain`.
-[[nodiscard]] std::vector<GainRow> gain_rows(const grid::diagnosis::Gain& gain);
-[[nodiscard]] std::vector<GainRow> gain_rows(const grid::diagnosis::Transfer& transfer);
+/// Rows point into the diagnosis. Precondition: it has a gain. Rows of an extension are left out
+/// where nothing was named.
+[[nodiscard]] std::vector<GainRow> gain_rows(const grid::diagnosis::Diagnosis& diagnosis);
+/// The same on the other grid. Precondition: there is one.
+[[nodiscard]] std::vector<GainRow> transfer_rows(const grid::diagnosis::Diagnosis& diagnosis);
 
 /// Everything for the terminal: verdict, advice, causes, gain, follow-up, settings, what is absent
 /// and what could not be tested.

@@ -93,14 +93,16 @@ std::string in_words(const grid::MeasurementPlan& plan,
 
 /// The diagnosis is of these points: the same marks in the same order.
 bool is_of(const grid::diagnosis::Diagnosis& found, const grid::MeasuredGrid& measured) {
-  constexpr double kSamePlaceMm = 1e-6;
+  const auto same_place = [](double first_mm, double second_mm) {
+    return std::abs(first_mm - second_mm) < 1e-3;
+  };
   return std::equal(found.points.begin(),
                     found.points.end(),
                     measured.points.begin(),
                     measured.points.end(),
-                    [](const auto& pictured, const grid::MeasuredPoint& point) {
-                      return std::abs(pictured.mark.x_mm - point.mark.x_mm) < kSamePlaceMm &&
-                             std::abs(pictured.mark.y_mm - point.mark.y_mm) < kSamePlaceMm;
+                    [&](const auto& pictured, const grid::MeasuredPoint& point) {
+                      return same_place(pictured.mark.x_mm, point.mark.x_mm) &&
+                             same_place(pictured.mark.y_mm, point.mark.y_mm);
                     });
 }
 

@@ -56,12 +56,12 @@ TrueMachine stated_machine(const Recipe& recipe, Dice& dice) {
   return m;
 }
 
-TrueMachine with_settings_off(TrueMachine m, Dice& dice) {
+TrueMachine with_settings_off(TrueMachine m, double factor, Dice& dice) {
   for (Vec2& axis : m.axis) {
-    axis.x += 1.5 * dice.normal();
-    axis.y += 1.5 * dice.normal();
+    axis.x += 1.5 * factor * dice.normal();
+    axis.y += 1.5 * factor * dice.normal();
   }
-  for (double& zero : m.chain_zero_mm) zero += 0.5 * dice.normal();
+  for (double& zero : m.chain_zero_mm) zero += 0.5 * factor * dice.normal();
   return m;
 }
 
@@ -329,7 +329,7 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   Dice machine_dice(seed, "machine"), order_dice(seed, "order"), place_dice(seed, "places");
   Dice effect_dice(seed, "effects"), noise_dice(seed, "noise"), slip_dice(seed, "slips");
   const TrueMachine stated = stated_machine(recipe, machine_dice);
-  const TrueMachine truth = with_settings_off(stated, machine_dice);
+  const TrueMachine truth = with_settings_off(stated, recipe.settings_off, machine_dice);
 
   Answer answer;
   const auto drawn_order = static_cast<Order>(order_dice.below(kOrders));
@@ -341,7 +341,15 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   const NoiseLevel noise;
   const auto yardstick = Yardstick::make(truth, visits, noise, {});
   if (!yardstick) throw std::runtime_error("draw_set: the machine cannot reach its own bed");
-  if (const std::size_t count = effects_in(recipe.kind); count > 0) {
+  if (!recipe.exactly.empty()) {
+    answer.hidden = recipe.exactly;
+    for (const Hidden& h : recipe.exactly) {
+      const Hidden one[] = {h};
+      const auto signature = yardstick->signature(one);
+      if (!signature) throw std::runtime_error("draw_set: the machine cannot take an effect");
+      answer.delta.push_back(signature->norm());
+    }
+  } else if (const std::size_t count = effects_in(recipe.kind); count > 0) {
     const auto effects = draw_effects(*yardstick, recipe, count, range_of(recipe), effect_dice);
     for (const Sized& s : effects) {
       answer.hidden.push_back(s.hidden);

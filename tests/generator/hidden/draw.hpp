@@ -59,6 +59,10 @@ struct Recipe {
   /// This one in place of a draw; its strength is still drawn.
   std::optional<Cause> cause;
   std::optional<Order> order;
+  /// These as they are, in place of any draw of effects.
+  std::vector<Hidden> exactly;
+  /// Times the usual errors of the settings.
+  double settings_off = 1.0;
 };
 
 /// What is in the envelope.

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kGravity = 9.80665;
 constexpr double kPi = std::numbers::pi;
+// A slack chain bends by more than nothing within a link: either tooth will do that close to a tie.
+constexpr double kSeat = 1.01;
 
 /// End of a hanging chain and its derivatives by H, V and S.
 struct Hang {
@@ -253,7 +255,7 @@ bool settle_on_teeth(const Setting& s, Unknowns q, Rest& rest) {
       rest.chain[i] = state(s, pull_of(s, q, side), links[i] * s.wheel.side);
       rest.chain[i].length_mm = rest.chain[i].free_mm + s.wheel.radius * q.a[i];
       const double beyond = q.a[i] - turn_of(s, rest.chain[i].angle_rad);
-      if (std::abs(beyond) > 0.5 * s.wheel.tooth_rad * (1.0 + 1e-3)) {
+      if (std::abs(beyond) > 0.5 * s.wheel.tooth_rad * kSeat) {
         const int more = beyond > 0.0 ? 1 : -1;
         links[i] += more;
         q.a[i] -= more * s.wheel.tooth_rad;
