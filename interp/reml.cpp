@@ -176,14 +176,20 @@ class PosteriorGrid {
   std::vector<ThetaNode> nodes_;
 };
 
+struct Averaged {
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd inverse_lambda;
+};
+
 // The posterior covariance of b about the fit with theta averaged over rather than fixed: E[A^-1] +
 // E[(b - fit)(b - fit)']. What each lambda adds to A^-1 is added up; where sigma2 is free each
 // lambda is averaged together with it.
-Eigen::MatrixXd averaged_covariance(const reml::Marginal& marginal,
-                                    const reml::SearchResult& found,
-                                    const Eigen::VectorXd& sigma) {
+Averaged averaged_covariance(const reml::Marginal& marginal,
+                             const reml::SearchResult& found,
+                             const Eigen::VectorXd& sigma) {
   reml::WorkingCovariance sum;
   const Eigen::Index k = marginal.penalties();
+  Eigen::VectorXd inverse_lambda = Eigen::VectorXd::Zero(k);
   const Eigen::VectorXd fit = marginal.add_inverse(
       found.theta, 1.0 - static_cast<double>(marginal.sigma2_free() && k == 0 ? 1 : k), sum);
   std::vector<Eigen::VectorXd> shifts;
@@ -195,7 +201,11 @@ Eigen::MatrixXd averaged_covariance(const reml::Marginal& marginal,
   };
   PosteriorGrid grid(marginal, found, sigma);
   for (Eigen::Index i = 0; i < k; ++i) {
-    add(marginal.sigma2_free() ? grid.over(i, k) : grid.over(i));
+    const std::vector<ThetaNode> nodes = marginal.sigma2_free() ? grid.over(i, k) : grid.over(i);
+    add(nodes);
+    for (const ThetaNode& node : nodes) {
+      inverse_lambda(i) += node.weight * std::exp(-node.theta(i));
+    }
   }
   if (marginal.sigma2_free() && k == 0) {
     add(grid.over(k));
@@ -206,7 +216,17 @@ Eigen::MatrixXd averaged_covariance(const reml::Marginal& marginal,
   }
   // Weights below zero on the plain part may leave a rounding below zero where nothing was added.
   sum.diagonal = sum.diagonal.cwiseMax(0.0);
-  return marginal.structure().covariance_to_columns(sum, shift_columns);
+  return {marginal.structure().covariance_to_columns(sum, shift_columns),
+          std::move(inverse_lambda)};
+}
+
+// What follows from the coefficients and their covariance.
+void fill_residuals(const PenalisedProblem& problem, PenalisedFit& fit) {
+  const Eigen::VectorXd& b = fit.coefficients;
+  fit.residual_square = std::max(
+      0.0, problem.response_square - 2.0 * b.dot(problem.moment) + b.dot(problem.gram * b));
+  fit.column_edf = fit.covariance.cwiseProduct(problem.gram).rowwise().sum() / fit.sigma2;
+  fit.edf = fit.column_edf.sum();
 }
 
 PenalisedFit assemble(const PenalisedProblem& problem,
@@ -223,11 +243,7 @@ PenalisedFit assemble(const PenalisedProblem& problem,
   fit.covariance = structure.covariance_to_columns(inverse, Eigen::MatrixXd(problem.columns(), 0));
   fit.lambda = found.theta.head(k).array().exp();
   fit.sigma2 = marginal.sigma2(found.theta);
-  const Eigen::VectorXd& b = fit.coefficients;
-  fit.residual_square = std::max(
-      0.0, problem.response_square - 2.0 * b.dot(problem.moment) + b.dot(problem.gram * b));
-  fit.column_edf = fit.covariance.cwiseProduct(problem.gram).rowwise().sum() / fit.sigma2;
-  fit.edf = fit.column_edf.sum();
+  fill_residuals(problem, fit);
   fit.minus_two_log_reml = state.value;
   fit.iterations = found.iterations;
   fit.ends = found.ends;
@@ -239,9 +255,13 @@ PenalisedFit assemble(const PenalisedProblem& problem,
     }
   }
   fit.log_lambda_sigma = sigma.head(k);
-  fit.corrected_covariance = options.correct_covariance && marginal.unknowns() > 0
-                                 ? averaged_covariance(marginal, found, sigma)
-                                 : fit.covariance;
+  fit.inverse_lambda = fit.lambda.cwiseInverse();
+  fit.corrected_covariance = fit.covariance;
+  if (options.correct_covariance && marginal.unknowns() > 0) {
+    Averaged averaged = averaged_covariance(marginal, found, sigma);
+    fit.corrected_covariance = std::move(averaged.covariance);
+    fit.inverse_lambda = std::move(averaged.inverse_lambda);
+  }
   return fit;
 }
 
@@ -309,26 +329,34 @@ tl::expected<PenalisedFit, FitRefusal> fit_penalised(const PenalisedProblem& pro
 tl::expected<PenalisedFit, FitRefusal> fit_with_smoothing(
     const PenalisedProblem& problem,
     const Eigen::Ref<const Eigen::VectorXd>& lambda,
-    double sigma2,
-    const FitOptions& options) {
+    double sigma2) {
   check(problem);
   if (lambda.size() != static_cast<Eigen::Index>(problem.penalties.size()) ||
       !(lambda.array() > 0.0).all() || !(sigma2 > 0.0)) {
     throw std::invalid_argument(
         "each penalty needs a positive lambda, and sigma2 must be positive");
   }
-  const reml::Marginal marginal(problem, sigma2);
-  reml::SearchResult fixed;
-  fixed.theta = lambda.array().log();
-  fixed.low = fixed.theta;
-  fixed.high = fixed.theta;
-  fixed.ends.assign(problem.penalties.size(), SmoothingEnd::kInside);
-  if (!marginal.positive() || !marginal.evaluate(fixed.theta, reml::Order::kValue)) {
+  // One lambda: A as it is costs less than what makes many of them cheap.
+  const reml::Marginal marginal(problem, sigma2, SmoothingPrior::kNone, reml::Shape::kDense);
+  const Eigen::VectorXd theta = lambda.array().log();
+  const auto state = marginal.evaluate(theta, reml::Order::kValue);
+  if (!state) {
     return rank_deficient();
   }
-  FitOptions plain = options;
-  plain.correct_covariance = false;
-  return assemble(problem, marginal, fixed, plain);
+  PenalisedFit fit;
+  fit.coefficients = state->coefficients;
+  reml::WorkingCovariance inverse;
+  marginal.add_inverse(theta, 1.0, inverse);
+  fit.covariance = std::move(inverse.dense);
+  fit.corrected_covariance = fit.covariance;
+  fit.lambda = lambda;
+  fit.inverse_lambda = lambda.cwiseInverse();
+  fit.log_lambda_sigma = Eigen::VectorXd::Zero(lambda.size());
+  fit.ends.assign(problem.penalties.size(), SmoothingEnd::kInside);
+  fit.sigma2 = sigma2;
+  fill_residuals(problem, fit);
+  fit.minus_two_log_reml = state->value;
+  return fit;
 }
 
 tl::expected<double, FitRefusal> minus_two_log_reml(const PenalisedProblem& problem,

@@ -10,6 +10,7 @@
 // A^-1 is diag(1 / a) + U H^-1 U' within the blocks, -U H^-1 beside them, H^-1 in the corner. (2)
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -42,30 +43,27 @@ class ArrowFactor final : public Factor {
               const Eigen::VectorXd& lambda,
               double sigma2)
       : blocks_(blocks), shared_(shared), lambda_(lambda), size_(shared.gram.rows()) {
-    Eigen::MatrixXd h = shared.gram / sigma2 + shared.prior;
+    const double per_sigma2 = 1.0 / sigma2;
+    Eigen::MatrixXd h = per_sigma2 * shared.gram + shared.prior;
     const Eigen::VectorXd before = h.diagonal();
     for (std::size_t k = 0; k < blocks.size(); ++k) {
       const Block& block = blocks[k];
-      Eigen::VectorXd a =
-          (1.0 - block.weight.array()) / sigma2 +
+      const Eigen::VectorXd a =
+          (1.0 - block.weight.array()) * per_sigma2 +
           (lambda(static_cast<Eigen::Index>(k)) / block.balance) * block.weight.array();
-      Eigen::MatrixXd u = a.cwiseInverse().asDiagonal() * (block.coupling / sigma2);
-      h.noalias() -= (block.coupling.transpose() / sigma2) * u;
+      inverse_diagonal_.push_back(a.cwiseInverse());
+      beside_.emplace_back((per_sigma2 * inverse_diagonal_.back()).asDiagonal() * block.coupling);
+      h.noalias() -= (per_sigma2 * block.coupling.transpose()) * beside_.back();
       log_determinant_ += a.array().log().sum() - 2.0 * block.log_basis;
       size_ += a.size();
-      inverse_diagonal_.push_back(a.cwiseInverse());
-      beside_.push_back(std::move(u));
     }
     positive_ = true;
     if (h.rows() > 0) {
-      const ScaledCholesky cholesky(h, before);
-      positive_ = cholesky.positive();
+      corner_cholesky_.emplace(h, before);
+      positive_ = corner_cholesky_->positive();
       if (positive_) {
-        log_determinant_ += cholesky.log_determinant();
-        corner_ = cholesky.inverse();
+        log_determinant_ += corner_cholesky_->log_determinant();
       }
-    } else {
-      corner_.resize(0, 0);
     }
   }
 
@@ -73,17 +71,20 @@ class ArrowFactor final : public Factor {
   [[nodiscard]] double log_determinant() const override { return log_determinant_; }
 
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const override {
-    const Eigen::Index p = corner_.rows();
+    const Eigen::Index p = shared_.gram.rows();
     Eigen::MatrixXd result(right.rows(), right.cols());
-    Eigen::MatrixXd corner_right = right.bottomRows(p);
+    Eigen::MatrixXd corner = right.bottomRows(p);
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
-      corner_right.noalias() -= beside_[k].transpose() * part(right, k);
+      corner.noalias() -= beside_[k].transpose() * part(right, k);
     }
-    const Eigen::MatrixXd corner = corner_ * corner_right;
+    if (p > 0) {
+      corner = corner_cholesky_->solve(corner);
+    }
     result.bottomRows(p) = corner;
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
-      result.middleRows(blocks_[k].first_working, blocks_[k].weight.size()) =
-          inverse_diagonal_[k].asDiagonal() * part(right, k) - beside_[k] * corner;
+      auto mine = result.middleRows(blocks_[k].first_working, blocks_[k].weight.size());
+      mine = inverse_diagonal_[k].asDiagonal() * part(right, k);
+      mine.noalias() -= beside_[k] * corner;
     }
     return result;
   }
@@ -91,18 +92,20 @@ class ArrowFactor final : public Factor {
   [[nodiscard]] Traces traces() const override {
     const auto n = static_cast<Eigen::Index>(blocks_.size()) + 1;
     Traces result{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
-    std::vector<Eigen::MatrixXd> low_rank;  // H^-1 U' D U
+    const Eigen::MatrixXd corner =
+        corner_cholesky_ ? corner_cholesky_->inverse() : Eigen::MatrixXd();  // H^-1
+    std::vector<Eigen::MatrixXd> low_rank;                                   // H^-1 U' D U
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       const Eigen::VectorXd d = (lambda_(i) / blocks_[k].balance) * blocks_[k].weight;
       const Eigen::VectorXd plain = d.cwiseProduct(inverse_diagonal_[k]);
       const Eigen::VectorXd extra =
-          d.cwiseProduct((beside_[k] * corner_).cwiseProduct(beside_[k]).rowwise().sum());
+          d.cwiseProduct((beside_[k] * corner).cwiseProduct(beside_[k]).rowwise().sum());
       result.first(i) = plain.sum() + extra.sum();
       result.second(i, i) = plain.squaredNorm() + 2.0 * plain.dot(extra);
-      low_rank.push_back(corner_ * (beside_[k].transpose() * d.asDiagonal() * beside_[k]));
+      low_rank.push_back(corner * (beside_[k].transpose() * d.asDiagonal() * beside_[k]));
     }
-    low_rank.push_back(corner_ * shared_.prior);
+    low_rank.push_back(corner * shared_.prior);
     result.first(n - 1) = low_rank.back().trace();
     for (Eigen::Index i = 0; i < n; ++i) {
       for (Eigen::Index j = 0; j < n; ++j) {
@@ -122,19 +125,20 @@ class ArrowFactor final : public Factor {
       sum.diagonal.segment(blocks_[k].first_working, blocks_[k].weight.size()) +=
           weight * inverse_diagonal_[k];
     }
-    const Eigen::Index p = corner_.rows();
-    if (p == 0) {
+    const Eigen::Index p = shared_.gram.rows();
+    if (p == 0 || weight == 0.0) {
       return;
     }
+    // (I, -U')' H^-1 (I, -U') = W W' with W = (I, -U')' times a root of H^-1.
+    const Eigen::MatrixXd root =
+        corner_cholesky_->transposed_half_solve(Eigen::MatrixXd::Identity(p, p));
     Eigen::MatrixXd wide(size_, p);
-    wide.bottomRows(p).setIdentity();
+    wide.bottomRows(p) = root;
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
-      wide.middleRows(blocks_[k].first_working, blocks_[k].weight.size()) = -beside_[k];
+      wide.middleRows(blocks_[k].first_working, blocks_[k].weight.size()).noalias() =
+          -beside_[k] * root;
     }
-    if (sum.dense.size() == 0) {
-      sum.dense = Eigen::MatrixXd::Zero(size_, size_);
-    }
-    sum.dense.noalias() += (weight * wide * corner_) * wide.transpose();
+    sum.roots.push_back({weight, std::move(wide)});
   }
 
  private:
@@ -147,8 +151,8 @@ class ArrowFactor final : public Factor {
   Eigen::VectorXd lambda_;
   Eigen::Index size_;
   std::vector<Eigen::VectorXd> inverse_diagonal_;
-  std::vector<Eigen::MatrixXd> beside_;  // U
-  Eigen::MatrixXd corner_;               // H^-1
+  std::vector<Eigen::MatrixXd> beside_;            // U
+  std::optional<ScaledCholesky> corner_cholesky_;  // of H; none without shared columns
   double log_determinant_ = 0.0;
   bool positive_ = false;
 };
@@ -229,8 +233,15 @@ class ArrowStructure final : public Structure {
     if (shifts.cols() > 0) {
       result.selfadjointView<Eigen::Lower>().rankUpdate(to_columns(shifts));
     }
-    if (covariance.dense.size() > 0) {
-      const Eigen::MatrixXd half = to_columns(covariance.dense).transpose();
+    if (!covariance.roots.empty()) {
+      // In one go for each sign: a wide product costs less than many narrow ones.
+      Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(columns_, columns_);
+      for (const double sign : {1.0, -1.0}) {
+        const Eigen::MatrixXd wide = side_by_side(covariance.roots, sign);
+        if (wide.cols() > 0) dense.selfadjointView<Eigen::Lower>().rankUpdate(wide, sign);
+      }
+      dense.triangularView<Eigen::StrictlyUpper>() = dense.transpose();
+      const Eigen::MatrixXd half = to_columns(dense).transpose();
       result.triangularView<Eigen::Lower>() += to_columns(half);
     }
     result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
@@ -238,6 +249,24 @@ class ArrowStructure final : public Structure {
   }
 
  private:
+  /// The roots whose weights have that sign, each times the root of its weight's size.
+  [[nodiscard]] Eigen::MatrixXd side_by_side(const std::vector<WorkingCovariance::Root>& roots,
+                                             double sign) const {
+    Eigen::Index width = 0;
+    for (const auto& root : roots) {
+      width += root.weight * sign > 0.0 ? root.columns.cols() : 0;
+    }
+    Eigen::MatrixXd all(columns_, width);
+    Eigen::Index at = 0;
+    for (const auto& root : roots) {
+      if (root.weight * sign > 0.0) {
+        all.middleCols(at, root.columns.cols()) = std::sqrt(std::abs(root.weight)) * root.columns;
+        at += root.columns.cols();
+      }
+    }
+    return all;
+  }
+
   void gather_shared(const PenalisedProblem& problem) {
     std::vector<bool> penalised(static_cast<std::size_t>(columns_), false);
     for (const Penalty& penalty : problem.penalties) {
@@ -263,19 +292,11 @@ class ArrowStructure final : public Structure {
     if (!(trace > 0.0) || !(block.balance > 0.0)) {
       return false;
     }
-    const ScaledCholesky cholesky(gram + block.balance * penalty.matrix);
-    if (!cholesky.positive()) {
+    const bool diagonalised = penalty.matrix.isIdentity(0.0) ? diagonalise_ridge(gram, block)
+                                                             : diagonalise(gram, penalty, block);
+    if (!diagonalised) {
       return false;
     }
-    const Eigen::MatrixXd half = cholesky.half_solve(penalty.matrix);
-    Eigen::MatrixXd scaled = block.balance * cholesky.half_solve(half.transpose());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-    block.weight = solver.eigenvalues().cwiseMax(0.0).cwiseMin(1.0);
-    // Eigenvalues come in rising order: the first are the penalty's null space.
-    const Eigen::Index nullity = penalty.rank >= 0 ? m - penalty.rank : 0;
-    block.weight.head(nullity).setZero();
-    block.basis = cholesky.transposed_half_solve(solver.eigenvectors());
-    block.log_basis = -0.5 * cholesky.log_determinant();
     Eigen::MatrixXd beside(m, static_cast<Eigen::Index>(shared_.columns.size()));
     for (std::size_t i = 0; i < shared_.columns.size(); ++i) {
       beside.col(static_cast<Eigen::Index>(i)) =
@@ -283,6 +304,34 @@ class ArrowStructure final : public Structure {
     }
     block.coupling = block.basis.transpose() * beside;
     blocks_.push_back(std::move(block));
+    return true;
+  }
+
+  /// (1) for any penalty.
+  static bool diagonalise(const Eigen::MatrixXd& gram, const Penalty& penalty, Block& block) {
+    const ScaledCholesky cholesky(gram + block.balance * penalty.matrix);
+    if (!cholesky.positive()) {
+      return false;
+    }
+    const Eigen::MatrixXd half = cholesky.half_solve(penalty.matrix);
+    const Eigen::MatrixXd scaled = block.balance * cholesky.half_solve(half.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+    block.weight = solver.eigenvalues().cwiseMax(0.0).cwiseMin(1.0);
+    // Eigenvalues come in rising order: the first are the penalty's null space.
+    const Eigen::Index nullity = penalty.rank >= 0 ? gram.rows() - penalty.rank : 0;
+    block.weight.head(nullity).setZero();
+    block.basis = cholesky.transposed_half_solve(solver.eigenvectors());
+    block.log_basis = -0.5 * cholesky.log_determinant();
+    return true;
+  }
+
+  /// (1) where the penalty is the identity: the eigenvectors of G alone do it.
+  static bool diagonalise_ridge(const Eigen::MatrixXd& gram, Block& block) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
+    const Eigen::VectorXd sum = solver.eigenvalues().cwiseMax(0.0).array() + block.balance;
+    block.weight = block.balance * sum.cwiseInverse();
+    block.basis = solver.eigenvectors() * sum.cwiseSqrt().cwiseInverse().asDiagonal();
+    block.log_basis = -0.5 * sum.array().log().sum();
     return true;
   }
 

@@ -25,9 +25,11 @@ Eigen::Index rank_of(const Eigen::MatrixXd& matrix) {
 
 Marginal::Marginal(const PenalisedProblem& problem,
                    std::optional<double> fixed_sigma2,
-                   SmoothingPrior prior)
+                   SmoothingPrior prior,
+                   Shape shape)
     : problem_(problem), prior_kind_(prior) {
-  structure_ = is_arrow(problem) ? make_arrow(problem) : make_dense(problem);
+  structure_ =
+      shape == Shape::kAny && is_arrow(problem) ? make_arrow(problem) : make_dense(problem);
   if (problem.prior_mean.size() > 0 && problem.prior_precision.size() > 0) {
     prior_square_ = problem.prior_mean.dot(problem.prior_precision * problem.prior_mean);
   }
@@ -117,6 +119,9 @@ double Marginal::response_variance() const {
 
 double Marginal::balanced_log_lambda(Eigen::Index k) const {
   const Penalty& penalty = problem_.penalties[static_cast<std::size_t>(k)];
+  if (penalty.balance > 0.0) {
+    return std::log(penalty.balance / sigma2_fixed_);
+  }
   const Eigen::Index m = penalty.matrix.rows();
   const double data =
       problem_.gram.diagonal().segment(penalty.first_column, m).sum() / sigma2_fixed_;

@@ -13,6 +13,8 @@
 namespace chaintrue::interp::reml {
 
 enum class Order { kValue, kHessian };
+/// How A is worked with: whichever is cheaper for many lambda, or as it is.
+enum class Shape { kAny, kDense };
 
 /// V and what belongs to it at one theta. Coefficients are in working coordinates.
 struct State {
@@ -29,7 +31,8 @@ class Marginal {
   /// `fixed_sigma2` overrides what the problem says about the noise scale.
   Marginal(const PenalisedProblem& problem,
            std::optional<double> fixed_sigma2,
-           SmoothingPrior prior = SmoothingPrior::kNone);
+           SmoothingPrior prior = SmoothingPrior::kNone,
+           Shape shape = Shape::kAny);
 
   [[nodiscard]] Eigen::Index penalties() const {
     return static_cast<Eigen::Index>(problem_.penalties.size());

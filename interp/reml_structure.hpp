@@ -11,6 +11,7 @@
 ///           becomes an arrow, and each lambda costs O(q p^2).
 
 #include <memory>
+#include <vector>
 
 #include "interp/reml.hpp"
 
@@ -22,10 +23,16 @@ struct Traces {
   Eigen::MatrixXd second;
 };
 
-/// A covariance in working coordinates: diag(diagonal) + dense. An empty part is zero.
+/// A covariance in working coordinates: diag(diagonal) + dense + sum of weight W W' over the roots
+/// W. An empty part is zero; the dense way fills `dense` alone, the arrow the others.
 struct WorkingCovariance {
+  struct Root {
+    double weight;
+    Eigen::MatrixXd columns;
+  };
   Eigen::VectorXd diagonal;
   Eigen::MatrixXd dense;
+  std::vector<Root> roots;
 };
 
 /// A at one lambda and sigma2.
