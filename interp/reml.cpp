@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -19,6 +20,9 @@ namespace {
 void check(const PenalisedProblem& problem) {
   const Eigen::Index q = problem.columns();
   const auto fail = [](const std::string& what) { throw std::invalid_argument(what); };
+  if (problem.keeps_rows && problem.design.rows() != problem.rows) {
+    fail(fmt::format("{} of {} rows were kept", problem.design.rows(), problem.rows));
+  }
   if (q == 0 || problem.gram.rows() != q || problem.moment.size() != q) {
     fail(fmt::format(
         "a fit with X'X of {} x {} and X'y of {}", problem.gram.rows(), q, problem.moment.size()));
@@ -223,8 +227,11 @@ Averaged averaged_covariance(const reml::Marginal& marginal,
 // What follows from the coefficients and their covariance.
 void fill_residuals(const PenalisedProblem& problem, PenalisedFit& fit) {
   const Eigen::VectorXd& b = fit.coefficients;
-  fit.residual_square = std::max(
-      0.0, problem.response_square - 2.0 * b.dot(problem.moment) + b.dot(problem.gram * b));
+  fit.residual_square = problem.keeps_rows
+                            ? (problem.response - problem.design * b).squaredNorm()
+                            : std::max(0.0,
+                                       problem.response_square - 2.0 * b.dot(problem.moment) +
+                                           b.dot(problem.gram * b));
   fit.column_edf = fit.covariance.cwiseProduct(problem.gram).rowwise().sum() / fit.sigma2;
   fit.edf = fit.column_edf.sum();
 }
@@ -270,28 +277,36 @@ PenalisedFit assemble(const PenalisedProblem& problem,
 PenalisedProblem::PenalisedProblem(Eigen::Index columns)
     : gram(Eigen::MatrixXd::Zero(columns, columns)), moment(Eigen::VectorXd::Zero(columns)) {}
 
-void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& design,
-                                const Eigen::Ref<const Eigen::VectorXd>& response) {
-  if (design.cols() != columns() || design.rows() != response.size()) {
+void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& x,
+                                const Eigen::Ref<const Eigen::VectorXd>& y) {
+  if (x.cols() != columns() || x.rows() != y.size()) {
     throw std::invalid_argument(fmt::format("{} x {} design rows and {} responses for {} columns",
-                                            design.rows(),
-                                            design.cols(),
-                                            response.size(),
+                                            x.rows(),
+                                            x.cols(),
+                                            y.size(),
                                             columns()));
   }
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(design.transpose());
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
   gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-  moment.noalias() += design.transpose() * response;
-  response_square += response.squaredNorm();
-  rows += design.rows();
+  moment.noalias() += x.transpose() * y;
+  response_square += y.squaredNorm();
+  rows += x.rows();
+  if (keeps_rows) {
+    design.conservativeResize(rows, columns());
+    design.bottomRows(x.rows()) = x;
+    response.conservativeResize(rows);
+    response.tail(y.size()) = y;
+  }
 }
 
 void PenalisedProblem::add_sparse_row(const std::vector<Eigen::Index>& indices,
                                       const std::vector<double>& values,
-                                      double response) {
-  if (indices.size() != values.size()) {
-    throw std::invalid_argument(
-        fmt::format("a sparse row of {} columns and {} values", indices.size(), values.size()));
+                                      double y) {
+  if (keeps_rows || indices.size() != values.size()) {
+    throw std::invalid_argument(keeps_rows ? "a problem that keeps its rows takes whole ones"
+                                           : fmt::format("a sparse row of {} columns and {} values",
+                                                         indices.size(),
+                                                         values.size()));
   }
   for (std::size_t a = 0; a < indices.size(); ++a) {
     if (indices[a] < 0 || indices[a] >= columns()) {
@@ -301,9 +316,9 @@ void PenalisedProblem::add_sparse_row(const std::vector<Eigen::Index>& indices,
     for (std::size_t b = 0; b < indices.size(); ++b) {
       column[indices[b]] += values[a] * values[b];
     }
-    moment(indices[a]) += values[a] * response;
+    moment(indices[a]) += values[a] * y;
   }
-  response_square += response * response;
+  response_square += y * y;
   ++rows;
 }
 
@@ -336,18 +351,26 @@ tl::expected<PenalisedFit, FitRefusal> fit_with_smoothing(
     throw std::invalid_argument(
         "each penalty needs a positive lambda, and sigma2 must be positive");
   }
-  // One lambda: A as it is costs less than what makes many of them cheap.
-  const reml::Marginal marginal(problem, sigma2, SmoothingPrior::kNone, reml::Shape::kDense);
+  // One lambda: A as it is costs less than what makes many of them cheap, where it has the digits.
   const Eigen::VectorXd theta = lambda.array().log();
-  const auto state = marginal.evaluate(theta, reml::Order::kValue);
+  std::optional<reml::Marginal> marginal;
+  std::optional<reml::State> state;
+  for (const reml::Shape shape : {reml::Shape::kDense, reml::Shape::kAny}) {
+    marginal.emplace(problem, sigma2, SmoothingPrior::kNone, shape);
+    state = marginal->positive() ? marginal->evaluate(theta, reml::Order::kValue) : std::nullopt;
+    if (state) {
+      break;
+    }
+  }
   if (!state) {
     return rank_deficient();
   }
+  const reml::Structure& structure = marginal->structure();
   PenalisedFit fit;
-  fit.coefficients = state->coefficients;
+  fit.coefficients = structure.to_columns(state->coefficients);
   reml::WorkingCovariance inverse;
-  marginal.add_inverse(theta, 1.0, inverse);
-  fit.covariance = std::move(inverse.dense);
+  marginal->add_inverse(theta, 1.0, inverse);
+  fit.covariance = structure.covariance_to_columns(inverse, Eigen::MatrixXd(problem.columns(), 0));
   fit.corrected_covariance = fit.covariance;
   fit.lambda = lambda;
   fit.inverse_lambda = lambda.cwiseInverse();

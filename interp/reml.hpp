@@ -90,6 +90,12 @@ struct PenalisedProblem {
   Eigen::VectorXd prior_mean;       ///< b0; empty: zero
   std::vector<Penalty> penalties;
   NoiseScale noise;
+  /// Set before the first row: add_rows keeps X and y as well. Where one penalty is the identity,
+  /// no prior touches its columns and there are no more rows than such columns, a fit then keeps
+  /// all its digits however small the noise is, which X'X has squared away.
+  bool keeps_rows = false;
+  Eigen::MatrixXd design;
+  Eigen::VectorXd response;
 };
 
 /// Where the search for one lambda ended.

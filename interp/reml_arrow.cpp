@@ -8,6 +8,13 @@
 //   H        Schur complement on the shared columns: G_pp / sigma2 + S0 - sum C' diag(1/a) C /
 //   sigma2^2
 // A^-1 is diag(1 / a) + U H^-1 U' within the blocks, -U H^-1 beside them, H^-1 in the corner. (2)
+//
+// With little noise H loses its digits to that difference. Where the rows are known and one penalty
+// is the identity (F the n x m part of X that it touches, Z the rest, F F' = Q diag(e) Q'):
+//   D        diag(1 / (sigma2 + e / lambda)), so that Q D Q' is the inverse of sigma2 I + F F' /
+//   lambda H        = S0 + Z' Q D Q' Z, all its terms positive (3) the shared coefficients s = H^-1
+//   (S0 s0 + Z' Q D Q' y), and with r = y - Z s the others are F' Q D Q' r / lambda, the deviance
+//   r' Q D Q' r + (s - s0)' S0 (s - s0)                        (4)
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -34,15 +41,25 @@ struct Shared {
   std::vector<Eigen::Index> columns;
   Eigen::MatrixXd gram;
   Eigen::MatrixXd prior;
+  Eigen::VectorXd mean;
+};
+
+/// The rows turned by Q.
+struct TurnedRows {
+  Eigen::VectorXd eigenvalues;  // e
+  Eigen::MatrixXd shared;       // Q' Z
+  Eigen::VectorXd response;     // Q' y
+  Eigen::MatrixXd to_block;     // T^-1 F' Q
 };
 
 class ArrowFactor final : public Factor {
  public:
   ArrowFactor(const std::vector<Block>& blocks,
               const Shared& shared,
+              const std::optional<TurnedRows>& rows,
               const Eigen::VectorXd& lambda,
               double sigma2)
-      : blocks_(blocks), shared_(shared), lambda_(lambda), size_(shared.gram.rows()) {
+      : blocks_(blocks), shared_(shared), rows_(rows), lambda_(lambda), size_(shared.gram.rows()) {
     const double per_sigma2 = 1.0 / sigma2;
     Eigen::MatrixXd h = per_sigma2 * shared.gram + shared.prior;
     const Eigen::VectorXd before = h.diagonal();
@@ -57,9 +74,14 @@ class ArrowFactor final : public Factor {
       log_determinant_ += a.array().log().sum() - 2.0 * block.log_basis;
       size_ += a.size();
     }
+    if (rows) {
+      inverse_of_rows_ = (sigma2 + rows->eigenvalues.array() / lambda(0)).inverse();
+      h = shared.prior;
+      h.noalias() += rows->shared.transpose() * (inverse_of_rows_.asDiagonal() * rows->shared);
+    }
     positive_ = true;
     if (h.rows() > 0) {
-      corner_cholesky_.emplace(h, before);
+      corner_cholesky_.emplace(h, rows ? Eigen::VectorXd() : before);
       positive_ = corner_cholesky_->positive();
       if (positive_) {
         log_determinant_ += corner_cholesky_->log_determinant();
@@ -69,6 +91,27 @@ class ArrowFactor final : public Factor {
 
   [[nodiscard]] bool positive() const { return positive_; }
   [[nodiscard]] double log_determinant() const override { return log_determinant_; }
+
+  [[nodiscard]] std::optional<BestFit> best() const override {  // (4)
+    if (!rows_) {
+      return std::nullopt;
+    }
+    const Eigen::Index p = shared_.gram.rows();
+    BestFit fit{Eigen::VectorXd(size_), 0.0};
+    Eigen::VectorXd residual = rows_->response;
+    if (p > 0) {
+      const Eigen::VectorXd s = corner_cholesky_->solve(
+          shared_.prior * shared_.mean +
+          rows_->shared.transpose() * (inverse_of_rows_.asDiagonal() * rows_->response));
+      residual.noalias() -= rows_->shared * s;
+      fit.coefficients.tail(p) = s;
+      fit.deviance = (s - shared_.mean).dot(shared_.prior * (s - shared_.mean));
+    }
+    const Eigen::VectorXd weighted = inverse_of_rows_.asDiagonal() * residual;
+    fit.deviance += residual.dot(weighted);
+    fit.coefficients.head(size_ - p).noalias() = rows_->to_block * (weighted / lambda_(0));
+    return fit;
+  }
 
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const override {
     const Eigen::Index p = shared_.gram.rows();
@@ -148,6 +191,8 @@ class ArrowFactor final : public Factor {
 
   const std::vector<Block>& blocks_;
   const Shared& shared_;
+  const std::optional<TurnedRows>& rows_;
+  Eigen::VectorXd inverse_of_rows_;  // D
   Eigen::VectorXd lambda_;
   Eigen::Index size_;
   std::vector<Eigen::VectorXd> inverse_diagonal_;
@@ -169,6 +214,9 @@ class ArrowStructure final : public Structure {
       working += penalty.matrix.rows();
     }
     positive_ = true;
+    if (has_rows_for_a_ridge(problem)) {
+      turn_rows(problem);
+    }
     moment_ = to_working(problem.moment);
     Eigen::VectorXd prior_moment = Eigen::VectorXd::Zero(columns_);
     if (problem.prior_mean.size() > 0 && problem.prior_precision.size() > 0) {
@@ -196,7 +244,7 @@ class ArrowStructure final : public Structure {
 
   [[nodiscard]] std::unique_ptr<Factor> factor(const Eigen::VectorXd& lambda,
                                                double sigma2) const override {
-    auto result = std::make_unique<ArrowFactor>(blocks_, shared_, lambda, sigma2);
+    auto result = std::make_unique<ArrowFactor>(blocks_, shared_, rows_, lambda, sigma2);
     if (!result->positive()) {
       return nullptr;
     }
@@ -282,6 +330,30 @@ class ArrowStructure final : public Structure {
     if (problem.prior_precision.size() > 0) {
       shared_.prior = problem.prior_precision(shared_.columns, shared_.columns);
     }
+    shared_.mean = Eigen::VectorXd::Zero(shared_.gram.rows());
+    if (problem.prior_mean.size() > 0) {
+      shared_.mean = problem.prior_mean(shared_.columns);
+    }
+  }
+
+  static bool has_rows_for_a_ridge(const PenalisedProblem& problem) {
+    return problem.keeps_rows && problem.penalties.size() == 1 &&
+           problem.rows <= problem.penalties[0].matrix.rows() &&
+           problem.penalties[0].matrix.isIdentity(0.0);
+  }
+
+  void turn_rows(const PenalisedProblem& problem) {
+    const Block& block = blocks_.front();
+    const Eigen::MatrixXd penalised =
+        problem.design.middleCols(block.first_column, block.weight.size());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(penalised * penalised.transpose());
+    const Eigen::MatrixXd& q = solver.eigenvectors();
+    // T = R diag((d + c)^-1/2) with R orthonormal, hence T^-1 = diag(d + c) T'; w = c / (d + c).
+    rows_ = TurnedRows{solver.eigenvalues().cwiseMax(0.0),
+                       q.transpose() * problem.design(Eigen::all, shared_.columns),
+                       q.transpose() * problem.response,
+                       (block.balance * block.weight.cwiseInverse()).asDiagonal() *
+                           (block.basis.transpose() * (penalised.transpose() * q))};
   }
 
   bool add_block(const PenalisedProblem& problem, const Penalty& penalty, Eigen::Index working) {
@@ -352,6 +424,7 @@ class ArrowStructure final : public Structure {
   Eigen::Index columns_;
   std::vector<Block> blocks_;
   Shared shared_;
+  std::optional<TurnedRows> rows_;
   bool positive_ = false;
 };
 

@@ -18,7 +18,8 @@ enum class Shape { kAny, kDense };
 
 /// V and what belongs to it at one theta. Coefficients are in working coordinates.
 struct State {
-  double value = 0.0;  ///< V of (3)
+  double value = 0.0;     ///< V of (3)
+  double deviance = 0.0;  ///< |y - X b|^2 / sigma2 + (b - b0)' S (b - b0)
   Eigen::VectorXd coefficients;
   // Filled for Order::kHessian only.
   Eigen::VectorXd gradient;
@@ -69,6 +70,7 @@ class Marginal {
     Eigen::VectorXd gradient;
     Eigen::MatrixXd hessian;
   };
+  [[nodiscard]] BestFit best_fit(const Factor& factor, double s2) const;
   [[nodiscard]] LogDeterminant log_determinant(const Eigen::VectorXd& theta, Order order) const;
   void add_derivatives(State& state, const Factor& factor, const Eigen::VectorXd& theta) const;
   void find_ranks();

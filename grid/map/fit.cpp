@@ -6,7 +6,10 @@
 namespace chaintrue::grid {
 
 tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid, const FitOptions& options) {
-  return options.surface == SurfaceKind::direct ? fit_direct(grid, options) : fit_residual(grid);
+  auto map =
+      options.surface == SurfaceKind::direct ? fit_direct(grid, options) : fit_residual(grid);
+  if (!map || options.outside.way == Outside::continued) return map;
+  return map->with_outside(options.outside);
 }
 
 }  // namespace chaintrue::grid

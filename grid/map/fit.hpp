@@ -24,6 +24,8 @@ struct FitOptions {
   SurfaceKind surface = SurfaceKind::residual;
   /// Of the direct surface's edges.
   interp::TensorEnds ends;
+  /// What the map does beyond the points.
+  OutsideRule outside;
 };
 
 struct FitFailure {
@@ -40,6 +42,7 @@ struct FitFailure {
   std::string sentence;
 };
 
+/// \throws std::invalid_argument where a direct surface shall fade (see CompensationMap).
 [[nodiscard]] tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid,
                                                             const FitOptions& options = {});
 

@@ -10,15 +10,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/map/fit_unknowns.hpp"
 #include "grid/map/measured_area.hpp"
 #include "grid/map/seen_splines.hpp"
 #include "grid/map/spatial_blocks.hpp"
-#include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
 namespace {
-
-using model::Setting;
 
 constexpr int kMaximumPasses = 25;
 /// A step of this many stated sigmas changes no length by more than some 1e-3 mm.
@@ -29,51 +27,6 @@ constexpr double kSettledWeight = 1e-2;
 constexpr double kHuberDistance = 2.4477;
 /// Passes with soft weights only, so that several bad points cannot hide each other.
 constexpr int kSoftPasses = 4;
-
-/// What is stated without any uncertainty is taken as known this well, in mm or rad.
-constexpr double kKnownSigma = 1e-7;
-
-/// The unknown settings: their sigmas, and the machine and sheet at a theta.
-class Unknowns {
- public:
-  Unknowns(const model::Machine& stated, const std::optional<SheetUncertainty>& sheet)
-      : stated_(stated) {
-    for (Setting setting : model::kMachineSettings) {
-      settings_.push_back(setting);
-      sigmas_.push_back(std::max(model::stated_sigma(stated, setting), kKnownSigma));
-    }
-    if (sheet) {
-      settings_.insert(settings_.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-      const double shift_mm = std::max(sheet->shift_mm, kKnownSigma);
-      const double rotation_rad = std::max(1e-3 * sheet->rotation_mrad, kKnownSigma);
-      sigmas_.insert(sigmas_.end(), {shift_mm, shift_mm, rotation_rad});
-    }
-  }
-  [[nodiscard]] const std::vector<Setting>& settings() const { return settings_; }
-  [[nodiscard]] double sigma(Eigen::Index i) const { return sigmas_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(settings_.size()); }
-
-  [[nodiscard]] model::Machine machine_at(const Eigen::VectorXd& theta) const {
-    model::Machine machine = stated_;
-    for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {
-      machine = model::with_setting(
-          std::move(machine),
-          settings_[i],
-          model::stated_value(stated_, settings_[i]) + theta[static_cast<Eigen::Index>(i)]);
-    }
-    return machine;
-  }
-  [[nodiscard]] model::SheetPlacement sheet_at(const Eigen::VectorXd& theta) const {
-    const auto first = static_cast<Eigen::Index>(model::kMachineSettings.size());
-    if (theta.size() == first) return {};
-    return {theta[first], theta[first + 1], theta[first + 2]};
-  }
-
- private:
-  model::Machine stated_;
-  std::vector<Setting> settings_;
-  std::vector<double> sigmas_;
-};
 
 /// One point, linearised and whitened: rows of the design and the response, and the way back to
 /// millimetres.
@@ -172,7 +125,7 @@ class JointFitter {
   [[nodiscard]] Eigen::MatrixXd covariance_of(const FitColumns& columns) const;
 
   const JointFitInput& input_;
-  Unknowns unknowns_;
+  FitUnknowns unknowns_;
   interp::BsplineBasis basis_;
   SeenSplines seen_;
   SeenColumns columns_;
@@ -287,6 +240,7 @@ void JointFitter::add_surface_prior(interp::PenalisedProblem& problem) const {
 
 interp::PenalisedProblem JointFitter::problem() const {
   interp::PenalisedProblem problem(columns_.total());
+  problem.keeps_rows = true;
   problem.prior_precision = Eigen::MatrixXd::Zero(columns_.total(), columns_.total());
   problem.prior_mean = Eigen::VectorXd::Zero(columns_.total());
   problem.noise = input_.noise_scale;

@@ -12,6 +12,7 @@
 #include "grid/map/fit.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/map_words.hpp"
+#include "tools/cli/outside_option.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -22,6 +23,7 @@ struct FitCommand {
   std::string output;
   std::string surface = "residual";
   std::string ends = "not_a_knot";
+  OutsideOption outside;
 };
 
 const std::map<std::string, interp::EndCondition>& end_conditions() {
@@ -40,9 +42,13 @@ int run_fit(const FitCommand& command) {
       command.surface == "direct" ? grid::SurfaceKind::direct : grid::SurfaceKind::residual;
   const interp::EndCondition end = end_conditions().at(command.ends);
   options.ends = {{end, end}, {end, end}};
+  options.outside = rule_of(command.outside, {});
   const auto map = grid::fit(measured, options);
   if (!map) {
-    fmt::print(stderr, "{}: {}\n", grid::files::name_in_messages(command.input.grid), map.error().sentence);
+    fmt::print(stderr,
+               "{}: {}\n",
+               grid::files::name_in_messages(command.input.grid),
+               map.error().sentence);
     return kBadInput;
   }
   grid::files::write_whole_file(command.output, grid::files::write_map(*map));
@@ -68,10 +74,17 @@ void add_fit(CLI::App& app, Run& run) {
   verb->add_option("--ends", command->ends, "How direct splines end at the edges")
       ->check(CLI::IsMember({"not_a_knot", "natural", "parabolic", "clamped"}))
       ->capture_default_str();
+  add_outside_options(*verb, command->outside, "continued where not said");
   verb->footer(
       "The fit is told on standard error.\n\nExample:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json");
-  verb->callback([command, &run] { run = [command] { return run_fit(*command); }; });
+  verb->callback([command, &run] {
+    if (command->surface == "direct" && command->outside.way == "fade") {
+      throw CLI::ValidationError(
+          "fit", "--outside fade leaves the bare machine, which a direct surface does not have");
+    }
+    run = [command] { return run_fit(*command); };
+  });
 }
 
 }  // namespace chaintrue::cli
