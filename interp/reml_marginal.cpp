@@ -112,9 +112,11 @@ double Marginal::flat_slope(Eigen::Index i) const {
 }
 
 double Marginal::response_variance() const {
+  // Of responses that are nothing but rounding the sizes mean nothing.
+  constexpr double kLeast = 1e-20;
   return std::max(
       problem_.response_square / static_cast<double>(std::max<Eigen::Index>(problem_.rows, 1)),
-      1e-300);
+      kLeast);
 }
 
 double Marginal::balanced_log_lambda(Eigen::Index k) const {

@@ -49,7 +49,8 @@ class Marginal {
   [[nodiscard]] SmoothingPrior prior() const { return prior_kind_; }
   [[nodiscard]] bool sigma2_free() const { return sigma2_free_; }
   [[nodiscard]] bool noise_from_repeats() const { return extra_degrees_ > 0.0; }
-  /// Mean square of the responses: no noise is larger.
+  /// Mean square of the responses: no noise is larger. At least 1e-20: rows are whitened, and ten
+  /// digits below what was taken for a sigma is no noise.
   [[nodiscard]] double response_variance() const;
 
   /// False where some columns are free whatever lambda is.
