@@ -156,6 +156,7 @@ struct NextMeasurement {
   std::string what;
   std::string side;                     ///< of a reading, where it has one
   std::optional<model::BedPoint> mark;  ///< of a point or a revisit
+  double sigma = 0.0;                   ///< of a reading: how well it has to be read
   /// Probability that the right cause is then named alone, this and all above it done.
   double raises_probability_to = 0.0;
 };
@@ -202,7 +203,19 @@ struct Separation {
   CauseId first;
   CauseId second;
   double rho = 0.0;
-  double delta_needed = 0.0;  ///< strength at which 95 of 100 are told apart
+  double delta_needed = 0.0;  ///< strength at which 95 of 100 are told apart; infinity: none
+};
+
+/// How well a model, calibrated elsewhere, predicts another grid: nothing is fitted but, where the
+/// other's sheet was placed by hand, the placement.
+struct Transfer {
+  std::string to;  ///< the other grid's name
+  std::size_t points = 0;
+  HeldOut as_delivered;
+  HeldOut calibrated;
+  HeldOut extended;
+  HeldOut extended_and_surface;
+  double noise_floor_mm = 0.0;
 };
 
 struct Diagnosis {
@@ -232,6 +245,10 @@ struct Diagnosis {
   std::vector<Separation> separations;  ///< of the leading causes and their nearest rivals
   std::vector<PointPicture> points;
   std::uint64_t seed = 1;
+  std::string grid_name;
+  std::optional<StatedNoise> stated_noise;
+  /// Another grid foretold; empty where none was asked for.
+  std::optional<Transfer> transferred;
 };
 
 /// Steps that can be left out to see what they are worth. All on but for such experiments.
@@ -248,6 +265,8 @@ struct DiagnosisOptions {
   bool gain = true;  ///< held-out errors, naming repeated in each fold
   bool next_measurements = true;
   bool order_assumed = false;  ///< the points' order was assumed by somebody, not measured
+  /// Nothing but this cause is looked for: what somebody who knew it would find.
+  std::optional<CauseId> told;
   Steps steps;
 };
 
@@ -266,16 +285,6 @@ struct DiagnosisFailure {
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
     const MeasuredGrid& grid, const DiagnosisOptions& options = {});
 
-/// How well a model, calibrated elsewhere, predicts another grid: nothing is fitted but, where the
-/// other's sheet was placed by hand, the placement.
-struct Transfer {
-  std::size_t points = 0;
-  HeldOut as_delivered;
-  HeldOut calibrated;
-  HeldOut extended;
-  HeldOut extended_and_surface;
-  double noise_floor_mm = 0.0;
-};
 [[nodiscard]] tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
                                                                 const Diagnosis& diagnosis,
                                                                 const MeasuredGrid& to);

@@ -286,9 +286,15 @@ class Record : public KnownKeys {
 
   /// Nothing where this is no object at all; otherwise the object, with what could be read.
   [[nodiscard]] std::optional<T> read(const Cursor& at, bool is_root = false) const {
-    if (!open(at, is_root)) return std::nullopt;
-    const std::vector<std::string> probably_meant = report_unknown_keys(at);
     T object{};
+    if (!read_into(at, object, is_root)) return std::nullopt;
+    return object;
+  }
+
+  /// The same into an object that other records fill as well; false where this is no object at all.
+  bool read_into(const Cursor& at, T& object, bool is_root = false) const {
+    if (!open(at, is_root)) return false;
+    const std::vector<std::string> probably_meant = report_unknown_keys(at);
     for (const Field& field : fields_) {
       const Cursor child = at.child(field.key);
       if (!at.has(field.key) || (!field.is_required && child.json().is_null())) {
@@ -300,7 +306,7 @@ class Record : public KnownKeys {
       field.read(child, object);
     }
     for (const auto& check : checks_) check(at, object);
-    return object;
+    return true;
   }
 
   [[nodiscard]] Json write(const T& object) const {

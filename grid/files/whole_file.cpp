@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <set>
 #include <system_error>
 
 #include "grid/files/input_error.hpp"
@@ -66,25 +67,66 @@ mode_t rights_for(const fs::path& target) {
   return 0666U & ~mask;
 }
 
-void write_beside_and_rename(const fs::path& target, std::string_view text) {
-  const fs::path directory = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  std::string temporary =
-      (directory / fmt::format(".{}.XXXXXX", target.filename().string())).string();
-  const int descriptor = ::mkstemp(temporary.data());
-  if (descriptor < 0) {
-    fail(target.string(), words_of(errno), "a directory that exists and can be written to");
+/// A text that lies beside its place under another name until it takes it; gone if it never does.
+class StagedFile {
+ public:
+  StagedFile(fs::path target, std::string_view text) : target_(std::move(target)) {
+    const fs::path directory = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+    temporary_ = (directory / fmt::format(".{}.XXXXXX", target_.filename().string())).string();
+    const int descriptor = ::mkstemp(temporary_.data());
+    if (descriptor < 0) {
+      fail(target_.string(), words_of(errno), "a directory that exists and can be written to");
+    }
+    std::unique_ptr<std::FILE, CloseFile> file(::fdopen(descriptor, "wb"));
+    if (file && write_to_the_end(file.get(), text) &&
+        ::fchmod(descriptor, rights_for(target_)) == 0 && ::fsync(descriptor) == 0) {
+      return;
+    }
+    refuse(errno);
   }
-  std::unique_ptr<std::FILE, CloseFile> file(::fdopen(descriptor, "wb"));
-  const bool written = file && write_to_the_end(file.get(), text) &&
-                       ::fchmod(descriptor, rights_for(target)) == 0 && ::fsync(descriptor) == 0;
-  int error_number = errno;
-  file.reset();
-  if (written) {
-    if (std::rename(temporary.c_str(), target.c_str()) == 0) return;
-    error_number = errno;
+  StagedFile(const StagedFile&) = delete;
+  StagedFile& operator=(const StagedFile&) = delete;
+  ~StagedFile() {
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
   }
-  ::unlink(temporary.c_str());
-  fail(target.string(), words_of(error_number), "room and the right to write the file");
+
+  void take_its_name() {
+    if (std::rename(temporary_.c_str(), target_.c_str()) != 0) refuse(errno);
+    temporary_.clear();
+  }
+
+ private:
+  /// Called by the constructor as well, after which no destructor runs.
+  [[noreturn]] void refuse(int error_number) {
+    ::unlink(temporary_.c_str());
+    temporary_.clear();
+    fail(target_.string(), words_of(error_number), "room and the right to write the file");
+  }
+
+  fs::path target_;
+  std::string temporary_;
+};
+
+/// The file that a path names in the end; empty where it is no file but a device or standard
+/// output, which is written to directly.
+fs::path file_behind(const fs::path& path) {
+  if (path == "-") return {};
+  std::error_code error;
+  if (path.empty()) fail("output file", "an empty name", "the name of a file");
+  if (fs::is_directory(path, error)) fail(path.string(), "a directory", "the name of a file");
+  const fs::path resolved = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
+  const fs::path& target = error ? path : resolved;
+  if (!fs::exists(target, error)) return target;
+  if (!fs::is_regular_file(target, error)) return {};
+  if (::access(target.c_str(), W_OK) != 0) {
+    fail(path.string(), words_of(errno), "a file that may be written to");
+  }
+  return target;
+}
+
+void write_to_device(const fs::path& path, std::string_view text) {
+  if (path != "-") return write_directly(path, text);
+  if (!write_to_the_end(stdout, text)) fail("standard output", words_of(errno), "room to write");
 }
 
 }  // namespace
@@ -103,22 +145,25 @@ std::string read_whole_file(const fs::path& path) {
 }
 
 void write_whole_file(const fs::path& path, std::string_view text) {
-  if (path == "-") {
-    if (!write_to_the_end(stdout, text)) fail("standard output", words_of(errno), "room to write");
-    return;
+  const fs::path target = file_behind(path);
+  if (target.empty()) return write_to_device(path, text);
+  StagedFile(target, text).take_its_name();
+}
+
+void write_whole_files(const std::vector<OutputFile>& outputs) {
+  std::set<std::string> names;
+  std::vector<std::unique_ptr<StagedFile>> staged;
+  for (const OutputFile& output : outputs) {
+    const fs::path target = file_behind(output.path);
+    if (target.empty()) continue;
+    if (!names.insert(fs::absolute(target).lexically_normal().string()).second)
+      fail(output.path.string(), "a name given twice", "a file of its own for each output");
+    staged.push_back(std::make_unique<StagedFile>(target, output.text));
   }
-  std::error_code error;
-  if (path.empty()) fail("output file", "an empty name", "the name of a file");
-  if (fs::is_directory(path, error)) fail(path.string(), "a directory", "the name of a file");
-  const fs::path resolved = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
-  const fs::path& target = error ? path : resolved;
-  if (fs::exists(target, error)) {
-    if (!fs::is_regular_file(target, error)) return write_directly(target, text);
-    if (::access(target.c_str(), W_OK) != 0) {
-      fail(path.string(), words_of(errno), "a file that may be written to");
-    }
+  for (const auto& file : staged) file->take_its_name();
+  for (const OutputFile& output : outputs) {
+    if (file_behind(output.path).empty()) write_to_device(output.path, output.text);
   }
-  write_beside_and_rename(target, text);
 }
 
 }  // namespace chaintrue::grid::files

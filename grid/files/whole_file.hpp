@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace chaintrue::grid::files {
 
@@ -21,5 +22,14 @@ namespace chaintrue::grid::files {
 /// \throws InputError where the path is a directory, its directory is missing, or it cannot be
 /// written.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
+
+struct OutputFile {
+  std::filesystem::path path;
+  std::string text;
+};
+/// All of them or none: no name is taken before every text lies beside its place. Devices and
+/// standard output come last. \throws InputError as write_whole_file, for the first that fails, and
+/// where two name the same file.
+void write_whole_files(const std::vector<OutputFile>& outputs);
 
 }  // namespace chaintrue::grid::files

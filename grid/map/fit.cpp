@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/fit.hpp"
 
+#include "grid/map/corrected_data.hpp"
 #include "grid/map/residual_fit.hpp"
 
 namespace chaintrue::grid {
 
 tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid, const FitOptions& options) {
-  auto map =
-      options.surface == SurfaceKind::direct ? fit_direct(grid, options) : fit_residual(grid);
-  if (!map || options.outside.way == Outside::continued) return map;
-  return map->with_outside(options.outside);
+  const auto corrected = corrected_data(grid);
+  if (!corrected) return tl::unexpected(corrected.error());
+  auto map = options.surface == SurfaceKind::direct ? fit_direct(corrected->grid, options)
+                                                    : fit_residual(corrected->grid);
+  const bool as_it_is = corrected->notes.empty() && options.outside.way == Outside::continued;
+  if (!map || as_it_is) return map;
+  MapContents contents = map->contents();
+  contents.notes.insert(contents.notes.begin(), corrected->notes.begin(), corrected->notes.end());
+  contents.outside = options.outside;
+  return CompensationMap(std::move(contents));
 }
 
 }  // namespace chaintrue::grid

@@ -42,6 +42,8 @@ struct FitFailure {
   std::string sentence;
 };
 
+/// The machine's effects of the paper and of the visit (drift, skips, hysteresis) are taken out of
+/// the data first (corrected_data.hpp) and are not in the map; its other effects are.
 /// \throws std::invalid_argument where a direct surface shall fade (see CompensationMap).
 [[nodiscard]] tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid,
                                                             const FitOptions& options = {});

@@ -11,6 +11,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/machine_file.hpp"
@@ -56,6 +57,10 @@ Outcome groundcontrol_outcome(const std::string& text, const std::string& name) 
   return {write_machine(read.machine), messages_of(read.warnings), {}};
 }
 
+Outcome diagnosis_outcome(const std::string& text, const std::string& name) {
+  return {write_diagnosis(parse_diagnosis(text, name)), {}, {}};
+}
+
 using Reader = std::function<Outcome(const std::string& text, const std::string& name)>;
 
 const std::map<std::string, Reader>& readers() {
@@ -63,7 +68,8 @@ const std::map<std::string, Reader>& readers() {
                                                         {"machine", machine_outcome},
                                                         {"points", points_outcome},
                                                         {"optical", optical_outcome},
-                                                        {"groundcontrol", groundcontrol_outcome}};
+                                                        {"groundcontrol", groundcontrol_outcome},
+                                                        {"diagnosis", diagnosis_outcome}};
   return by_kind;
 }
 

@@ -20,6 +20,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::Each;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::filesystem::path kScans = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "optical_grid";
 const std::filesystem::path kSettings = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "holey";
@@ -249,9 +250,34 @@ TEST(GroundcontrolSettings, WhatHasNoSettingIsSaid) {
   EXPECT_THAT(remarks, Contains("the left chain reads 1.50 mm too long; set its zero anew"));
   EXPECT_THAT(remarks, Contains("the right chain reads 0.25 mm too short; set its zero anew"));
   EXPECT_THAT(remarks, Contains(HasSubstr("10.106 mm; here it is 10.190 mm")));
-  EXPECT_THAT(remarks, Contains("GroundControl has no setting for the effect beam_flex"));
+  EXPECT_THAT(remarks,
+              Contains("GroundControl has no setting for the effect beam_flex; what can be done: "
+                       "brace the beam, or put its flexibility into the machine file"));
   EXPECT_THAT(remarks, Contains("motorspacingx changes from 2975 to 2978.4"));
   EXPECT_EQ(remarks.size(), 6U);
+}
+
+TEST(GroundcontrolSettings, TakeUpWhatADiagnosisNamed) {
+  model::Machine machine;
+  machine.effects = {{"chain_sag", "", {{"relative_weight", 0.1}}},
+                     {"chain_pitch_error", "both", {{"elongation", -0.0004}}},
+                     {"chain_stretch", "", {{"compliance_per_n", 4e-6}}},
+                     {"sprocket_radius", "", {{"offset_mm", 0.168}}},
+                     {"angular_kink", "left", {{"slope_mm_per_rad", 3.0}, {"knee_rad", 0.9}}}};
+  const GroundcontrolText typed = write_groundcontrol(machine);
+  // 1e12 (1.1 x 0.14e-3 kg/mm / 11.6 kg)^2 / 24 = 7.3437.
+  EXPECT_THAT(typed.text, HasSubstr("chainsagcorrection = 7.3437\n"));
+  EXPECT_THAT(typed.text, HasSubstr("leftchaintolerance = -0.04\n"));
+  EXPECT_THAT(typed.text, HasSubstr("rightchaintolerance = -0.04\n"));
+  EXPECT_THAT(typed.text, Not(HasSubstr("chainelongationfactor")));
+  // 5.17e-6 + 4e-6.
+  EXPECT_THAT(typed.remarks, Contains(HasSubstr("$45): 9.17e-06 per N")));
+  EXPECT_THAT(typed.remarks, Contains(HasSubstr("10.106 mm; here it is 10.274 mm")));
+  EXPECT_THAT(typed.remarks, Contains(HasSubstr("no setting for the effect angular_kink left")));
+  EXPECT_EQ(typed.remarks.size(), 3U);
+
+  machine.controller.kind = model::ControllerKind::holey;
+  EXPECT_THAT(write_groundcontrol(machine).text, HasSubstr("chainelongationfactor = 9.17e-06\n"));
 }
 
 }  // namespace

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue plan: where to measure, as a list for the workshop, and how good the map will be.
+/// chaintrue plan: where to measure, as a list for the workshop, and how good the map will be; and
+/// after a diagnosis, what to measure next.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <memory>
 #include <string>
 
+#include "grid/files/diagnosis_file.hpp"
+#include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/measurement_plan.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/follow_up.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -22,6 +27,8 @@ namespace {
 namespace files = grid::files;
 
 struct PlanOptions {
+  std::string grid;
+  std::string after;
   std::string machine;
   grid::PlanRequest request;
   std::string output = "-";
@@ -79,7 +86,67 @@ std::string in_words(const grid::MeasurementPlan& plan,
   return text;
 }
 
+/// The diagnosis is of these points: the same marks in the same order.
+bool is_of(const grid::diagnosis::Diagnosis& found, const grid::MeasuredGrid& measured) {
+  const auto same_place = [](double first_mm, double second_mm) {
+    return std::abs(first_mm - second_mm) < 1e-3;
+  };
+  return std::equal(found.points.begin(),
+                    found.points.end(),
+                    measured.points.begin(),
+                    measured.points.end(),
+                    [&](const auto& pictured, const grid::MeasuredPoint& point) {
+                      return same_place(pictured.mark.x_mm, point.mark.x_mm) &&
+                             same_place(pictured.mark.y_mm, point.mark.y_mm);
+                    });
+}
+
+std::string draw_next(const grid::diagnosis::Diagnosis& found, const grid::MeasuredGrid& measured) {
+  FollowUpDrawing drawing;
+  for (const auto& point : measured.points) drawing.measured.push_back(point.mark);
+  int number = 0;
+  for (const auto& next : found.next_measurements) {
+    ++number;
+    if (next.mark) drawing.next.push_back({number, *next.mark});
+  }
+  return draw_follow_up(drawing, found.extended_machine.bed);
+}
+
+int run_follow_up(const PlanOptions& options) {
+  const std::string text = files::read_whole_file(options.grid);
+  const std::string file = files::name_in_messages(options.grid);
+  files::GridOptions grid_options;
+  if (!options.machine.empty()) grid_options.machine = files::read_machine(options.machine);
+  const grid::MeasuredGrid measured = files::parse_grid(text, file, grid_options).grid;
+  const grid::diagnosis::Diagnosis found = files::read_diagnosis(options.after);
+  if (!is_of(found, measured)) {
+    fmt::print(stderr,
+               "{} was made from other points than those of {}: diagnose these first.\n",
+               options.after,
+               file);
+    return kBadInput;
+  }
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  const bool is_json = begin != std::string::npos && text[begin] == '{';
+  std::vector<files::OutputFile> outputs;
+  if (!options.drawing.empty()) outputs.push_back({options.drawing, draw_next(found, measured)});
+  outputs.push_back(
+      {options.output, is_json ? follow_up_json(found, measured) : follow_up_csv(found, measured)});
+  files::write_whole_files(outputs);
+  fmt::print(stderr, "{}", follow_up_list(found));
+  const bool has_readings = std::any_of(found.next_measurements.begin(),
+                                        found.next_measurements.end(),
+                                        [](const auto& next) { return !next.mark.has_value(); });
+  if (!is_json && has_readings) {
+    fmt::print(stderr,
+               "A CSV holds no readings: make the grid a chaintrue_grid (JSON), which has a list "
+               "of them.\n");
+  }
+  return kDone;
+}
+
 int run_plan(const PlanOptions& options) {
+  if (!options.after.empty()) return run_follow_up(options);
   const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
   for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
   check_options(options, read.machine.bed);
@@ -103,8 +170,16 @@ void add_plan(CLI::App& app, Run& run) {
   auto options = std::make_shared<PlanOptions>();
   CLI::App* verb = app.add_subcommand(
       "plan", "Where to measure: a list for the workshop, and how good the map will be");
-  verb->add_option("--machine", options->machine, "chaintrue_machine file; - is standard input")
-      ->required();
+  verb->add_option("--machine",
+                   options->machine,
+                   "chaintrue_machine file; - is standard input. With --after only where the grid "
+                   "names none");
+  auto* grid = verb->add_option("grid", options->grid, "With --after: the points measured so far");
+  verb->add_option("--after",
+                   options->after,
+                   "A chaintrue_diagnosis of them: what to measure next, and the lines to add to "
+                   "the grid's file")
+      ->needs(grid);
   verb->add_option("--points",
                    options->request.points,
                    fmt::format("How many, {} to {}", grid::kFewestPlanned, grid::kMostPlanned))
@@ -128,10 +203,16 @@ void add_plan(CLI::App& app, Run& run) {
   verb->footer(
       "The list goes row by row from the bottom left, turning round at the end of each row;\n"
       "chaintrue simulate --marks takes it. The expected error is told on standard error.\n\n"
-      "Example:\n"
+      "Examples:\n"
       "  build/chaintrue plan --machine fixtures/machines/classic.json --points 28 -o plan.csv "
-      "--svg plan.svg");
-  verb->callback([options, &run] { run = [options] { return run_plan(*options); }; });
+      "--svg plan.svg\n"
+      "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
+      "  build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json");
+  verb->callback([options, &run] {
+    if (options->after.empty() && !options->grid.empty()) throw CLI::RequiredError("--after");
+    if (options->after.empty() && options->machine.empty()) throw CLI::RequiredError("--machine");
+    run = [options] { return run_plan(*options); };
+  });
 }
 
 }  // namespace chaintrue::cli

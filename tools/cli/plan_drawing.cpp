@@ -47,6 +47,19 @@ class Picture {
   double scale_;
 };
 
+std::string head(const Picture& picture, std::string_view title, std::string_view description) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#222222\">\n"
+      "<title>{2}</title>\n"
+      "<desc>{3}</desc>\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
+      picture.wide(),
+      picture.high(),
+      title,
+      description);
+}
+
 void text(std::string& svg, double x, double y, std::string_view anchor, std::string_view words) {
   fmt::format_to(std::back_inserter(svg),
                  "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n",
@@ -181,21 +194,59 @@ ExpectedErrors expected_errors(const grid::CompensationMap& map, const model::Be
   return errors;
 }
 
+std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed) {
+  const Picture picture(bed);
+  const std::string words = fmt::format(
+      "{} places to measure next, among {} measured", drawing.next.size(), drawing.measured.size());
+  std::string svg = head(picture, words, "The numbers are those of the list.");
+  text(svg, kLeft, 32.0, "start", words);
+  fmt::format_to(std::back_inserter(svg),
+                 "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
+                 "fill=\"#faf6ee\" stroke=\"#222222\"/>\n",
+                 kLeft,
+                 kTop,
+                 kBedWide,
+                 picture.bed_high());
+  for (const BedPoint& mark : drawing.measured) {
+    fmt::format_to(std::back_inserter(svg),
+                   "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3\" fill=\"#8a94a3\"/>\n",
+                   picture.x(mark.x_mm),
+                   picture.y(mark.y_mm));
+  }
+  for (const auto& [number, mark] : drawing.next) {
+    const double x = picture.x(mark.x_mm);
+    const double y = picture.y(mark.y_mm);
+    constexpr double kArm = 7.0;
+    fmt::format_to(std::back_inserter(svg),
+                   "<path d=\"M{:.2f},{:.2f}L{:.2f},{:.2f}M{:.2f},{:.2f}L{:.2f},{:.2f}\" "
+                   "stroke=\"#0072b2\" stroke-width=\"2.5\"/>\n",
+                   x - kArm,
+                   y - kArm,
+                   x + kArm,
+                   y + kArm,
+                   x - kArm,
+                   y + kArm,
+                   x + kArm,
+                   y - kArm);
+    const bool right_half = mark.x_mm > 0.0;
+    text(svg,
+         x + (right_half ? -10.0 : 10.0),
+         y + (mark.y_mm > 0.0 ? 18.0 : -9.0),
+         right_half ? "end" : "start",
+         fmt::format("{}", number));
+  }
+  return svg + "</svg>\n";
+}
+
 std::string draw_plan(const grid::MeasurementPlan& plan,
                       const model::Bed& bed,
                       const ExpectedErrors& errors) {
   const Picture picture(bed);
   const Shades shades = shades_of(errors);
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-      "height=\"{1:.0f}\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#222222\">\n"
-      "<title>{2} points to measure</title>\n"
-      "<desc>The bed coloured by the expected error of a map from these points; the marks are "
-      "numbered in the order of the walk.</desc>\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
-      picture.wide(),
-      picture.high(),
-      plan.marks.size());
+  std::string svg = head(picture,
+                         fmt::format("{} points to measure", plan.marks.size()),
+                         "The bed coloured by the expected error of a map from these points; the "
+                         "marks are numbered in the order of the walk.");
   text(svg,
        kLeft,
        32.0,

@@ -29,4 +29,15 @@ struct ExpectedErrors {
                                     const model::Bed& bed,
                                     const ExpectedErrors& errors);
 
+/// Where a follow-up is measured: numbered crosses among the marks that are measured already.
+struct FollowUpDrawing {
+  std::vector<model::BedPoint> measured;
+  struct Cross {
+    int number = 0;
+    model::BedPoint mark;
+  };
+  std::vector<Cross> next;
+};
+[[nodiscard]] std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed);
+
 }  // namespace chaintrue::cli

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue report: a map as one HTML page that needs no network.
+/// chaintrue report: a map or a diagnosis as one HTML page that needs no network.
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 
+#include "grid/files/diagnosis_file.hpp"
+#include "grid/files/file_type.hpp"
+#include "grid/files/input_error.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/diagnosis_page.hpp"
 #include "tools/cli/map_report.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/report/map_report.hpp"
@@ -17,17 +22,56 @@
 namespace chaintrue::cli {
 namespace {
 
+namespace files = grid::files;
+
 struct ReportCommand {
   std::string input;
   std::string output;
 };
 
+/// A kind of file that has a page; `called` stands for one that came through a pipe.
+struct Reportable {
+  std::string_view file_type;
+  std::string_view called;
+  report::Page (*page)(const std::string& text, const std::string& file, std::string_view source);
+};
+
+report::Page page_of_map(const std::string& text,
+                         const std::string& file,
+                         std::string_view source) {
+  return report::page_of(map_report(files::parse_map(text, file), source));
+}
+
+report::Page page_of_diagnosis(const std::string& text,
+                               const std::string& file,
+                               std::string_view source) {
+  return diagnosis_page(files::parse_diagnosis(text, file), source);
+}
+
+constexpr std::array kReportables = {
+    Reportable{"chaintrue_map", "a map", page_of_map},
+    Reportable{"chaintrue_diagnosis", "a diagnosis", page_of_diagnosis},
+};
+
+const Reportable& reportable(const std::string& text, const std::string& file) {
+  const std::string type = files::file_type_of(text, file);
+  std::string known;
+  for (const Reportable& kind : kReportables) {
+    if (kind.file_type == type) return kind;
+    known += fmt::format("{}\"{}\"", known.empty() ? "" : " or ", kind.file_type);
+  }
+  throw files::InputError(
+      {{file, "/file_type", type.empty() ? "" : fmt::format("\"{}\"", type), known}});
+}
+
 int run_report(const ReportCommand& command) {
-  const grid::CompensationMap map = grid::files::read_map(command.input);
-  const std::string source =
-      command.input == "-" ? "a map" : std::filesystem::path(command.input).filename().string();
-  grid::files::write_whole_file(command.output,
-                                report::render(report::page_of(map_report(map, source))));
+  const std::string text = files::read_whole_file(command.input);
+  const std::string file = files::name_in_messages(command.input);
+  const Reportable& kind = reportable(text, file);
+  const std::string source = command.input == "-"
+                                 ? std::string(kind.called)
+                                 : std::filesystem::path(command.input).filename().string();
+  files::write_whole_file(command.output, report::render(kind.page(text, file, source)));
   if (command.output != "-")
     fmt::print(stderr, "The report is {}: open it in any browser.\n", command.output);
   return kDone;
@@ -37,15 +81,20 @@ int run_report(const ReportCommand& command) {
 
 void add_report(CLI::App& app, Run& run) {
   auto command = std::make_shared<ReportCommand>();
-  CLI::App* verb =
-      app.add_subcommand("report", "A map as a page for a browser, to be read without a network");
-  verb->add_option("map", command->input, "A chaintrue_map file; - is standard input")->required();
+  CLI::App* verb = app.add_subcommand(
+      "report", "A map or a diagnosis as a page for a browser, to be read without a network");
+  verb->add_option("file",
+                   command->input,
+                   "A chaintrue_map or chaintrue_diagnosis file; - is standard input")
+      ->required();
   verb->add_option("-o,--output", command->output, "The HTML file; - is standard output")
       ->required();
   verb->footer(
-      "Example:\n"
+      "Examples:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
-      "  build/chaintrue report map.json -o report.html");
+      "  build/chaintrue report map.json -o report.html\n"
+      "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
+      "  build/chaintrue report diagnosis.json -o diagnosis.html");
   verb->callback([command, &run] { run = [command] { return run_report(*command); }; });
 }
 

@@ -13,24 +13,7 @@
 namespace chaintrue::report {
 namespace {
 
-constexpr const char* kBeforeColor = "#d55e00";  // vermilion and blue of Okabe and Ito's palette,
-constexpr const char* kAfterColor = "#0072b2";   // told apart with every colour vision
-constexpr const char* kNeutralColor = "#8a94a3";
-
-/// The longest arrow of a panel spans this share of the bed's width.
-constexpr double kLongestArrow = 0.12;
-
 double length_mm(const ToolVector& vector) { return std::hypot(vector.x_mm, vector.y_mm); }
-
-/// The largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) not above value; 0 for 0.
-double round_down_125(double value) {
-  if (!(value > 0.0)) return 0.0;
-  const double decade = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : {5.0, 2.0}) {
-    if (value >= step * decade) return step * decade;
-  }
-  return decade;
-}
 
 /// Fixed digits with a true minus sign.
 std::string number(double value, int digits) {
@@ -38,45 +21,6 @@ std::string number(double value, int digits) {
   const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
   if (text.front() != '-') return text;
   return is_zero ? text.substr(1) : "\u2212" + text.substr(1);
-}
-
-double width_mm(const Outline& outline) { return outline.x_max_mm - outline.x_min_mm; }
-
-/// The sheet and the points, with a margin of 5 % of the sheet's width.
-Outline view_of(const MapReport& report) {
-  const Outline& sheet = report.sheet;
-  if (!(width_mm(sheet) > 0.0) || !(sheet.y_max_mm > sheet.y_min_mm)) {
-    throw std::invalid_argument(
-        fmt::format("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
-                    sheet.x_min_mm,
-                    sheet.x_max_mm,
-                    sheet.y_min_mm,
-                    sheet.y_max_mm));
-  }
-  Outline view = sheet;
-  for (const ReportPoint& point : report.points) {
-    view.x_min_mm = std::min(view.x_min_mm, point.x_mm);
-    view.x_max_mm = std::max(view.x_max_mm, point.x_mm);
-    view.y_min_mm = std::min(view.y_min_mm, point.y_mm);
-    view.y_max_mm = std::max(view.y_max_mm, point.y_mm);
-  }
-  const double margin_mm = 0.05 * width_mm(sheet);
-  return {view.x_min_mm - margin_mm,
-          view.x_max_mm + margin_mm,
-          view.y_min_mm - margin_mm,
-          view.y_max_mm + margin_mm};
-}
-
-std::vector<Signal> bed_signals(const MapReport& report) {
-  const Outline view = view_of(report);
-  return {{"x_min_mm", view.x_min_mm},
-          {"x_max_mm", view.x_max_mm},
-          {"y_min_mm", view.y_min_mm},
-          {"y_max_mm", view.y_max_mm},
-          {"sheet_x_min_mm", report.sheet.x_min_mm},
-          {"sheet_x_max_mm", report.sheet.x_max_mm},
-          {"sheet_y_min_mm", report.sheet.y_min_mm},
-          {"sheet_y_max_mm", report.sheet.y_max_mm}};
 }
 
 using PointVector = std::optional<ToolVector> ReportPoint::*;
@@ -87,55 +31,41 @@ bool has_any(const MapReport& report, PointVector vector) {
   });
 }
 
-/// How much a panel of arrows magnifies; arrows of zero length magnify once.
-double magnification_of(const MapReport& report, PointVector vector) {
-  double longest_mm = 0.0;
-  for (const ReportPoint& point : report.points) {
-    if (!point.is_bad && point.*vector)
-      longest_mm = std::max(longest_mm, length_mm(*(point.*vector)));
-  }
-  return longest_mm > 0.0 ? round_down_125(kLongestArrow * width_mm(report.sheet) / longest_mm)
-                          : 1.0;
-}
-
-Chart arrows_chart(const MapReport& report,
-                   PointVector vector,
-                   double magnification,
-                   const char* color) {
-  Chart chart{.specification = "bed_arrows"};
-  DataTable arrows{"arrows", {"name", "x_mm", "y_mm", "dx_mm", "dy_mm", "is_bad"}, {}};
+std::vector<Arrow> arrows_of(const MapReport& report, PointVector vector) {
+  std::vector<Arrow> arrows;
   for (const ReportPoint& point : report.points) {
     if (!(point.*vector)) continue;
     const ToolVector& error = *(point.*vector);
-    arrows.rows.push_back(
-        {point.name, point.x_mm, point.y_mm, error.x_mm, error.y_mm, point.is_bad});
+    arrows.push_back(
+        {point.name, point.x_mm, point.y_mm, error.x_mm, error.y_mm, point.is_bad, 0.0, 0.0});
   }
-  chart.data.push_back(std::move(arrows));
-  chart.signals = bed_signals(report);
-  const double key_mm = round_down_125(kLongestArrow * width_mm(report.sheet) / magnification);
-  chart.signals.push_back({"magnification", magnification});
-  chart.signals.push_back({"key_mm", key_mm});
-  chart.signals.push_back(
-      {"key_text", fmt::format("{:g} mm, drawn {:g} times as long", key_mm, magnification)});
-  chart.signals.push_back({"color", std::string(color)});
-  return chart;
+  return arrows;
+}
+
+std::vector<Signal> signals_of_bed(const MapReport& report) {
+  std::vector<Arrow> marks;
+  for (const ReportPoint& point : report.points)
+    marks.push_back({.x_mm = point.x_mm, .y_mm = point.y_mm});
+  return bed_signals(report.sheet, marks);
 }
 
 Section before_after_section(const MapReport& report) {
   Section section{"Before and after", {}};
-  const double coarse = magnification_of(report, &ReportPoint::before);
-  const double fine = magnification_of(report, &ReportPoint::after);
-  Chart before = arrows_chart(report, &ReportPoint::before, coarse, kBeforeColor);
+  const std::vector<Arrow> arrows_before = arrows_of(report, &ReportPoint::before);
+  const std::vector<Arrow> arrows_after = arrows_of(report, &ReportPoint::after);
+  const double coarse = magnification_of(report.sheet, arrows_before);
+  const double fine = magnification_of(report.sheet, arrows_after);
+  Chart before = arrows_chart(report.sheet, arrows_before, coarse, kBeforeColor);
   before.title = "Before: " + report.before_what;
   before.caption =
       "Each arrow runs from where the tool should be to where it lands. Hover or tap a point for "
       "its values.";
-  Chart after = arrows_chart(report, &ReportPoint::after, coarse, kAfterColor);
+  Chart after = arrows_chart(report.sheet, arrows_after, coarse, kAfterColor);
   after.title = "After: with the map, same scale";
   after.caption = "What is left at the points that the map was made from.";
   section.blocks.push_back(ChartRow{{std::move(before), std::move(after)}});
   if (fine >= 2.0 * coarse) {
-    Chart close = arrows_chart(report, &ReportPoint::after, fine, kAfterColor);
+    Chart close = arrows_chart(report.sheet, arrows_after, fine, kAfterColor);
     close.title = "After, under the magnifying glass";
     close.caption = fmt::format(
         "The same arrows, {:g} times larger. Random directions are noise; neighbours that point "
@@ -188,7 +118,7 @@ Section error_map_section(const MapReport& report) {
   for (const ReportPoint& point : report.points) points.rows.push_back({point.x_mm, point.y_mm});
   chart.data.push_back(std::move(cells));
   chart.data.push_back(std::move(points));
-  chart.signals = bed_signals(report);
+  chart.signals = signals_of_bed(report);
   chart.signals.push_back({"cell_width_mm", map.cell_width_mm});
   chart.signals.push_back({"cell_height_mm", map.cell_height_mm});
   Section section{"Where to expect which error", {}};

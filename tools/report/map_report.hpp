@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/report/bed_chart.hpp"
 #include "tools/report/page.hpp"
 
 namespace chaintrue::report {
@@ -26,14 +27,6 @@ namespace chaintrue::report {
 struct ToolVector {
   double x_mm = 0.0;
   double y_mm = 0.0;
-};
-
-/// The sheet, or what of it was measured.
-struct Outline {
-  double x_min_mm = 0.0;
-  double x_max_mm = 0.0;
-  double y_min_mm = 0.0;
-  double y_max_mm = 0.0;
 };
 
 struct ReportPoint {

@@ -26,6 +26,14 @@ namespace chaintrue::report {
 /// How the page's verdict reads at a glance; said in words too, so colour alone carries nothing.
 enum class Tone { good, caution, bad };
 
+/// A question that the page answers at a glance: "Named?" "yes, one cause" in the tone's colour and
+/// with its sign.
+struct Light {
+  Tone tone = Tone::good;
+  std::string question{};
+  std::string answer{};
+};
+
 struct Paragraph {
   std::string text{};
 };
@@ -90,6 +98,8 @@ struct Page {
   std::string subtitle{};
   std::string verdict{};
   Tone tone = Tone::good;
+  /// Below the verdict, in one line.
+  std::vector<Light> lights{};
   /// What to do now, at most three lines.
   std::vector<std::string> advice{};
   /// Set large below the verdict.

@@ -126,13 +126,31 @@ class Writer {
     add("</header>\n");
   }
 
-  void verdict(const Page& page) {
+  static std::string_view tone_class(Tone tone) {
     static constexpr std::string_view kToneClass[] = {"good", "caution", "bad"};
+    return kToneClass[static_cast<std::size_t>(tone)];
+  }
+
+  void write_lights(const std::vector<Light>& lights) {
+    static constexpr std::string_view kSign[] = {"\u2713", "!", "\u2717"};
+    add("<ul class=\"lights\">\n");
+    for (const Light& light : lights) {
+      add("<li class=\"{}\"><i aria-hidden=\"true\">{}</i><span><b>{}</b> {}</span></li>\n",
+          tone_class(light.tone),
+          kSign[static_cast<std::size_t>(light.tone)],
+          escaped(light.question),
+          escaped(light.answer));
+    }
+    add("</ul>\n");
+  }
+
+  void verdict(const Page& page) {
     add("<div class=\"verdict {}\">\n<p class=\"sentence\">{}</p>\n",
-        kToneClass[static_cast<std::size_t>(page.tone)],
+        tone_class(page.tone),
         escaped(page.verdict));
+    if (!page.lights.empty()) write_lights(page.lights);
     if (!page.advice.empty()) {
-      add("<ul>\n");
+      add("<ul class=\"advice\">\n");
       for (const std::string& line : page.advice) add("<li>{}</li>\n", escaped(line));
       add("</ul>\n");
     }

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "grid/diagnosis/bad_points.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr int kCalibrations = 8;
+constexpr double kSettled_mm = 1e-4;
+
+DiagnosisFailure unreachable(const Session& session, const model::VisitFailure& failure) {
+  const SessionPoint& point = session.points[failure.index];
+  return {DiagnosisFailure::Reason::point_unreachable,
+          fmt::format("point {} at ({:.1f}, {:.1f}) mm: {}",
+                      point.index + 1,
+                      point.mark.x_mm,
+                      point.mark.y_mm,
+                      model::explain(failure.reason))};
+}
+
+DiagnosisFailure impossible(const model::MachineProblem& problem) {
+  return {DiagnosisFailure::Reason::contradictory_settings,
+          fmt::format("no machine near the stated one fits these points: calibrating leads to {} = "
+                      "{}. Check the feed, the attachment and the motors' positions, and that the "
+                      "lengths are those of this machine",
+                      problem.parameter,
+                      problem.value)};
+}
+
+/// Settings moved to where the points put them, no effect at work.
+tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const Steps& steps) {
+  State state = stated_state(session);
+  Steps projected = steps;
+  projected.project_settings = true;
+  const std::vector<bool> none(session.points.size(), false);
+  for (int pass = 0; pass < kCalibrations; ++pass) {
+    auto rows = base_rows(session, state, steps);
+    if (!rows) return tl::unexpected(unreachable(session, rows.error()));
+    rows->g.resize(session.rows(), 0);
+    const auto bad = bad_point_sets(*rows, none, {{}}, session.noise_dof, projected).front();
+    const Space space = make_space(*rows, bad, projected);
+    const Eigen::VectorXd change = estimate(session, *rows, space, {}, -1).setting_change;
+    state = with_settings(session, state, rows->setting + change);
+    const auto problems = model::problems_of(state.machine);
+    if (!problems.empty()) return tl::unexpected(impossible(problems.front()));
+    if (change.cwiseAbs().maxCoeff() < kSettled_mm) break;
+  }
+  return state;
+}
+
+/// The place of a cause at which it explains most, beside the others of its set.
+double refined_place(const Session& session,
+                     const Analysis& a,
+                     const Space& space,
+                     std::size_t which) {
+  const Direction& own = a.rows.directions[static_cast<std::size_t>(a.estimate.directions[which])];
+  Eigen::MatrixXd others(space.e.size(), 0);
+  for (std::size_t k = 0; k < a.estimate.directions.size(); ++k) {
+    if (k == which) continue;
+    others.conservativeResize(Eigen::NoChange, others.cols() + 1);
+    others.rightCols<1>() = space.g.col(a.estimate.directions[k]);
+  }
+  const Eigen::MatrixXd gram = others.transpose() * others;
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(gram);
+  const auto without = [&](Eigen::VectorXd v) {
+    if (others.cols() > 0) v -= others * ldlt.solve(others.transpose() * v);
+    return v;
+  };
+  const Eigen::VectorXd e = without(space.e);
+  const auto gain = [&](double place) {
+    std::vector<double> values = own.values;
+    values.back() = place;
+    const auto g = signature(session, a.state, a.rows, own.cause, values);
+    if (!g) return 0.0;
+    const Eigen::VectorXd left = without(reduced(space, *g));
+    const double square = left.squaredNorm();
+    const double c = left.dot(e);
+    return square > 1e-12 && c * a.estimate.coefficient(static_cast<Eigen::Index>(which)) > 0.0
+               ? c * c / square
+               : 0.0;
+  };
+  // The neighbouring places of the grid bracket the best.
+  double low = own.values.back();
+  double high = low;
+  for (const Direction& d : a.rows.directions) {
+    if (!(d.cause == own.cause)) continue;
+    const double step = d.values.back() - own.values.back();
+    if (step < 0.0 && (low == own.values.back() || d.values.back() > low)) low = d.values.back();
+    if (step > 0.0 && (high == own.values.back() || d.values.back() < high)) high = d.values.back();
+  }
+  constexpr double kGolden = 0.381966011250105;
+  double x1 = low + kGolden * (high - low);
+  double x2 = high - kGolden * (high - low);
+  double f1 = gain(x1);
+  double f2 = gain(x2);
+  for (int step = 0; step < 18; ++step) {
+    if (f1 > f2) {
+      high = x2;
+      x2 = x1;
+      f2 = f1;
+      x1 = low + kGolden * (high - low);
+      f1 = gain(x1);
+    } else {
+      low = x1;
+      x1 = x2;
+      f1 = f2;
+      x2 = high - kGolden * (high - low);
+      f2 = gain(x2);
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+bool has_continuous_place(const Direction& direction) {
+  const auto& parameters = direction.cause.effect->parameters;
+  return parameters.size() > 1 && !parameters.back().integer;
+}
+
+/// Strength below which no point plan names a cause: what cannot get there is left out of the
+/// contest, where it would only take probability from the others.
+constexpr double kLeastReach = 4.0;
+
+/// Takes effects out that could not show at any size that they may have.
+void drop_invisible(const Session& session, const Steps& steps, Analysis& a) {
+  const Space space = make_space(a.rows, std::vector<bool>(session.points.size(), false), steps);
+  const auto reach = [&](const CauseId& cause) {
+    double most = 0.0;
+    for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
+      const Direction& d = a.rows.directions[k];
+      if (!(d.cause == cause)) continue;
+      const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
+      most = std::max(most, size * space.g.col(static_cast<Eigen::Index>(k)).norm());
+    }
+    return most;
+  };
+  std::vector<CauseId> visible;
+  for (const CauseId& cause : a.candidates.testable) {
+    if (reach(cause) >= kLeastReach) {
+      visible.push_back(cause);
+    } else {
+      a.candidates.not_testable.push_back(
+          {cause, "at any size that it may have, calibrating the settings would hide it"});
+    }
+  }
+  const auto is_visible = [&](const Direction& d) {
+    return std::find(visible.begin(), visible.end(), d.cause) != visible.end();
+  };
+  std::vector<Eigen::Index> kept;
+  std::vector<Direction> directions;
+  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
+    if (!is_visible(a.rows.directions[k])) continue;
+    kept.push_back(static_cast<Eigen::Index>(k));
+    directions.push_back(a.rows.directions[k]);
+  }
+  a.rows.g = a.rows.g(Eigen::all, kept).eval();
+  a.rows.directions = std::move(directions);
+  a.candidates.testable = std::move(visible);
+}
+
+/// Sizes and places found, for secants that are exact there.
+std::vector<Refinement> refinements(const Session& session, const Analysis& a) {
+  std::vector<Refinement> result;
+  const Space& space = a.contest.spaces[a.judgement.space];
+  for (std::size_t k = 0; k < a.estimate.directions.size(); ++k) {
+    const Direction& d = a.rows.directions[static_cast<std::size_t>(a.estimate.directions[k])];
+    if (d.fixed) continue;
+    const double size = size_at(d, a.estimate.coefficient(static_cast<Eigen::Index>(k)));
+    if (!(std::abs(size) > 1e-3 * std::abs(d.values.front()))) continue;
+    Refinement refinement{d.cause, d.values, d.log_prior};
+    refinement.values.front() = size;
+    if (has_continuous_place(d)) refinement.values.back() = refined_place(session, a, space, k);
+    result.push_back(std::move(refinement));
+  }
+  return result;
+}
+
+}  // namespace
+
+Judgement decide(const Session& session,
+                 const Rows& rows,
+                 const Contest& contest,
+                 const std::vector<bool>& excluded,
+                 bool seen) {
+  constexpr double kOverPattern = 1.8;  // strength of the leading cause over what is left
+  Judgement judged = judge(rows, contest, excluded, seen);
+  if (judged.listed.empty() || judged.pattern <= kPatternPossible || judged.best_pattern < 0) {
+    return judged;
+  }
+  // A pattern that nobody knows may lend a name its strength: the leading cause must stand above
+  // it.
+  const Space& space = contest.spaces[judged.space];
+  const Estimate fitted = estimate(session, rows, space, judged.directions, judged.best_pattern);
+  double strongest = 0.0;
+  for (std::size_t k = 0; k < fitted.directions.size(); ++k) {
+    strongest = std::max(strongest,
+                         std::abs(fitted.coefficient(static_cast<Eigen::Index>(k))) *
+                             space.g.col(fitted.directions[k]).norm());
+  }
+  const Eigen::VectorXd pattern = fitted.left - fitted.left_beside_pattern;
+  if (strongest >= kOverPattern * pattern(space.kept).norm()) return judged;
+  return judge(rows, contest, excluded, false);
+}
+
+namespace {
+
+void contest_and_judge(const Session& session,
+                       const ContestOptions& options,
+                       bool seen,
+                       Analysis& a) {
+  const std::vector<bool> none(session.points.size(), false);
+  a.contest = hold_contest(session, a.rows, none, options);
+  a.judgement = decide(session, a.rows, a.contest, none, seen);
+  a.estimate = estimate(session,
+                        a.rows,
+                        a.contest.spaces[a.judgement.space],
+                        a.judgement.directions,
+                        a.judgement.pattern_left ? a.judgement.best_pattern : -1);
+}
+
+void test_significance(const Session& session, const DiagnosisOptions& options, Analysis& a) {
+  const Space& space = a.contest.spaces[a.contest.best().space];
+  const SingleScore score(a.rows, space, options.steps.anchor_noise ? session.noise_dof : 1e-3);
+  // Enough draws for a family-wise 1 in 100; fewer where one draw is long.
+  const int draws = session.points.size() > 150 ? 2000 : 4000;
+  a.null = draw_null(score, space.e.size(), draws, options.seed);
+  a.score = score.by_cause(space.e).maxCoeff();
+  a.family_wise_p = a.null.p_value(a.score);
+}
+
+}  // namespace
+
+tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
+                                                 const DiagnosisOptions& options) {
+  Analysis a;
+  auto state = calibrate(session, options.steps);
+  if (!state) return tl::unexpected(state.error());
+  a.state = std::move(*state);
+  a.candidates = candidates(session);
+  const ContestOptions contest{options.steps, true, options.told};
+  constexpr int kPasses = 2;
+  std::vector<Refinement> known;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    auto rows = base_rows(session, a.state, options.steps);
+    if (!rows) return tl::unexpected(unreachable(session, rows.error()));
+    a.rows = std::move(*rows);
+    add_directions(session, a.state, a.candidates.testable, known, a.rows);
+    if (pass == 0) drop_invisible(session, options.steps, a);
+    contest_and_judge(session, contest, true, a);
+    if (pass + 1 == kPasses || a.judgement.directions.empty()) break;
+    known = refinements(session, a);
+    a.state = with_settings(session, a.state, a.rows.setting + a.estimate.setting_change);
+  }
+  test_significance(session, options, a);
+  if (a.family_wise_p >= kFalseAlarm && !options.told) {
+    const std::vector<bool> none(session.points.size(), false);
+    a.judgement = decide(session, a.rows, a.contest, none, false);
+    a.estimate = estimate(session,
+                          a.rows,
+                          a.contest.spaces[a.judgement.space],
+                          a.judgement.directions,
+                          a.judgement.pattern_left ? a.judgement.best_pattern : -1);
+  }
+  return a;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The steps from a session to a judgement: calibrate, linearise, contest, linearise anew about
+/// what was found, contest again.
+#pragma once
+
+#include <tl/expected.hpp>
+
+#include "grid/diagnosis/estimate.hpp"
+#include "grid/diagnosis/judgement.hpp"
+#include "grid/diagnosis/null_distribution.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+struct Analysis {
+  State state;  ///< settings at which the rows are linear; no effect named is in it
+  Candidates candidates;
+  Rows rows;
+  Contest contest;
+  NullDistribution null;
+  double score = 0.0;  ///< of the strongest single effect
+  double family_wise_p = 1.0;
+  Judgement judgement;
+  Estimate estimate;  ///< of the judgement's causes
+};
+
+/// judge(), and silence where an unknown pattern is as strong as the cause it would be named
+/// beside.
+[[nodiscard]] Judgement decide(const Session& session,
+                               const Rows& rows,
+                               const Contest& contest,
+                               const std::vector<bool>& excluded,
+                               bool seen);
+
+[[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
+                                                               const DiagnosisOptions& options);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/bad_points.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "grid/diagnosis/contest.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr std::size_t kMostSets = 4;
+constexpr double kNegligible = 12.0;  // of the logarithm of a set's weight
+
+/// The data seen from one hypothesis: precision of the rows, and the precision times the residual.
+struct Seen {
+  Eigen::MatrixXd precision;
+  Eigen::VectorXd u;
+  double quadratic = 0.0;
+  double log_det = 0.0;
+};
+
+struct Found {
+  std::vector<bool> bad;
+  double log_weight = 0.0;
+};
+
+Seen seen_by(const Seen& nothing,
+             const Space& space,
+             const Rows& rows,
+             const std::vector<int>& set) {
+  Seen seen = nothing;
+  Eigen::VectorXd e = space.e;
+  for (const int k : set) {
+    if (rows.directions[static_cast<std::size_t>(k)].fixed) e -= space.g.col(k);
+  }
+  const auto upper = space.factor.transpose().triangularView<Eigen::Upper>();
+  seen.u = upper.solve(e);
+  seen.quadratic = e.squaredNorm();
+  std::vector<Eigen::VectorXd> taken;
+  for (const int k : set) {
+    if (rows.directions[static_cast<std::size_t>(k)].fixed) continue;
+    const double prior = space.g.col(k).squaredNorm() / (kWideDelta * kWideDelta);
+    // P g for the precision so far
+    Eigen::VectorXd pg = upper.solve(Eigen::VectorXd(space.g.col(k)));
+    const Eigen::VectorXd g = space.factor * space.g.col(k);
+    for (const Eigen::VectorXd& t : taken) pg -= t * t.dot(g);
+    const double denominator = prior + g.dot(pg);
+    const double ug = seen.u.dot(g);
+    seen.quadratic -= ug * ug / denominator;
+    seen.u -= pg * (ug / denominator);
+    seen.log_det += std::log(denominator / prior);
+    seen.precision.noalias() -= pg * (pg.transpose() / denominator);
+    taken.push_back(pg / std::sqrt(denominator));
+  }
+  return seen;
+}
+
+/// Blocks of two rows in `space` that are one point, with the point's number.
+std::vector<std::pair<Eigen::Index, std::size_t>> blocks(const Rows& rows, const Space& space) {
+  std::vector<std::pair<Eigen::Index, std::size_t>> result;
+  for (std::size_t a = 0; a + 1 < space.kept.size(); ++a) {
+    const auto point = static_cast<std::size_t>(space.kept[a] / 2);
+    if (space.kept[a] % 2 == 0 && point < rows.points.size()) {
+      result.emplace_back(static_cast<Eigen::Index>(a), point);
+    }
+  }
+  return result;
+}
+
+/// Mean shifts one after the other; the best of the nested sets.
+Found search(
+    Seen seen, const Rows& rows, const Space& space, double log_prior_of_set, double noise_dof) {
+  auto free = blocks(rows, space);
+  const auto count = static_cast<double>(free.size());
+  const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostBadShare * count)));
+  auto n = static_cast<Eigen::Index>(space.kept.size());
+  const double price = std::log(kBadPointPrior) -
+                       std::log(2.0 * std::numbers::pi * kBadPointSpread * kBadPointSpread);
+  Found best{space.bad,
+             NoiseDensity(noise_dof, n).log_density(seen.quadratic) - 0.5 * seen.log_det +
+                 log_prior_of_set};
+  std::vector<bool> bad = space.bad;
+  for (std::size_t step = 1; step <= most && free.size() > kFewestPoints; ++step) {
+    std::size_t worst = 0;
+    double drop = -1.0;
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const Eigen::Index at = free[k].first;
+      const Eigen::Vector2d u = seen.u.segment<2>(at);
+      const Eigen::Matrix2d block = seen.precision.block<2, 2>(at, at);
+      const double d = u.dot(block.inverse() * u);
+      if (d > drop) {
+        drop = d;
+        worst = k;
+      }
+    }
+    const Eigen::Index at = free[worst].first;
+    const Eigen::Matrix2d block = seen.precision.block<2, 2>(at, at);
+    const Eigen::MatrixXd columns = seen.precision.middleCols<2>(at) * block.inverse();
+    const Eigen::Vector2d u = seen.u.segment<2>(at);
+    seen.quadratic -= drop;
+    seen.log_det += std::log(block.determinant());
+    seen.u -= columns * u;
+    seen.precision.noalias() -= columns * seen.precision.middleRows<2>(at).eval();
+    bad[free[worst].second] = true;
+    free.erase(free.begin() + static_cast<std::ptrdiff_t>(worst));
+    n -= 2;
+    const double weight = NoiseDensity(noise_dof, n).log_density(std::max(seen.quadratic, 0.0)) -
+                          0.5 * seen.log_det + log_prior_of_set + static_cast<double>(step) * price;
+    if (weight > best.log_weight) best = {bad, weight};
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<std::vector<bool>> bad_point_sets(const Rows& rows,
+                                              const std::vector<bool>& excluded,
+                                              const std::vector<std::vector<int>>& hypotheses,
+                                              double noise_dof,
+                                              const Steps& steps) {
+  if (!steps.robust) return {excluded};
+  const Space space = make_space(rows, excluded, steps);
+  const auto n = static_cast<Eigen::Index>(space.kept.size());
+  Seen nothing;
+  const Eigen::MatrixXd inverse =
+      space.factor.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));
+  nothing.precision = inverse.transpose() * inverse;
+  nothing.log_det = space.log_det;
+  std::vector<Found> found;
+  for (const auto& set : hypotheses) {
+    Found one = search(seen_by(nothing, space, rows, set),
+                       rows,
+                       space,
+                       log_prior(rows.directions, set, false),
+                       noise_dof);
+    const auto same =
+        std::find_if(found.begin(), found.end(), [&](const Found& f) { return f.bad == one.bad; });
+    if (same == found.end()) {
+      found.push_back(std::move(one));
+    } else {
+      same->log_weight = std::max(same->log_weight, one.log_weight);
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+    return a.log_weight > b.log_weight;
+  });
+  std::vector<std::vector<bool>> sets;
+  for (const Found& one : found) {
+    if (sets.size() == kMostSets || one.log_weight < found.front().log_weight - kNegligible) break;
+    sets.push_back(one.bad);
+  }
+  return sets;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// One contest of evidence between nothing, every cause, causes together, bad points, noise larger
+/// than stated, an unknown pattern, and causes beside an unknown pattern.
+///
+/// Every hypothesis looks for its own bad points, by mean shifts added one after the other without
+/// stopping at the first that does not pay, so that several bad points cannot hide each other; the
+/// few sets of bad points so found are each given the whole contest. Causes are searched
+/// exhaustively one and two at a time, three and four at a time from the best of those.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "grid/diagnosis/evidence.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// A set of directions, with or without an unknown pattern, and the points set aside.
+struct Model {
+  std::vector<int> directions;  ///< ascending
+  int pattern = -1;             ///< number of the unknown pattern, or none
+  std::size_t space = 0;        ///< into Contest::spaces
+  double log_weight = 0.0;      ///< prior times evidence
+  double larger_noise = 0.0;    ///< share of it from noise larger than stated
+  double quadratic = 0.0;
+};
+
+struct Contest {
+  std::vector<Space> spaces;
+  std::vector<Model> models;  ///< those that matter, best first
+  double log_total = 0.0;
+  [[nodiscard]] const Model& best() const { return models.front(); }
+  [[nodiscard]] double probability(const Model& model) const;
+};
+
+struct ContestOptions {
+  Steps steps;
+  bool patterns = true;
+  /// Nothing but this cause acts.
+  std::optional<CauseId> told;
+};
+
+/// Points already known not to count (held out) are `excluded`.
+[[nodiscard]] Contest hold_contest(const Session& session,
+                                   const Rows& rows,
+                                   const std::vector<bool>& excluded,
+                                   const ContestOptions& options);
+
+/// Prior of a set of directions, of its bad points not.
+[[nodiscard]] double log_prior(const std::vector<Direction>& directions,
+                               const std::vector<int>& set,
+                               bool pattern);
+
+/// log BF of one cause against nothing, its places averaged: by position in `causes`.
+struct SingleScores {
+  std::vector<CauseId> causes;
+  std::vector<double> log_factor;
+  std::vector<int> best_direction;
+};
+[[nodiscard]] SingleScores single_scores(const Rows& rows,
+                                         const Space& space,
+                                         const NoiseDensity& noise,
+                                         const Eigen::VectorXd& e,
+                                         bool average_location);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/diagnosis.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/gain.hpp"
+#include "grid/diagnosis/next_measurements.hpp"
+#include "grid/diagnosis/slips.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+std::string_view name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::named:
+      return "named";
+    case Verdict::named_set:
+      return "named_set";
+    case Verdict::several_causes:
+      return "several_causes";
+    case Verdict::unknown_pattern:
+      return "unknown_pattern";
+    case Verdict::noise_larger_than_stated:
+      return "noise_larger_than_stated";
+    case Verdict::bad_points:
+      return "bad_points";
+    case Verdict::nothing_found:
+      break;
+  }
+  return "nothing_found";
+}
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
+                                                   const DiagnosisOptions& options) {
+  const auto session = make_session(grid);
+  if (!session) return tl::unexpected(session.error());
+  if (const auto slip = suspected_slip(*session)) return tl::unexpected(*slip);
+  const auto analysis = analyse(*session, options);
+  if (!analysis) return tl::unexpected(analysis.error());
+  Diagnosis d;
+  d.seed = options.seed;
+  d.verdict = analysis->judgement.verdict;
+  d.noise_factor = std::sqrt(analysis->estimate.noise_square);
+  d.family_wise_p = analysis->family_wise_p;
+  d.causes = causes_found(*session, *analysis, options.order_assumed);
+  d.hypotheses = hypotheses(*analysis);
+  d.terms = terms(*session, options, *analysis);
+  d.not_testable = analysis->candidates.not_testable;
+  d.bounds = bounds(*session, *analysis, d.not_testable);
+  d.settings = settings_found(*session, *analysis);
+  d.bad_points = bad_points_found(*session, *analysis);
+  d.separations = separations(*analysis);
+  d.points = pictures(*session, *analysis);
+  d.left_over = left_over(*session, *analysis, options.seed);
+  if (options.gain) d.gain = measure_gain(*session, *analysis, options);
+  extend(*session, *analysis, d);
+  if (options.next_measurements) d.next_measurements = next_measurements(*session, *analysis);
+  put_into_words(*session, d);
+  return d;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/estimate.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// Linear unknowns with a prior each.
+struct Unknowns {
+  Eigen::MatrixXd design;
+  Eigen::VectorXd mean;
+  Eigen::VectorXd sigma;
+};
+
+struct Solution {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd covariance;
+};
+
+Solution solve(const Unknowns& unknowns,
+               const Eigen::VectorXd& data,
+               const Eigen::LLT<Eigen::MatrixXd>* noise) {
+  Eigen::MatrixXd design = unknowns.design;
+  Eigen::VectorXd y = data;
+  if (noise != nullptr) {
+    noise->matrixL().solveInPlace(design);
+    noise->matrixL().solveInPlace(y);
+  }
+  // Scaled by the priors the normal equations are well conditioned: I + S A'A S.
+  const Eigen::MatrixXd scaled = design * unknowns.sigma.asDiagonal();
+  Eigen::MatrixXd normal = scaled.transpose() * scaled;
+  normal.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> llt(normal);
+  const Eigen::VectorXd x = llt.solve(scaled.transpose() * (y - design * unknowns.mean));
+  const Eigen::MatrixXd inverse =
+      llt.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+  return {unknowns.mean + unknowns.sigma.cwiseProduct(x),
+          unknowns.sigma.asDiagonal() * inverse * unknowns.sigma.asDiagonal()};
+}
+
+}  // namespace
+
+Estimate estimate(const Session& session,
+                  const Rows& rows,
+                  const Space& space,
+                  const std::vector<int>& directions,
+                  int pattern) {
+  Estimate result;
+  result.directions = directions;
+  const auto settings = rows.setting.size();
+  result.coefficient = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions.size()));
+  result.coefficient_sigma = result.coefficient;
+  Eigen::VectorXd data = rows.e;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    if (rows.directions[static_cast<std::size_t>(directions[k])].fixed) {
+      result.coefficient(static_cast<Eigen::Index>(k)) = 1.0;
+      data -= rows.g.col(directions[k]);
+    } else {
+      result.free.push_back(k);
+    }
+  }
+  Eigen::LLT<Eigen::MatrixXd> noise;
+  Pattern shape;
+  if (pattern >= 0) {
+    shape = pattern_of(space, pattern);
+    Eigen::MatrixXd c = shape.sigma_mm * shape.sigma_mm *
+                        pattern_covariance(session, rows, space.kept, shape.shape);
+    c.diagonal().array() += 1.0;
+    noise.compute(c);
+  }
+  Solution solution;
+  // A coefficient that leaves its bounds is fixed there and the rest solved again.
+  while (true) {
+    const auto free = static_cast<Eigen::Index>(result.free.size());
+    Unknowns unknowns{
+        Eigen::MatrixXd(static_cast<Eigen::Index>(space.kept.size()), settings + free),
+        Eigen::VectorXd::Zero(settings + free),
+        Eigen::VectorXd(settings + free)};
+    unknowns.design.leftCols(settings) = rows.by_setting(space.kept, Eigen::all);
+    unknowns.mean.head(settings) = rows.expected_change;
+    unknowns.sigma.head(settings) = rows.sigma;
+    for (Eigen::Index k = 0; k < free; ++k) {
+      const int column = directions[result.free[static_cast<std::size_t>(k)]];
+      unknowns.design.col(settings + k) = rows.g(space.kept, column);
+      unknowns.sigma(settings + k) = kWideDelta / std::max(space.g.col(column).norm(), 1e-12);
+    }
+    solution = solve(unknowns, data(space.kept), pattern >= 0 ? &noise : nullptr);
+    std::size_t outside = result.free.size();
+    for (std::size_t k = 0; k < result.free.size(); ++k) {
+      const Direction& d = rows.directions[static_cast<std::size_t>(directions[result.free[k]])];
+      const double value = solution.value(settings + static_cast<Eigen::Index>(k));
+      if (value < d.lowest || value > d.highest) outside = k;
+    }
+    if (outside == result.free.size()) break;
+    const auto at = static_cast<Eigen::Index>(result.free[outside]);
+    const Direction& d =
+        rows.directions[static_cast<std::size_t>(directions[result.free[outside]])];
+    result.coefficient(at) = std::clamp(
+        solution.value(settings + static_cast<Eigen::Index>(outside)), d.lowest, d.highest);
+    data -= rows.g.col(directions[result.free[outside]]) * result.coefficient(at);
+    result.free.erase(result.free.begin() + static_cast<std::ptrdiff_t>(outside));
+  }
+  result.setting_change = solution.value.head(settings);
+  Eigen::VectorXd left = data - rows.by_setting * result.setting_change;
+  for (std::size_t k = 0; k < result.free.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(result.free[k]);
+    const Eigen::Index column = settings + static_cast<Eigen::Index>(k);
+    result.coefficient(at) = solution.value(column);
+    left -= rows.g.col(directions[result.free[k]]) * result.coefficient(at);
+  }
+  result.left = left;
+  result.left_beside_pattern = left;
+  const Eigen::VectorXd kept = left(space.kept);
+  double quadratic = kept.squaredNorm();
+  if (pattern >= 0) {
+    result.pattern = shape;
+    result.pattern_weights = noise.solve(kept);
+    quadratic = kept.dot(result.pattern_weights);
+    for (std::size_t i = 0; i < session.points.size(); ++i) {
+      const auto row = 2 * static_cast<Eigen::Index>(i);
+      result.left_beside_pattern.segment<2>(row) -=
+          rows.points[i].whitening *
+          pattern_at(
+              session, rows, space, result, {session.points[i].mark, rows.points[i].by_mark});
+    }
+  }
+  const Eigen::VectorXd off =
+      (result.setting_change - rows.expected_change).cwiseQuotient(rows.sigma);
+  const NoiseDensity density(session.noise_dof, static_cast<Eigen::Index>(space.kept.size()));
+  result.noise_square = density.noise_square(quadratic + off.squaredNorm());
+  result.covariance = solution.covariance * result.noise_square;
+  result.setting_covariance = result.covariance.topLeftCorner(settings, settings);
+  for (std::size_t k = 0; k < result.free.size(); ++k) {
+    const Eigen::Index column = settings + static_cast<Eigen::Index>(k);
+    result.coefficient_sigma(static_cast<Eigen::Index>(result.free[k])) =
+        std::sqrt(result.covariance(column, column));
+  }
+  return result;
+}
+
+Eigen::Vector2d pattern_at(const Session& session,
+                           const Rows& rows,
+                           const Space& space,
+                           const Estimate& estimate,
+                           const PatternPlace& place) {
+  Eigen::Vector2d mm = Eigen::Vector2d::Zero();
+  for (Eigen::Index a = 0; a + 1 < estimate.pattern_weights.size(); a += 2) {
+    const Eigen::Index row = space.kept[static_cast<std::size_t>(a)];
+    if (row >= session.point_rows()) break;
+    const auto i = static_cast<std::size_t>(row / 2);
+    mm += pattern_block(
+              estimate.pattern.shape, place, {session.points[i].mark, rows.points[i].by_mark}) *
+          rows.points[i].whitening.transpose() * estimate.pattern_weights.segment<2>(a);
+  }
+  return estimate.pattern.sigma_mm * estimate.pattern.sigma_mm * mm;
+}
+
+std::vector<Eigen::Vector2d> chain_residuals(const Rows& rows, const Eigen::VectorXd& whitened) {
+  std::vector<Eigen::Vector2d> result;
+  for (std::size_t i = 0; i < rows.points.size(); ++i) {
+    result.emplace_back(rows.points[i].whitening.inverse() *
+                        whitened.segment<2>(2 * static_cast<Eigen::Index>(i)));
+  }
+  return result;
+}
+
+Eigen::Vector2d tool_shift(const PointState& point, const Eigen::Vector2d& chain_mm) {
+  return point.by_mark.inverse() * chain_mm;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The evidence for a set of causes: how probable these data are if exactly those act, whatever
+/// their sizes, the settings and the noise.
+///
+/// Notation
+///   e, g_k   whitened rows (rows.hpp) with the points that are set aside taken out; N of them
+///   V        I + A diag(sigma^2) A': their covariance with the settings unknown but for what is
+///            stated, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
+///   delta_k  coefficient times |V^-1/2 g_k|: the strength of a cause. Beforehand N(0,
+///   kDeltaSigma^2),
+///            cut to what the parameter may be
+///   s^2      the noise's square over the stated one: scaled inverse chi^2, dof as stated, about 1;
+///            with a small weight about one of kLargerNoise squared
+///   K        covariance of the unknown pattern (pattern.hpp)
+///
+/// With conjugate priors all integrals are closed but for the cut, which is the mass of the
+/// posterior inside the bounds over that of the prior (exact for one cause).
+///
+/// Sources: A. O'Hagan and J. Forster, Bayesian Inference (2004), section 11.3, for the linear
+/// model; C. Rasmussen and C. Williams, Gaussian Processes (2006), section 2.7, for linear terms
+/// beside a process.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "grid/diagnosis/pattern.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+inline constexpr double kUsualDelta = 12.0;
+inline constexpr double kWideDelta = 60.0;
+inline constexpr double kWideDeltaPrior = 0.15;
+inline constexpr double kLargerNoise[] = {1.5, 2.0, 2.7};
+inline constexpr double kLargerNoisePrior = 0.06;  ///< shared by all of them
+/// A bad point's whitened reading is spread this wide, in sigmas.
+inline constexpr double kBadPointSpread = 40.0;
+/// Chance beforehand that a point is bad.
+inline constexpr double kBadPointPrior = 0.01;
+/// The data's density as a function of their quadratic form, the noise averaged out.
+class NoiseDensity {
+ public:
+  NoiseDensity(double dof, Eigen::Index rows);
+  [[nodiscard]] double log_density(double quadratic) const;
+  /// Share of that which comes from noise larger than stated.
+  [[nodiscard]] double larger_share(double quadratic) const;
+  /// Expected s^2.
+  [[nodiscard]] double noise_square(double quadratic) const;
+
+ private:
+  [[nodiscard]] double part(double scale, double quadratic) const;
+  double dof_;
+  double rows_;
+  double constant_;
+};
+
+/// The rows with the settings integrated out and some points set aside.
+struct Space {
+  std::vector<bool> bad;           ///< per point
+  std::vector<Eigen::Index> kept;  ///< rows
+  Eigen::MatrixXd factor;          ///< lower L of V = L L'
+  Eigen::VectorXd e;               ///< L^-1
+  Eigen::MatrixXd g;               ///< L^-1
+  double log_det = 0.0;            ///< of V
+  double log_bad = 0.0;            ///< prior and density of the points set aside
+  /// Per shape: trace of its covariance in this space, for a pattern of 1 mm.
+  std::vector<double> pattern_trace;
+};
+[[nodiscard]] Space make_space(const Rows& rows, const std::vector<bool>& bad, const Steps& steps);
+/// L^-1 of a column of all rows.
+[[nodiscard]] Eigen::VectorXd reduced(const Space& space, const Eigen::VectorXd& column);
+
+/// Inner products of the residual and of some columns.
+struct Metric {
+  std::vector<int> columns;  ///< directions, ascending
+  double ee = 0.0;
+  Eigen::VectorXd ge;
+  Eigen::MatrixXd gg;
+  double log_det = 0.0;  ///< of everything that is not noise's scale: V and the pattern
+  [[nodiscard]] Eigen::Index position(int column) const;
+};
+[[nodiscard]] Metric plain_metric(const Space& space, std::vector<int> columns);
+
+/// The unknown pattern beside some columns, at every shape and size; notes the traces in the space.
+[[nodiscard]] std::vector<Metric> pattern_metrics(const Rows& rows,
+                                                  const Session& session,
+                                                  Space& space,
+                                                  const std::vector<int>& columns);
+/// Shape and size of pattern number `index`, in a space whose traces are noted.
+[[nodiscard]] Pattern pattern_of(const Space& space, int index);
+
+/// What a set of directions makes of the data.
+struct SetEvidence {
+  double log_evidence = 0.0;
+  double quadratic = 0.0;        ///< what is left of e'e
+  Eigen::VectorXd delta;         ///< of the free ones, in the order of the set
+  Eigen::VectorXd delta_square;  ///< their variances, in units of s^2
+};
+/// `set` holds positions in the metric. Minus infinity where a cause would need what it cannot be.
+[[nodiscard]] SetEvidence set_evidence(const Metric& metric,
+                                       const std::vector<Direction>& directions,
+                                       std::span<const Eigen::Index> set,
+                                       const NoiseDensity& noise);
+
+}  // namespace chaintrue::grid::diagnosis

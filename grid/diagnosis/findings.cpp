@@ -1,0 +1,453 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/findings.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using model::effects::EffectParameter;
+
+constexpr double kQuantile95 = 1.645;  // one-sided 95 %
+constexpr double kAbsorbed = 1e-3;     // of a signature left by the settings: nothing to see
+constexpr double kSettingOff = 3.0;    // sigmas: 1 in 370 for each setting
+
+const Direction& direction(const Analysis& a, int k) {
+  return a.rows.directions[static_cast<std::size_t>(k)];
+}
+
+const Space& space_of(const Analysis& a) { return a.contest.spaces[a.judgement.space]; }
+
+/// Length of a column before the settings take their share.
+double raw_length(const Analysis& a, int column) {
+  return a.rows.g(space_of(a).kept, column).norm();
+}
+
+/// The most probable direction of a cause over the models of the contest, or its best score.
+int best_direction(const Analysis& a, const CauseId& cause) {
+  for (const int k : a.judgement.directions) {
+    if (direction(a, k).cause == cause) return k;
+  }
+  for (const Model& model : a.contest.models) {
+    if (model.directions.size() != 1) continue;
+    if (direction(a, model.directions.front()).cause == cause) return model.directions.front();
+  }
+  const Space& space = space_of(a);
+  int best = -1;
+  double most = -1.0;
+  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
+    if (!(a.rows.directions[k].cause == cause)) continue;
+    const auto g = space.g.col(static_cast<Eigen::Index>(k));
+    const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(space.e)) / g.norm() : 0.0;
+    if (score > most) {
+      most = score;
+      best = static_cast<int>(k);
+    }
+  }
+  return best;
+}
+
+double circular(double difference, const EffectParameter& p) {
+  const bool turns = p.upper - p.lower >= 2.0 * std::numbers::pi;
+  return turns ? std::remainder(difference, 2.0 * std::numbers::pi) : difference;
+}
+
+/// How well the contest knows where a cause sets in.
+double place_sigma(const Analysis& a, int column) {
+  const Direction& own = direction(a, column);
+  const EffectParameter& place = own.cause.effect->parameters.back();
+  double weight = 0.0;
+  double square = 0.0;
+  for (const Model& model : a.contest.models) {
+    for (const int k : model.directions) {
+      const Direction& other = direction(a, k);
+      if (!(other.cause == own.cause)) continue;
+      const double p = a.contest.probability(model);
+      const double off = circular(other.values.back() - own.values.back(), place);
+      weight += p;
+      square += p * off * off;
+    }
+  }
+  return weight > 0.0 ? std::sqrt(square / weight) : 0.0;
+}
+
+std::vector<ParameterEstimate> parameters(const Analysis& a,
+                                          int column,
+                                          double coefficient,
+                                          double sigma) {
+  const Direction& d = direction(a, column);
+  std::vector<ParameterEstimate> result;
+  const auto& described = d.cause.effect->parameters;
+  result.push_back({std::string(described.front().name),
+                    size_at(d, coefficient),
+                    std::abs(size_slope(d, coefficient)) * sigma});
+  if (described.size() > 1) {
+    result.push_back({std::string(described.back().name), d.values.back(), place_sigma(a, column)});
+  }
+  return result;
+}
+
+/// Estimate with one direction in place of the cause at `position` of the judgement, or alone.
+Estimate estimate_with(const Session& session, const Analysis& a, std::vector<int> directions) {
+  std::sort(directions.begin(), directions.end());
+  return estimate(session,
+                  a.rows,
+                  space_of(a),
+                  directions,
+                  a.judgement.pattern_left ? a.judgement.best_pattern : -1);
+}
+
+Eigen::Index position_of(const Estimate& e, int column) {
+  const auto found = std::find(e.directions.begin(), e.directions.end(), column);
+  return static_cast<Eigen::Index>(found - e.directions.begin());
+}
+
+double marginal(const Analysis& a, std::size_t index) {
+  for (const ClassProbability& one : a.judgement.marginal) {
+    if (one.index == index) return one.probability;
+  }
+  return 0.0;
+}
+
+bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
+  for (const CauseClass& members : a.judgement.classes) {
+    const auto in = [&](const CauseId& c) {
+      return std::find(members.begin(), members.end(), c) != members.end();
+    };
+    if (in(x)) return in(y);
+  }
+  return x == y;
+}
+
+void find_rival(const Analysis& a, int column, Cause& cause) {
+  const Space& space = space_of(a);
+  const auto own = space.g.col(column);
+  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
+    const CauseId& other = a.rows.directions[k].cause;
+    if (other == cause.cause || same_class(a, other, cause.cause)) continue;
+    const auto g = space.g.col(static_cast<Eigen::Index>(k));
+    const double length = g.norm() * own.norm();
+    if (!(length > 1e-12)) continue;
+    const double rho = std::abs(own.dot(g)) / length;
+    if (rho > cause.rival_rho) {
+      cause.rival_rho = rho;
+      cause.rival = other;
+    }
+  }
+}
+
+Cause describe(const Session& session, const Analysis& a, std::size_t index, bool order_assumed) {
+  const CauseClass& members = a.judgement.classes[index];
+  Cause cause;
+  cause.cause = members.front();
+  cause.probability = marginal(a, index);
+  // Other named causes stay in the model; rivals of a set are each fitted alone.
+  std::vector<int> others;
+  for (const int k : a.judgement.directions) {
+    const CauseId& acting = direction(a, k).cause;
+    const bool several = a.judgement.verdict == Verdict::several_causes;
+    if (several && std::find(members.begin(), members.end(), acting) == members.end()) {
+      others.push_back(k);
+    }
+  }
+  for (const CauseId& member : members) {
+    const int column = best_direction(a, member);
+    std::vector<int> set = others;
+    set.push_back(column);
+    const Estimate fitted = estimate_with(session, a, set);
+    const Eigen::Index at = position_of(fitted, column);
+    auto found = parameters(a, column, fitted.coefficient(at), fitted.coefficient_sigma(at));
+    if (member == members.front()) {
+      const double length = space_of(a).g.col(column).norm();
+      cause.delta = std::abs(fitted.coefficient(at)) * length;
+      cause.share_left = length / std::max(raw_length(a, column), 1e-12);
+      cause.parameters = std::move(found);
+      find_rival(a, column, cause);
+    } else {
+      cause.same_as.push_back({member, std::move(found)});
+    }
+  }
+  cause.order_assumed =
+      order_assumed && cause.cause.effect->needs == model::effects::DataNeed::order;
+  return cause;
+}
+
+std::vector<CauseId> listed_causes(const Analysis& a) {
+  std::vector<CauseId> result;
+  for (const std::size_t index : a.judgement.listed) {
+    const CauseClass& members = a.judgement.classes[index];
+    result.insert(result.end(), members.begin(), members.end());
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Cause> causes_found(const Session& session, const Analysis& a, bool order_assumed) {
+  std::vector<Cause> result;
+  for (const std::size_t index : a.judgement.listed) {
+    result.push_back(describe(session, a, index, order_assumed));
+  }
+  return result;
+}
+
+std::vector<Hypothesis> hypotheses(const Analysis& a) {
+  std::vector<Hypothesis> result;
+  for (const ClassProbability& one : a.judgement.marginal) {
+    const CauseId& cause = a.judgement.classes[one.index].front();
+    result.push_back({std::string(cause.effect->id),
+                      std::string(model::effects::name(cause.side)),
+                      one.probability});
+  }
+  result.push_back({"nothing", "", a.judgement.nothing});
+  result.push_back({"unknown", "", a.judgement.pattern});
+  result.push_back({"noise", "", a.judgement.noise});
+  result.push_back({"bad_points", "", a.judgement.bad_points});
+  std::stable_sort(result.begin(), result.end(), [](const Hypothesis& x, const Hypothesis& y) {
+    return x.probability > y.probability;
+  });
+  return result;
+}
+
+std::vector<Term> terms(const Session& session,
+                        const DiagnosisOptions& options,
+                        const Analysis& a) {
+  const Space& space = space_of(a);
+  const SingleScore score(a.rows, space, options.steps.anchor_noise ? session.noise_dof : 1e-3);
+  const Eigen::VectorXd by_cause = score.by_cause(space.e);
+  std::vector<Term> result;
+  for (std::size_t k = 0; k < score.causes().size(); ++k) {
+    const CauseId& cause = score.causes()[k];
+    const int column = best_direction(a, cause);
+    if (column < 0) continue;
+    const Estimate alone = estimate(session, a.rows, space, {column}, -1);
+    const double length = space.g.col(column).norm();
+    Term term;
+    term.cause = cause;
+    term.parameter = cause.effect->parameters.front().name;
+    term.value = size_at(direction(a, column), alone.coefficient(0));
+    term.sigma = std::abs(size_slope(direction(a, column), alone.coefficient(0))) *
+                 alone.coefficient_sigma(0);
+    term.delta = std::abs(alone.coefficient(0)) * length;
+    term.share_left = length / std::max(raw_length(a, column), 1e-12);
+    term.p_value = a.null.p_value(by_cause(static_cast<Eigen::Index>(k)));
+    for (std::size_t c = 0; c < a.judgement.classes.size(); ++c) {
+      const auto& members = a.judgement.classes[c];
+      if (std::find(members.begin(), members.end(), cause) != members.end())
+        term.probability = marginal(a, c);
+    }
+    result.push_back(std::move(term));
+  }
+  std::stable_sort(result.begin(), result.end(), [](const Term& x, const Term& y) {
+    return x.probability > y.probability;
+  });
+  return result;
+}
+
+std::vector<Bound> bounds(const Session& session,
+                          const Analysis& a,
+                          std::vector<NotTestable>& not_testable) {
+  const std::vector<CauseId> listed = listed_causes(a);
+  const Space& space = space_of(a);
+  std::vector<Bound> result;
+  for (const CauseId& cause : a.candidates.testable) {
+    if (std::find(listed.begin(), listed.end(), cause) != listed.end()) continue;
+    const int column = best_direction(a, cause);
+    const EffectParameter& size = cause.effect->parameters.front();
+    const double left = column < 0 ? 0.0 : space.g.col(column).norm();
+    if (column < 0 || left < kAbsorbed * raw_length(a, column)) {
+      not_testable.push_back({cause, "calibrating the settings takes up all that it would show"});
+      continue;
+    }
+    if (direction(a, column).fixed) {
+      result.push_back({cause, std::string(size.name), 0.0});
+      continue;
+    }
+    std::vector<int> set = a.judgement.directions;
+    if (std::find(set.begin(), set.end(), column) == set.end()) set.push_back(column);
+    const Estimate fitted = estimate_with(session, a, set);
+    const Eigen::Index at = position_of(fitted, column);
+    const double s = fitted.coefficient_sigma(at) > 0.0 ? fitted.coefficient_sigma(at)
+                                                        : std::sqrt(fitted.noise_square) / left;
+    const double most = std::max(std::abs(fitted.coefficient(at) + kQuantile95 * s),
+                                 std::abs(fitted.coefficient(at) - kQuantile95 * s));
+    const double upper = std::abs(size_at(direction(a, column), most));
+    if (upper >= std::max(std::abs(size.lower), std::abs(size.upper))) {
+      not_testable.push_back({cause, "any size that it may have could hide in these points"});
+    } else {
+      result.push_back({cause, std::string(size.name), upper});
+    }
+  }
+  return result;
+}
+
+std::vector<CalibratedSetting> settings_found(const Session& session, const Analysis& a) {
+  std::vector<CalibratedSetting> result;
+  for (std::size_t k = 0; k < session.settings.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    CalibratedSetting one;
+    one.setting = session.settings[k];
+    one.stated = session.stated_value(at);
+    one.stated_sigma = session.stated_sigma(at);
+    one.calibrated = a.rows.setting(at) + a.estimate.setting_change(at);
+    one.sigma = std::sqrt(a.estimate.setting_covariance(at, at));
+    // A posterior mean under the stated prior scatters by sqrt(prior - posterior).
+    const double scatter = std::sqrt(std::max(
+        one.stated_sigma * one.stated_sigma - one.sigma * one.sigma / a.estimate.noise_square,
+        1e-6 * one.stated_sigma * one.stated_sigma));
+    one.off = std::abs(one.calibrated - one.stated) > kSettingOff * scatter;
+    result.push_back(one);
+  }
+  return result;
+}
+
+std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a) {
+  const auto residuals = chain_residuals(a.rows, a.estimate.left_beside_pattern);
+  std::vector<bool> bad = space_of(a).bad;
+  // A link counted wrong is a bad point with a name.
+  for (const int k : a.judgement.directions) {
+    const Direction& d = direction(a, k);
+    if (!d.slip) continue;
+    for (std::size_t i = 0; i < session.points.size(); ++i) {
+      if (session.points[i].order == static_cast<int>(d.values.back())) bad[i] = true;
+    }
+  }
+  std::vector<BadPoint> result;
+  for (std::size_t i = 0; i < session.points.size(); ++i) {
+    if (!bad[i]) continue;
+    const double s = std::sqrt(a.estimate.noise_square);
+    const Eigen::Vector2d whitened = a.rows.points[i].whitening * residuals[i];
+    result.push_back(
+        {session.points[i].index, tool_shift(a.rows.points[i], residuals[i]), whitened.norm() / s});
+  }
+  std::sort(result.begin(), result.end(), [](const BadPoint& x, const BadPoint& y) {
+    return x.index < y.index;
+  });
+  return result;
+}
+
+std::vector<Separation> separations(const Analysis& a) {
+  constexpr std::size_t kShown = 10;
+  const Space& space = space_of(a);
+  std::vector<std::size_t> shown;
+  for (const ClassProbability& one : a.judgement.marginal) {
+    if (shown.size() < kShown) shown.push_back(one.index);
+  }
+  std::vector<Separation> result;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const CauseId& x = a.judgement.classes[shown[j]].front();
+      const CauseId& y = a.judgement.classes[shown[i]].front();
+      const auto gx = space.g.col(best_direction(a, x));
+      const auto gy = space.g.col(best_direction(a, y));
+      const double rho =
+          std::min(1.0, std::abs(gx.dot(gy)) / std::max(gx.norm() * gy.norm(), 1e-12));
+      // 1.645 sqrt(2 / (1 - rho)): 95 of 100 told apart; a class is never told apart.
+      const double needed = kQuantile95 * std::sqrt(2.0 / std::max(1.0 - rho, 1.0 - kOneClass));
+      result.push_back({x, y, rho, needed});
+    }
+  }
+  return result;
+}
+
+std::vector<PointPicture> pictures(const Session& session, const Analysis& a) {
+  const Space& space = space_of(a);
+  const Estimate before = estimate(session, a.rows, space, {}, -1);
+  const auto chain_before = chain_residuals(a.rows, before.left);
+  const auto chain_after = chain_residuals(a.rows, a.estimate.left);
+  std::vector<int> best = a.judgement.directions;
+  std::vector<int> rival;
+  if (best.empty() && !a.judgement.marginal.empty()) {
+    best = {best_direction(a, a.judgement.classes[a.judgement.marginal.front().index].front())};
+  }
+  for (const ClassProbability& one : a.judgement.marginal) {
+    const int column = best_direction(a, a.judgement.classes[one.index].front());
+    const bool new_one = std::none_of(best.begin(), best.end(), [&](int k) {
+      return same_class(a, direction(a, k).cause, direction(a, column).cause);
+    });
+    if (column >= 0 && new_one) {
+      rival = {column};
+      break;
+    }
+  }
+  const auto explained = [&](const std::vector<int>& set) {
+    const Estimate fitted = estimate(session, a.rows, space, set, -1);
+    return chain_residuals(a.rows, Eigen::VectorXd(before.left - fitted.left));
+  };
+  const auto by_best = explained(best);
+  const auto by_rival = explained(rival);
+  std::vector<PointPicture> result;
+  for (std::size_t i = 0; i < session.points.size(); ++i) {
+    const PointState& state = a.rows.points[i];
+    PointPicture p;
+    p.index = session.points[i].index;
+    p.mark = session.points[i].mark;
+    if (session.ordered) p.order = session.points[i].order;
+    p.bad = space.bad[i];
+    p.chain_before_mm = chain_before[i];
+    p.chain_after_mm = chain_after[i];
+    p.before_mm = tool_shift(state, chain_before[i]);
+    p.after_mm = tool_shift(state, chain_after[i]);
+    const Eigen::Matrix2d inverse = state.by_mark.inverse();
+    const Eigen::Matrix2d covariance =
+        inverse * inverse.transpose() * std::pow(session.noise.length_mm, 2) +
+        Eigen::Matrix2d::Identity() * std::pow(session.noise.position_mm, 2);
+    p.noise_sigma_mm = covariance.diagonal().cwiseSqrt();
+    p.best_mm = by_best[i];
+    p.rival_mm = by_rival[i];
+    p.lengths = session.points[i].lengths;
+    const model::Pose& pose = state.reading.pose;
+    p.angle_left_rad = pose.chains.left.angle_rad;
+    p.angle_right_rad = pose.chains.right.angle_rad;
+    p.tension_left_n = pose.chains.left.tension_at_sprocket_n;
+    p.tension_right_n = pose.chains.right.tension_at_sprocket_n;
+    if (session.ordered) {
+      const auto direction_of = [&](double now, double then) { return now < then ? -1 : 1; };
+      const auto& last = i > 0 ? a.rows.points[i - 1].reading.pose.lengths : pose.lengths;
+      p.direction_left = i == 0 ? 1 : direction_of(pose.lengths.left_mm, last.left_mm);
+      p.direction_right = i == 0 ? 1 : direction_of(pose.lengths.right_mm, last.right_mm);
+    }
+    result.push_back(std::move(p));
+  }
+  std::sort(result.begin(), result.end(), [](const PointPicture& x, const PointPicture& y) {
+    return x.index < y.index;
+  });
+  return result;
+}
+
+void extend(const Session& session, const Analysis& a, Diagnosis& diagnosis) {
+  const Eigen::VectorXd values = a.rows.setting + a.estimate.setting_change;
+  diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine;
+  const bool pitch_read =
+      std::any_of(session.readings.begin(), session.readings.end(), [](const ExtraReading& r) {
+        return r.what == "link_pitch_mm";
+      });
+  const bool one_model =
+      diagnosis.verdict == Verdict::named || diagnosis.verdict == Verdict::several_causes;
+  if (!one_model) return;
+  for (const Cause& cause : diagnosis.causes) {
+    model::AppliedEffect applied{std::string(cause.cause.effect->id),
+                                 std::string(model::effects::name(cause.cause.side)),
+                                 {}};
+    for (const ParameterEstimate& p : cause.parameters) applied.parameters[p.parameter] = p.value;
+    const bool paper_too =
+        std::any_of(cause.same_as.begin(), cause.same_as.end(), [](const auto& s) {
+          return s.cause.effect->station == model::effects::Station::paper;
+        });
+    const bool in_machine = !model::effects::depends_on_visit(*cause.cause.effect) &&
+                            cause.cause.effect->station != model::effects::Station::paper &&
+                            (!paper_too || pitch_read);
+    if (in_machine) {
+      diagnosis.extended_machine.effects.push_back(std::move(applied));
+    } else if (!paper_too) {
+      diagnosis.data_corrections.push_back(std::move(applied));
+    }
+  }
+}
+
+}  // namespace chaintrue::grid::diagnosis

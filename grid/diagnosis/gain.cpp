@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/gain.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "grid/map/spatial_blocks.hpp"
+#include "grid/synthetic/random.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr double kBorderShare = 0.9;  // of the half width of the points: beyond is the border
+
+/// Tool errors of the held-out points of one fold, for every way of modelling.
+struct Fold {
+  std::vector<std::size_t> points;
+  std::vector<Eigen::Vector2d> calibrated, extended, extended_and_surface, surface_only;
+  std::vector<CauseClass> named;
+};
+
+class Folds {
+ public:
+  Folds(const Session& session, const Analysis& analysis, const DiagnosisOptions& options)
+      : session_(session), a_(analysis), options_(options) {}
+
+  [[nodiscard]] Fold hold_out(const std::vector<std::size_t>& points) const {
+    std::vector<bool> excluded(session_.points.size(), false);
+    for (const std::size_t i : points) excluded[i] = true;
+    const ContestOptions contest_options{options_.steps, true, options_.told};
+    const Contest contest = hold_contest(session_, a_.rows, excluded, contest_options);
+    // The same gate as for all points: the strongest score against what noise does.
+    const Space& first = contest.spaces[contest.best().space];
+    const SingleScore score(a_.rows, first, session_.noise_dof);
+    const bool seen = options_.told.has_value() ||
+                      a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
+    const Judgement judged = decide(session_, a_.rows, contest, excluded, seen);
+    const Space& space = contest.spaces[judged.space];
+    Fold fold;
+    for (const std::size_t i : points) {
+      if (!bad_in_all(i)) fold.points.push_back(i);
+    }
+    for (const std::size_t index : judged.listed) fold.named.push_back(judged.classes[index]);
+    const Estimate plain = estimate(session_, a_.rows, space, {}, -1);
+    const Estimate caused = estimate(session_, a_.rows, space, judged.directions, -1);
+    const int pattern = preferred_pattern(contest, judged.directions);
+    const int alone = preferred_pattern(contest, {});
+    fold.calibrated = errors(plain.left, fold.points);
+    fold.extended = errors(caused.left, fold.points);
+    fold.extended_and_surface =
+        errors(estimate(session_, a_.rows, space, judged.directions, pattern).left_beside_pattern,
+               fold.points);
+    fold.surface_only =
+        errors(estimate(session_, a_.rows, space, {}, alone).left_beside_pattern, fold.points);
+    return fold;
+  }
+
+ private:
+  [[nodiscard]] bool bad_in_all(std::size_t point) const {
+    if (a_.contest.spaces[a_.judgement.space].bad[point]) return true;
+    // A reading wrong at its own visit alone says nothing of any other.
+    for (const int k : a_.judgement.directions) {
+      const Direction& d = a_.rows.directions[static_cast<std::size_t>(k)];
+      if (d.slip && session_.points[point].order == static_cast<int>(d.values.back())) return true;
+    }
+    return false;
+  }
+
+  /// The pattern that the points prefer beside these causes; none where they would rather have
+  /// none.
+  static int preferred_pattern(const Contest& contest, const std::vector<int>& directions) {
+    for (const Model& model : contest.models) {
+      if (model.directions == directions) return model.pattern;
+    }
+    return -1;
+  }
+
+  [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Eigen::VectorXd& whitened,
+                                                    const std::vector<std::size_t>& points) const {
+    std::vector<Eigen::Vector2d> result;
+    for (const std::size_t i : points) {
+      const PointState& state = a_.rows.points[i];
+      const Eigen::Vector2d chain =
+          state.whitening.inverse() * whitened.segment<2>(2 * static_cast<Eigen::Index>(i));
+      result.push_back(tool_shift(state, chain));
+    }
+    return result;
+  }
+
+  const Session& session_;
+  const Analysis& a_;
+  const DiagnosisOptions& options_;
+};
+
+double rms(const std::vector<Eigen::Vector2d>& errors) {
+  double sum = 0.0;
+  for (const auto& e : errors) sum += e.squaredNorm();
+  return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
+}
+
+std::vector<LengthPoint> as_length_points(const Session& session) {
+  std::vector<LengthPoint> result;
+  for (const SessionPoint& p : session.points) result.push_back({p.index, p.mark, p.lengths});
+  return result;
+}
+
+/// Points beyond kBorderShare of the measured half width or half height.
+std::vector<std::size_t> border(const Session& session) {
+  double low_x = session.points.front().mark.x_mm;
+  double high_x = low_x;
+  double low_y = session.points.front().mark.y_mm;
+  double high_y = low_y;
+  for (const SessionPoint& p : session.points) {
+    low_x = std::min(low_x, p.mark.x_mm);
+    high_x = std::max(high_x, p.mark.x_mm);
+    low_y = std::min(low_y, p.mark.y_mm);
+    high_y = std::max(high_y, p.mark.y_mm);
+  }
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < session.points.size(); ++i) {
+    const model::BedPoint& m = session.points[i].mark;
+    const double x =
+        std::abs(m.x_mm - 0.5 * (low_x + high_x)) / std::max(0.5 * (high_x - low_x), 1.0);
+    const double y =
+        std::abs(m.y_mm - 0.5 * (low_y + high_y)) / std::max(0.5 * (high_y - low_y), 1.0);
+    if (std::max(x, y) > kBorderShare) result.push_back(i);
+  }
+  return result;
+}
+
+bool names_agree(const Fold& fold, const Analysis& a) {
+  const auto leader = [](const std::vector<CauseClass>& named) {
+    std::vector<CauseId> ids;
+    for (const CauseClass& one : named) ids.push_back(one.front());
+    return ids;
+  };
+  std::vector<CauseId> whole;
+  for (const std::size_t index : a.judgement.listed)
+    whole.push_back(a.judgement.classes[index].front());
+  const std::vector<CauseId> here = leader(fold.named);
+  if (whole.empty() || here.empty()) return whole.empty() && here.empty();
+  return std::find(whole.begin(), whole.end(), here.front()) != whole.end();
+}
+
+/// Root mean square of what noise alone does to a reading, seen at the tool.
+double noise_floor(const Session& session,
+                   const Analysis& a,
+                   const std::vector<std::size_t>& points) {
+  double sum = 0.0;
+  for (const std::size_t i : points) {
+    const Eigen::Matrix2d inverse = a.rows.points[i].by_mark.inverse();
+    sum += 2.0 * std::pow(session.noise.position_mm, 2) +
+           (inverse * inverse.transpose()).trace() * std::pow(session.noise.length_mm, 2);
+  }
+  return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(points.size()));
+}
+
+/// Tool errors with the settings as stated, and with the sheet alone moved to where it fits.
+struct Delivered {
+  std::vector<Eigen::Vector2d> as_stated, placed;
+};
+
+Delivered delivered(const Session& session,
+                    const Analysis& a,
+                    const std::vector<std::size_t>& points) {
+  Delivered result;
+  const auto stated = base_rows(session, stated_state(session), {});
+  if (!stated) return result;
+  const auto machine_settings = static_cast<Eigen::Index>(model::kMachineSettings.size());
+  const auto sheet = stated->setting.size() - machine_settings;
+  Eigen::VectorXd placed = stated->e;
+  if (sheet > 0) {
+    const auto& kept = a.contest.spaces[a.judgement.space].kept;
+    const Eigen::MatrixXd by_sheet = stated->by_setting.rightCols(sheet);
+    const Eigen::MatrixXd scaled =
+        by_sheet(kept, Eigen::all) * stated->sigma.tail(sheet).asDiagonal();
+    Eigen::MatrixXd normal = scaled.transpose() * scaled;
+    normal.diagonal().array() += 1.0;
+    const Eigen::VectorXd x =
+        normal.llt().solve(scaled.transpose() * Eigen::VectorXd(stated->e(kept)));
+    placed -= by_sheet * stated->sigma.tail(sheet).cwiseProduct(x);
+  }
+  const auto chain = chain_residuals(*stated, stated->e);
+  const auto chain_placed = chain_residuals(*stated, placed);
+  for (const std::size_t i : points) {
+    result.as_stated.push_back(tool_shift(stated->points[i], chain[i]));
+    if (sheet > 0) result.placed.push_back(tool_shift(stated->points[i], chain_placed[i]));
+  }
+  return result;
+}
+
+}  // namespace
+
+HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
+                  const std::vector<std::size_t>& block,
+                  std::uint64_t seed) {
+  HeldOut result;
+  if (tool_mm.empty()) return result;
+  std::vector<double> size;
+  for (const auto& e : tool_mm) size.push_back(e.norm());
+  result.rms_mm = rms(tool_mm);
+  std::vector<double> sorted = size;
+  std::sort(sorted.begin(), sorted.end());
+  const auto at = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(sorted.size())));
+  result.percentile_95_mm = sorted[std::max<std::size_t>(at, 1) - 1];
+  const std::size_t blocks = 1 + *std::max_element(block.begin(), block.end());
+  std::vector<double> sum(blocks, 0.0);
+  std::vector<double> count(blocks, 0.0);
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    sum[block[i]] += size[i] * size[i];
+    count[block[i]] += 1.0;
+  }
+  constexpr int kDraws = 400;  // the 5th and 95th percentile to a tenth of the interval
+  constexpr std::uint64_t kStream = 62;
+  synthetic::Random random(seed, kStream);
+  std::vector<double> drawn;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    double s = 0.0;
+    double n = 0.0;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const std::size_t k = random.below(blocks);
+      s += sum[k];
+      n += count[k];
+    }
+    drawn.push_back(n > 0.0 ? std::sqrt(s / n) : 0.0);
+  }
+  std::sort(drawn.begin(), drawn.end());
+  result.low_mm = drawn[kDraws / 20];
+  result.high_mm = drawn[kDraws - 1 - kDraws / 20];
+  return result;
+}
+
+std::optional<Gain> measure_gain(const Session& session,
+                                 const Analysis& a,
+                                 const DiagnosisOptions& options) {
+  const auto blocks = spatial_blocks(as_length_points(session));
+  if (blocks.size() < 3 || session.points.size() < 2 * kFewestPoints) return std::nullopt;
+  const Folds folds(session, a, options);
+  Gain gain;
+  std::vector<std::size_t> points;
+  std::vector<std::size_t> number;
+  Fold all;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Fold fold = folds.hold_out(blocks[b]);
+    gain.folds += 1;
+    gain.folds_agree += names_agree(fold, a) ? 1 : 0;
+    points.insert(points.end(), fold.points.begin(), fold.points.end());
+    number.insert(number.end(), fold.points.size(), b);
+    const auto append = [](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(all.calibrated, fold.calibrated);
+    append(all.extended, fold.extended);
+    append(all.extended_and_surface, fold.extended_and_surface);
+    append(all.surface_only, fold.surface_only);
+  }
+  if (points.empty()) return std::nullopt;
+  const Delivered before = delivered(session, a, points);
+  gain.scheme = fmt::format(
+      "{} blocks of the bed, each held out in turn, the naming repeated without it", blocks.size());
+  gain.as_delivered = summarise(before.as_stated, number, options.seed);
+  if (!before.placed.empty()) gain.placed = summarise(before.placed, number, options.seed);
+  gain.calibrated = summarise(all.calibrated, number, options.seed);
+  // What would not help on points it has not seen is not made.
+  const bool helps = rms(all.extended) < rms(all.calibrated);
+  gain.extended = summarise(helps ? all.extended : all.calibrated, number, options.seed);
+  gain.extended_and_surface = summarise(all.extended_and_surface, number, options.seed);
+  gain.surface_only = summarise(all.surface_only, number, options.seed);
+  gain.noise_floor_mm = noise_floor(session, a, points);
+  const auto edge = border(session);
+  if (session.points.size() - edge.size() >= kFewestPoints) {
+    const Fold outer = folds.hold_out(edge);
+    gain.border = {rms(outer.calibrated),
+                   rms(outer.extended),
+                   rms(outer.extended_and_surface),
+                   rms(outer.surface_only)};
+  }
+  return gain;
+}
+
+}  // namespace chaintrue::grid::diagnosis

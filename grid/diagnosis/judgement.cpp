@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/judgement.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// Probability that anything acts at all from which causes are spoken of.
+constexpr double kCaused = 0.65;
+constexpr double kNeededBesidePattern = 0.98;
+constexpr double kLikelierThanNot = 0.5;
+constexpr double kAbsorbed = 1e-3;
+
+/// The most telling direction of each cause: the longest, and the nearest to the data among those
+/// of a cause with places.
+std::vector<std::pair<CauseId, int>> leading_directions(const Rows& rows, const Space& space) {
+  std::vector<std::pair<CauseId, int>> result;
+  double best = -1.0;
+  for (std::size_t k = 0; k < rows.directions.size(); ++k) {
+    const auto column = space.g.col(static_cast<Eigen::Index>(k));
+    const double length = column.norm();
+    if (!(length > 1e-4)) continue;
+    const double score = std::abs(column.dot(space.e)) / length;
+    if (result.empty() || !(result.back().first == rows.directions[k].cause)) {
+      result.emplace_back(rows.directions[k].cause, static_cast<int>(k));
+      best = score;
+    } else if (score > best) {
+      result.back().second = static_cast<int>(k);
+      best = score;
+    }
+  }
+  return result;
+}
+
+bool on_paper(const CauseId& cause) {
+  return cause.effect->station == model::effects::Station::paper;
+}
+
+using Key = std::vector<std::size_t>;  ///< classes that act, ascending
+
+struct Grouped {
+  double probability = 0.0;
+  double pattern = 0.0;
+  const Model* best = nullptr;  ///< without a pattern, where there is one
+  const Model* with_pattern = nullptr;
+};
+
+class Judge {
+ public:
+  Judge(const Rows& rows, const Contest& contest, const std::vector<bool>& excluded)
+      : rows_(rows), contest_(contest), excluded_(excluded) {
+    result_.classes = classes_of(rows, contest.spaces[contest.best().space]);
+  }
+
+  Judgement run(bool seen) {
+    group();
+    marginals();
+    const bool caused = seen && result_.caused > kCaused;
+    const Grouped* leading = caused ? without_doubtful(leading_group()) : nullptr;
+    if (leading != nullptr) {
+      name_causes(*leading);
+    } else {
+      keep_silent();
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t class_of(const CauseId& cause) const {
+    for (std::size_t k = 0; k < result_.classes.size(); ++k) {
+      const CauseClass& members = result_.classes[k];
+      if (std::find(members.begin(), members.end(), cause) != members.end()) return k;
+    }
+    return result_.classes.size();
+  }
+
+  void group() {
+    for (const Model& model : contest_.models) {
+      const double p = contest_.probability(model);
+      Key key;
+      for (const int k : model.directions) {
+        key.push_back(class_of(rows_.directions[static_cast<std::size_t>(k)].cause));
+      }
+      std::sort(key.begin(), key.end());
+      Grouped& one = groups_[key];
+      one.probability += p;
+      if (model.pattern >= 0) {
+        one.pattern += p;
+        result_.pattern += p;
+        if (one.with_pattern == nullptr) one.with_pattern = &model;
+      } else if (one.best == nullptr) {
+        one.best = &model;
+      }
+      if (key.empty()) {
+        share_silence(model, p);
+      } else {
+        result_.caused += p;
+      }
+    }
+  }
+
+  void share_silence(const Model& model, double p) {
+    const bool bad = contest_.spaces[model.space].bad != excluded_;
+    if (model.pattern >= 0) {
+      result_.unknown += p;
+    } else if (bad) {
+      result_.bad_points += p;
+    } else {
+      result_.noise += p * model.larger_noise;
+      result_.nothing += p * (1.0 - model.larger_noise);
+    }
+  }
+
+  void marginals() {
+    std::vector<double> p(result_.classes.size(), 0.0);
+    for (const auto& [key, grouped] : groups_) {
+      for (const std::size_t k : key) {
+        if (k < p.size()) p[k] += grouped.probability;
+      }
+    }
+    for (std::size_t k = 0; k < p.size(); ++k) result_.marginal.push_back({k, std::min(p[k], 1.0)});
+    std::stable_sort(result_.marginal.begin(),
+                     result_.marginal.end(),
+                     [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  }
+
+  /// The number of causes is settled first, then which.
+  [[nodiscard]] const Grouped* leading_group() {
+    std::map<std::size_t, double> by_count;
+    for (const auto& [key, grouped] : groups_) by_count[key.size()] += grouped.probability;
+    std::size_t count = 1;
+    for (const auto& [n, p] : by_count) {
+      if (n > 0 && p > by_count[count]) count = n;
+    }
+    const Grouped* best = nullptr;
+    for (const auto& [key, grouped] : groups_) {
+      if (key.size() != count) continue;
+      if (best == nullptr || grouped.probability > best->probability) {
+        best = &grouped;
+        leading_key_ = key;
+      }
+    }
+    return best;
+  }
+
+  void take(const Grouped& grouped) {
+    const Model* model = grouped.best != nullptr ? grouped.best : grouped.with_pattern;
+    if (model == nullptr) return;
+    result_.directions = model->directions;
+    result_.space = model->space;
+    if (grouped.with_pattern != nullptr) result_.best_pattern = grouped.with_pattern->pattern;
+    result_.pattern_left = grouped.pattern > 0.5 * grouped.probability;
+    if (result_.pattern_left) {
+      result_.directions = grouped.with_pattern->directions;
+      result_.space = grouped.with_pattern->space;
+    }
+  }
+
+  /// Of several causes those are spoken of that are likelier than not; a partner that could be any
+  /// of many is left over.
+  const Grouped* without_doubtful(const Grouped* leading) {
+    if (leading_key_.size() < 2) return leading;
+    Key sure;
+    for (const std::size_t k : leading_key_) {
+      if (marginal(k) >= kLikelierThanNot) sure.push_back(k);
+    }
+    const auto found = groups_.find(sure);
+    if (sure.empty() || found == groups_.end()) return leading;
+    leading_key_ = sure;
+    return &found->second;
+  }
+
+  void name_causes(const Grouped& leading) {
+    // Beside a pattern that nobody knows a cause must be needed, not only possible.
+    if (result_.pattern > kPatternPossible &&
+        result_.marginal.front().probability < kNeededBesidePattern) {
+      keep_silent();
+      return;
+    }
+    if (leading_key_.size() > 1) {
+      result_.verdict = Verdict::several_causes;
+      result_.listed = leading_key_;
+      std::stable_sort(result_.listed.begin(),
+                       result_.listed.end(),
+                       [&](std::size_t a, std::size_t b) { return marginal(a) > marginal(b); });
+      take(leading);
+      return;
+    }
+    const double top = result_.marginal.front().probability;
+    take(leading);
+    if (top >= kNamedAlone) {
+      result_.verdict = Verdict::named;
+      result_.listed = {result_.marginal.front().index};
+      return;
+    }
+    result_.verdict = Verdict::named_set;
+    // Which, given that one cause acts.
+    std::vector<ClassProbability> alone;
+    double all = 0.0;
+    for (const auto& [key, grouped] : groups_) {
+      if (key.size() != 1) continue;
+      alone.push_back({key.front(), grouped.probability});
+      all += grouped.probability;
+    }
+    std::stable_sort(alone.begin(), alone.end(), [](const auto& a, const auto& b) {
+      return a.probability > b.probability;
+    });
+    double sum = 0.0;
+    for (const ClassProbability& one : alone) {
+      result_.listed.push_back(one.index);
+      sum += one.probability;
+      if (sum >= kSetHolds * all) break;
+    }
+    if (result_.listed.size() == 1) result_.verdict = Verdict::named;
+  }
+
+  void keep_silent() {
+    const auto found = groups_.find({});
+    if (found != groups_.end()) {
+      take(found->second);
+      result_.pattern_left = false;
+    }
+    const double most =
+        std::max({result_.nothing, result_.noise, result_.bad_points, result_.unknown});
+    if (result_.unknown + result_.pattern > 0.5 || result_.unknown == most) {
+      result_.verdict = Verdict::unknown_pattern;
+      result_.pattern_left = true;
+    } else if (result_.bad_points == most) {
+      result_.verdict = Verdict::bad_points;
+    } else if (result_.noise == most) {
+      result_.verdict = Verdict::noise_larger_than_stated;
+    } else {
+      result_.verdict = Verdict::nothing_found;
+    }
+  }
+
+  [[nodiscard]] double marginal(std::size_t index) const {
+    for (const ClassProbability& one : result_.marginal) {
+      if (one.index == index) return one.probability;
+    }
+    return 0.0;
+  }
+
+  const Rows& rows_;
+  const Contest& contest_;
+  const std::vector<bool>& excluded_;
+  std::map<Key, Grouped> groups_;
+  Key leading_key_;
+  Judgement result_;
+};
+
+}  // namespace
+
+std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
+  // Free settings: what a class shares must not hang on how well the settings were stated.
+  const Eigen::MatrixXd settings = rows.by_setting(space.kept, Eigen::all);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(settings);
+  const Eigen::MatrixXd basis =
+      qr.householderQ() * Eigen::MatrixXd::Identity(settings.rows(), settings.cols());
+  std::vector<CauseClass> classes;
+  std::vector<Eigen::VectorXd> representative;
+  for (const auto& [cause, direction] : leading_directions(rows, space)) {
+    Eigen::VectorXd own = rows.g(space.kept, direction);
+    const double whole = own.norm();
+    own -= basis * (basis.transpose() * own);
+    // Of a signature that the settings take whole, only rounding would be compared.
+    const bool absorbed = own.norm() < kAbsorbed * whole;
+    own.normalize();
+    std::size_t home = classes.size();
+    for (std::size_t k = 0; k < classes.size() && home == classes.size() && !absorbed; ++k) {
+      if (std::abs(own.dot(representative[k])) >= kOneClass) home = k;
+    }
+    if (home == classes.size()) {
+      classes.emplace_back();
+      representative.push_back(absorbed ? Eigen::VectorXd::Zero(own.size()) : own);
+    }
+    classes[home].push_back(cause);
+  }
+  for (CauseClass& members : classes) {
+    std::stable_partition(
+        members.begin(), members.end(), [](const CauseId& c) { return !on_paper(c); });
+  }
+  return classes;
+}
+
+Judgement judge(const Rows& rows,
+                const Contest& contest,
+                const std::vector<bool>& excluded,
+                bool seen) {
+  return Judge(rows, contest, excluded).run(seen);
+}
+
+}  // namespace chaintrue::grid::diagnosis

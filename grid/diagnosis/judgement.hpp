@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// From the contest's probabilities to a verdict: which causes are present, which cannot be told
+/// apart, and when to keep silent.
+#pragma once
+
+#include <vector>
+
+#include "grid/diagnosis/contest.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// |cosine| from which two effects are one class: to tell them takes a strength of 104 or more.
+inline constexpr double kOneClass = 0.9995;
+/// A cause is named alone from this probability on.
+inline constexpr double kNamedAlone = 0.95;
+/// A set holds the cause with this probability.
+inline constexpr double kSetHolds = 0.98;
+/// Chance of a false alarm over the whole catalogue.
+inline constexpr double kFalseAlarm = 0.01;
+
+/// From this probability of an unknown pattern on, names are given more sparingly.
+inline constexpr double kPatternPossible = 0.25;
+
+/// Causes that these data cannot separate, however strong; the one that gives the class its name
+/// first: a cause in the machine before one on the paper.
+using CauseClass = std::vector<CauseId>;
+[[nodiscard]] std::vector<CauseClass> classes_of(const Rows& rows, const Space& space);
+
+struct ClassProbability {
+  std::size_t index = 0;  ///< into the classes
+  double probability = 0.0;
+};
+
+struct Judgement {
+  Verdict verdict = Verdict::nothing_found;
+  std::vector<CauseClass> classes;
+  /// Present at all, with whatever else; most probable first.
+  std::vector<ClassProbability> marginal;
+  double nothing = 0.0;
+  double noise = 0.0;
+  double bad_points = 0.0;
+  double unknown = 0.0;
+  double caused = 0.0;   ///< one cause or more
+  double pattern = 0.0;  ///< with an unknown pattern, beside causes or alone
+  /// The causes of the verdict (indices into classes): the one named, the set, or those that act
+  /// together.
+  std::vector<std::size_t> listed;
+  /// What goes into the model: one direction a cause, the pattern that is left or -1, the space.
+  std::vector<int> directions;
+  int best_pattern = -1;
+  bool pattern_left = false;
+  std::size_t space = 0;
+};
+
+/// `seen`: the strongest effect is beyond what noise does (family-wise).
+[[nodiscard]] Judgement judge(const Rows& rows,
+                              const Contest& contest,
+                              const std::vector<bool>& excluded,
+                              bool seen);
+
+}  // namespace chaintrue::grid::diagnosis

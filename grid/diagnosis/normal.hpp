@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The normal distribution's tails, without loss of digits.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace chaintrue::grid::diagnosis {
+
+[[nodiscard]] inline double normal_upper(double z) {
+  return 0.5 * std::erfc(z / std::numbers::sqrt2);
+}
+
+/// log of the chance beyond z; asymptotic where erfc underflows.
+[[nodiscard]] inline double log_normal_upper(double z) {
+  if (z < 25.0) return std::log(normal_upper(z));
+  return -0.5 * z * z - std::log(z * std::sqrt(2.0 * std::numbers::pi)) - 1.0 / (z * z);
+}
+
+/// log of the chance between low < high, in sigmas about the mean.
+[[nodiscard]] inline double log_normal_mass(double low, double high) {
+  if (high < 0.0) return log_normal_mass(-high, -low);
+  if (low <= 0.0) return std::log1p(-normal_upper(-low) - normal_upper(high));
+  const double a = log_normal_upper(low);
+  const double b = log_normal_upper(high);
+  return b >= a ? -std::numeric_limits<double>::infinity() : a + std::log1p(-std::exp(b - a));
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/null_distribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "grid/synthetic/random.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr double kNoScore = -1e3;
+constexpr double kPrecision = 1.0 / (kUsualDelta * kUsualDelta);
+constexpr int kBlock = 250;  // draws at a time
+
+}  // namespace
+
+SingleScore::SingleScore(const Rows& rows, const Space& space, double noise_dof)
+    : space_(space), dof_(noise_dof) {
+  square_ = space.g.colwise().squaredNorm();
+  constant_.resize(square_.size());
+  for (Eigen::Index k = 0; k < square_.size(); ++k) {
+    const Direction& d = rows.directions[static_cast<std::size_t>(k)];
+    if (causes_.empty() || !(causes_.back() == d.cause)) causes_.push_back(d.cause);
+    cause_of_.push_back(causes_.size() - 1);
+    fixed_.push_back(d.fixed);
+    sign_.push_back(d.fixed || (d.lowest < 0.0 && d.highest > 0.0) ? 0
+                                                                   : (d.highest > 0.0 ? 1 : -1));
+    constant_(k) = d.log_prior;
+    if (!d.fixed) constant_(k) -= std::log(kUsualDelta) + 0.5 * std::log1p(kPrecision);
+    if (sign_.back() != 0) constant_(k) += std::log(2.0);
+  }
+}
+
+double SingleScore::score(Eigen::Index k, double c, double ee) const {
+  const auto at = static_cast<std::size_t>(k);
+  if (!(square_(k) > 1e-8) || sign_[at] * c < 0.0) return kNoScore;
+  const double drop = fixed_[at] ? 2.0 * c - square_(k) : c * c / (square_(k) * (1.0 + kPrecision));
+  const double n = static_cast<double>(space_.e.size());
+  return constant_(k) - 0.5 * (n + dof_) * std::log1p(-drop / (dof_ + ee));
+}
+
+Eigen::VectorXd SingleScore::by_cause(const Eigen::VectorXd& e) const {
+  const Eigen::VectorXd c = space_.g.transpose() * e;
+  const double ee = e.squaredNorm();
+  Eigen::VectorXd result =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(causes_.size()), kNoScore);
+  for (Eigen::Index k = 0; k < c.size(); ++k) {
+    double& own = result(static_cast<Eigen::Index>(cause_of_[static_cast<std::size_t>(k)]));
+    own = std::max(own, score(k, c(k), ee));
+  }
+  return result;
+}
+
+Eigen::VectorXd SingleScore::largest(const Eigen::MatrixXd& e) const {
+  const Eigen::MatrixXd c = space_.g.transpose() * e;
+  Eigen::VectorXd result = Eigen::VectorXd::Constant(e.cols(), kNoScore);
+  for (Eigen::Index draw = 0; draw < e.cols(); ++draw) {
+    const double ee = e.col(draw).squaredNorm();
+    for (Eigen::Index k = 0; k < c.rows(); ++k) {
+      result(draw) = std::max(result(draw), score(k, c(k, draw), ee));
+    }
+  }
+  return result;
+}
+
+double NullDistribution::p_value(double score) const {
+  const auto first = std::lower_bound(largest.begin(), largest.end(), score);
+  const auto above = static_cast<double>(largest.end() - first);
+  return (above + 1.0) / (static_cast<double>(largest.size()) + 1.0);
+}
+
+NullDistribution draw_null(const SingleScore& score,
+                           Eigen::Index rows,
+                           int draws,
+                           std::uint64_t seed) {
+  constexpr std::uint64_t kStream = 61;
+  synthetic::Random random(seed, kStream);
+  NullDistribution result;
+  for (int done = 0; done < draws; done += kBlock) {
+    Eigen::MatrixXd e(rows, std::min(kBlock, draws - done));
+    for (Eigen::Index k = 0; k < e.cols(); ++k) {
+      for (Eigen::Index i = 0; i < rows; ++i) e(i, k) = random.normal();
+    }
+    const Eigen::VectorXd largest = score.largest(e);
+    result.largest.insert(result.largest.end(), largest.begin(), largest.end());
+  }
+  std::sort(result.largest.begin(), result.largest.end());
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

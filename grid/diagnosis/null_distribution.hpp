@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// How strong the strongest of all effects looks where there is none: the largest single score over
+/// the whole catalogue, its distribution by Monte Carlo.
+///
+/// Scores of effects that resemble each other are far from independent, so that no correction by
+/// their number holds; draws hold whatever the catalogue and the points.
+/// Source: V. Rofatto et al., Remote Sensing 12 (2020) 860, on the largest statistic of many
+/// alternatives.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "grid/diagnosis/evidence.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Per direction: log of prior times Bayes factor against nothing, Student form, in one inner
+/// product; a direction of the wrong sign has no score.
+class SingleScore {
+ public:
+  SingleScore(const Rows& rows, const Space& space, double noise_dof);
+  /// The largest over all directions of a cause, in the order of `causes()`; `e` like Space::e.
+  [[nodiscard]] Eigen::VectorXd by_cause(const Eigen::VectorXd& e) const;
+  [[nodiscard]] const std::vector<CauseId>& causes() const { return causes_; }
+  /// The largest of all, for each column of `e`.
+  [[nodiscard]] Eigen::VectorXd largest(const Eigen::MatrixXd& e) const;
+
+ private:
+  [[nodiscard]] double score(Eigen::Index k, double c, double ee) const;
+  const Space& space_;
+  double dof_;
+  std::vector<CauseId> causes_;
+  std::vector<std::size_t> cause_of_;
+  Eigen::VectorXd square_;
+  Eigen::VectorXd constant_;
+  std::vector<int> sign_;  ///< +1: coefficient >= 0 only, -1: <= 0, 0: either
+  std::vector<bool> fixed_;
+};
+
+struct NullDistribution {
+  std::vector<double> largest;  ///< ascending
+  /// Share of draws at least as large: never 0, the data count as one draw.
+  [[nodiscard]] double p_value(double score) const;
+};
+[[nodiscard]] NullDistribution draw_null(const SingleScore& score,
+                                         Eigen::Index rows,
+                                         int draws,
+                                         std::uint64_t seed);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The unknown pattern: what repeats over the bed and no cause explains, as a Gaussian process.
+///
+/// Two kinds, each at some lengths: either chain by itself, smooth in both directions of the bed;
+/// or the tool displaced by functions of x alone and of y alone, as edges, boards and folds do it.
+///
+///   chains      cov(r_i, r_j) = s^2 k(|p_i - p_j|) I
+///   along_axes  cov(r_i, r_j) = s^2 (k(x_i - x_j) + k(y_i - y_j)) / 2 J_i J_j'
+///   k(d) = exp(-d^2 / (2 length^2)), J = d(L, R)/d(mark)
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "grid/diagnosis/rows.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+enum class PatternKind { chains, along_axes };
+
+struct PatternShape {
+  PatternKind kind = PatternKind::chains;
+  double length_mm = 0.0;
+};
+
+inline constexpr PatternShape kPatternShapes[] = {
+    {PatternKind::chains, 250.0},
+    {PatternKind::chains, 450.0},
+    {PatternKind::chains, 800.0},
+    {PatternKind::along_axes, 180.0},
+    {PatternKind::along_axes, 400.0},
+};
+/// Strengths at which each shape is tried, in units of noise.
+inline constexpr double kPatternDeltas[] = {4.0, 6.5, 10.0, 16.0, 25.0, 60.0};
+inline constexpr int kPatterns =
+    static_cast<int>(std::size(kPatternShapes) * std::size(kPatternDeltas));
+
+struct Pattern {
+  PatternShape shape;
+  double sigma_mm = 0.0;  ///< s
+};
+
+struct PatternPlace {
+  model::BedPoint mark;
+  Eigen::Matrix2d by_mark;  ///< J
+};
+
+/// Covariance of the two chains at two places, for s = 1.
+[[nodiscard]] Eigen::Matrix2d pattern_block(const PatternShape& shape,
+                                            const PatternPlace& a,
+                                            const PatternPlace& b);
+
+/// Covariance of these whitened rows, for s = 1.
+[[nodiscard]] Eigen::MatrixXd pattern_covariance(const Session& session,
+                                                 const Rows& rows,
+                                                 const std::vector<Eigen::Index>& kept,
+                                                 const PatternShape& shape);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The session as linear equations about a state of the machine: whitened residuals, how the
+/// settings move them, and a direction for every effect of the catalogue at every place where it
+/// may set in.
+///
+/// Notation
+///   r_i  readings of a point less what the state predicts [mm], two chains
+///   C_i  J S_xy J' + diag(s_L^2), J = d(L, R)/d(mark): its covariance from position and length
+///   noise W_i  whitening, W_i C_i W_i' = I                e    all W_i r_i, then the readings over
+///   sigma A    d(prediction)/d(settings), whitened        g_k  prediction with the effect less
+///   without it, whitened
+///
+/// A direction is a secant: exact at the size at which it was taken, and proportional to
+/// size^power. Coefficient b of a direction is (size / that size)^power.
+#pragma once
+
+#include <Eigen/Core>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/diagnosis/session.hpp"
+#include "model/reading_model.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// An effect at one side, one place and one size.
+struct Direction {
+  CauseId cause;
+  std::vector<double> values;  ///< sizes and places, in the effect's order
+  int power = 1;
+  /// The size is a whole number: the coefficient is 1 and `values` hold it.
+  bool fixed = false;
+  /// It acts at one visit alone.
+  bool slip = false;
+  /// What the coefficient may be.
+  double lowest = 0.0;
+  double highest = 0.0;
+  /// Share of this side, place and whole number within the effect.
+  double log_prior = 0.0;
+};
+
+/// One point as the state sees it.
+struct PointState {
+  model::PointReading reading;
+  Eigen::Vector2d residual_mm;
+  Eigen::Matrix2d by_mark;    ///< J
+  Eigen::Matrix2d whitening;  ///< W
+};
+
+struct Rows {
+  Eigen::VectorXd e;
+  Eigen::MatrixXd by_setting;  ///< A
+  Eigen::MatrixXd g;           ///< a column a direction
+  std::vector<Direction> directions;
+  std::vector<PointState> points;
+  Eigen::VectorXd setting;          ///< value in the state
+  Eigen::VectorXd expected_change;  ///< stated less that
+  Eigen::VectorXd sigma;            ///< as stated
+};
+
+/// Effects that these data can never show, each with its reason.
+struct Candidates {
+  std::vector<CauseId> testable;
+  std::vector<NotTestable> not_testable;
+};
+[[nodiscard]] Candidates candidates(const Session& session);
+
+/// Sizes at which secants are taken where the usual one is not wanted, and extra places.
+struct Refinement {
+  CauseId cause;
+  std::vector<double> values;
+  double log_prior = 0.0;
+};
+
+/// Rows without directions. Fails where a point cannot be reached.
+[[nodiscard]] tl::expected<Rows, model::VisitFailure> base_rows(const Session& session,
+                                                                const State& state,
+                                                                const Steps& steps);
+
+/// Appends the directions of all these causes.
+void add_directions(const Session& session,
+                    const State& state,
+                    const std::vector<CauseId>& causes,
+                    const std::vector<Refinement>& refinements,
+                    Rows& rows);
+
+/// The whitened column of an effect of these values; empty where such a machine cannot be.
+[[nodiscard]] std::optional<Eigen::VectorXd> signature(const Session& session,
+                                                       const State& state,
+                                                       const Rows& rows,
+                                                       CauseId cause,
+                                                       const std::vector<double>& values);
+
+/// Size of a cause at a coefficient of its direction.
+[[nodiscard]] double size_at(const Direction& direction, double coefficient);
+/// d(size)/d(coefficient) there.
+[[nodiscard]] double size_slope(const Direction& direction, double coefficient);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/slips.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "model/reading_model.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr double kFarOff_mm = 50.0;  // ten times what settings and effects do together
+constexpr double kMends = 0.2;       // of the misfit may be left
+
+using Read = SessionPoint (*)(SessionPoint);
+
+struct Slip {
+  std::string_view words;
+  Read mended;
+};
+
+constexpr double kMmPerInch = 25.4;
+
+constexpr Slip kSlips[] = {
+    {"the two chains' columns look exchanged",
+     [](SessionPoint p) {
+       std::swap(p.lengths.left_mm, p.lengths.right_mm);
+       return p;
+     }},
+    {"the x axis looks turned round; positive x is to the right",
+     [](SessionPoint p) {
+       p.mark.x_mm = -p.mark.x_mm;
+       return p;
+     }},
+    {"the y axis looks turned round; positive y is up the sheet",
+     [](SessionPoint p) {
+       p.mark.y_mm = -p.mark.y_mm;
+       return p;
+     }},
+    {"the lengths look like inches",
+     [](SessionPoint p) {
+       p.lengths.left_mm *= kMmPerInch;
+       p.lengths.right_mm *= kMmPerInch;
+       return p;
+     }},
+    {"the marks look like inches",
+     [](SessionPoint p) {
+       p.mark.x_mm *= kMmPerInch;
+       p.mark.y_mm *= kMmPerInch;
+       return p;
+     }},
+};
+
+/// Root mean square of what the stated machine leaves; nothing where it cannot reach a point.
+std::optional<double> misfit_mm(const Session& session, Read read) {
+  const model::ReadingModel model(session.stated);
+  double sum = 0.0;
+  for (const SessionPoint& point : session.points) {
+    const SessionPoint p = read(point);
+    const auto reading = model.at(p.mark);
+    if (!reading) return std::nullopt;
+    sum += std::pow(p.lengths.left_mm - reading->lengths.left_mm, 2) +
+           std::pow(p.lengths.right_mm - reading->lengths.right_mm, 2);
+  }
+  return std::sqrt(sum / static_cast<double>(session.points.size()));
+}
+
+}  // namespace
+
+std::optional<DiagnosisFailure> suspected_slip(const Session& session) {
+  const auto plain = misfit_mm(session, [](SessionPoint p) { return p; });
+  if (plain && *plain < kFarOff_mm) return std::nullopt;
+  for (const Slip& slip : kSlips) {
+    const auto mended = misfit_mm(session, slip.mended);
+    if (!mended || (plain && *mended > kMends * *plain) || (!plain && *mended > kFarOff_mm))
+      continue;
+    return DiagnosisFailure{
+        DiagnosisFailure::Reason::contradictory_settings,
+        fmt::format("the points are far off what the stated machine says, and {}: with that mended "
+                    "they are within {:.0f} mm",
+                    slip.words,
+                    std::ceil(*mended))};
+  }
+  return std::nullopt;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/gain.hpp"
+#include "grid/map/spatial_blocks.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr double kSlip = 6.0;  // sigmas: a point so far off does not place the sheet
+
+/// Residuals with the placement of the sheet, and nothing else, fitted: whitened rows of points.
+class Placed {
+ public:
+  Placed(const Session& to, const Rows& rows) : to_(to), rows_(rows) {
+    const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
+    by_sheet_ = rows.by_setting.rightCols(rows.setting.size() - machine);
+    sigma_ = rows.sigma.tail(rows.sigma.size() - machine);
+  }
+
+  [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& left) const {
+    if (by_sheet_.cols() == 0) return left;
+    Eigen::VectorXd weight = Eigen::VectorXd::Ones(left.size());
+    Eigen::VectorXd result = left;
+    for (int pass = 0; pass < 3; ++pass) {
+      const Eigen::MatrixXd scaled = by_sheet_ * sigma_.asDiagonal();
+      Eigen::MatrixXd normal = scaled.transpose() * weight.asDiagonal() * scaled;
+      normal.diagonal().array() += 1.0;
+      const Eigen::VectorXd x = normal.llt().solve(scaled.transpose() * weight.cwiseProduct(left));
+      result = left - scaled * x;
+      std::vector<double> size;
+      for (std::size_t i = 0; i < to_.points.size(); ++i) {
+        size.push_back(result.segment<2>(2 * static_cast<Eigen::Index>(i)).norm());
+      }
+      std::vector<double> sorted = size;
+      std::nth_element(sorted.begin(),
+                       sorted.begin() + static_cast<std::ptrdiff_t>(size.size() / 2),
+                       sorted.end());
+      // The median length of two standard normals is 1.18.
+      const double s = std::max(1.0, sorted[size.size() / 2] / 1.18);
+      for (std::size_t i = 0; i < size.size(); ++i) {
+        weight.segment<2>(2 * static_cast<Eigen::Index>(i))
+            .setConstant(size[i] > kSlip * s ? 0.0 : 1.0);
+      }
+    }
+    return result;
+  }
+
+ private:
+  const Session& to_;
+  const Rows& rows_;
+  Eigen::MatrixXd by_sheet_;
+  Eigen::VectorXd sigma_;
+};
+
+/// What a model of the first session leaves of the second, its sheet not yet placed.
+Eigen::VectorXd left_of(const Session& from,
+                        const Analysis& a,
+                        const Estimate& model,
+                        const Session& to,
+                        const Rows& rows) {
+  const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
+  const Space& space = a.contest.spaces[a.judgement.space];
+  Eigen::VectorXd left =
+      rows.e - rows.by_setting.leftCols(machine) * model.setting_change.head(machine);
+  for (std::size_t k = 0; k < model.directions.size(); ++k) {
+    const Direction& d = a.rows.directions[static_cast<std::size_t>(model.directions[k])];
+    // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
+    // only where the order of the visits is known.
+    if (d.cause.effect->misread != nullptr) continue;
+    if (d.cause.effect->needs == model::effects::DataNeed::order && !to.ordered) continue;
+    const auto g = signature(to, a.state, rows, d.cause, d.values);
+    if (g) left -= *g * model.coefficient(static_cast<Eigen::Index>(k));
+  }
+  if (model.pattern_weights.size() > 0) {
+    for (std::size_t i = 0; i < to.points.size(); ++i) {
+      left.segment<2>(2 * static_cast<Eigen::Index>(i)) -=
+          rows.points[i].whitening *
+          pattern_at(from, a.rows, space, model, {to.points[i].mark, rows.points[i].by_mark});
+    }
+  }
+  return left;
+}
+
+std::vector<std::size_t> block_numbers(const Session& session) {
+  std::vector<LengthPoint> points;
+  for (const SessionPoint& p : session.points) points.push_back({p.index, p.mark, p.lengths});
+  std::vector<std::size_t> number(points.size(), 0);
+  const auto blocks = spatial_blocks(points);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (const std::size_t i : blocks[b]) number[i] = b;
+  }
+  return number;
+}
+
+HeldOut summary(const Session& to,
+                const Rows& rows,
+                const Eigen::VectorXd& left,
+                std::uint64_t seed) {
+  const auto chain = chain_residuals(rows, left);
+  std::vector<Eigen::Vector2d> tool;
+  for (std::size_t i = 0; i < chain.size(); ++i)
+    tool.push_back(tool_shift(rows.points[i], chain[i]));
+  return summarise(tool, block_numbers(to), seed);
+}
+
+double floor_of(const Session& to, const Rows& rows) {
+  double sum = 0.0;
+  for (const PointState& p : rows.points) {
+    const Eigen::Matrix2d inverse = p.by_mark.inverse();
+    sum += 2.0 * std::pow(to.noise.position_mm, 2) +
+           (inverse * inverse.transpose()).trace() * std::pow(to.noise.length_mm, 2);
+  }
+  return std::sqrt(sum / static_cast<double>(rows.points.size()));
+}
+
+}  // namespace
+
+tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
+                                                  const Diagnosis& diagnosis,
+                                                  const MeasuredGrid& to) {
+  const auto first = make_session(from);
+  if (!first) return tl::unexpected(first.error());
+  // The second grid is seen by the first one's machine, whatever its file says.
+  MeasuredGrid other = to;
+  other.machine = from.machine;
+  if (!other.noise)
+    other.noise = StatedNoise{first->noise.length_mm, first->noise.position_mm, first->noise_dof};
+  other.readings.clear();
+  auto second = make_session(other);
+  if (!second) return tl::unexpected(second.error());
+  DiagnosisOptions options;
+  options.seed = diagnosis.seed;
+  const auto a = analyse(*first, options);
+  if (!a) return tl::unexpected(a.error());
+  const auto rows = base_rows(*second, a->state, {});
+  const auto stated = base_rows(*second, stated_state(*second), {});
+  if (!rows || !stated) {
+    return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::point_unreachable,
+                                           "a point of the other grid cannot be reached"});
+  }
+  const Space& space = a->contest.spaces[a->judgement.space];
+  const std::vector<int>& causes = a->judgement.directions;
+  const Placed place(*second, *rows);
+  const auto judged = [&](const std::vector<int>& directions, int pattern) {
+    const Estimate model = estimate(*first, a->rows, space, directions, pattern);
+    return summary(*second, *rows, place(left_of(*first, *a, model, *second, *rows)), options.seed);
+  };
+  Transfer result;
+  result.points = second->points.size();
+  result.as_delivered =
+      summary(*second, *stated, Placed(*second, *stated)(stated->e), options.seed);
+  result.calibrated = judged({}, -1);
+  result.extended = judged(causes, -1);
+  result.extended_and_surface = judged(causes, a->judgement.best_pattern);
+  result.noise_floor_mm = floor_of(*second, *rows);
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+#include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+std::string percent(double probability) {
+  if (probability > 0.995) return "more than 99 %";
+  return fmt::format("{:.0f} %", 100.0 * probability);
+}
+
+std::string where(const CauseId& cause) {
+  using model::effects::EffectSide;
+  switch (cause.side) {
+    case EffectSide::left:
+      return " on the left";
+    case EffectSide::right:
+      return " on the right";
+    case EffectSide::both:
+      return cause.effect->station == model::effects::Station::paper ? " along both axes"
+                                                                     : " on both sides alike";
+    case EffectSide::x:
+      return " along x";
+    case EffectSide::y:
+      return " along y";
+    case EffectSide::none:
+      break;
+  }
+  return "";
+}
+
+std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {
+  std::string text = fmt::format("{}{}", cause.effect->cause, where(cause));
+  if (parameters.empty()) return text;
+  text += fmt::format(" ({}", in_workshop_units(parameters.front()));
+  if (parameters.size() > 1) text += fmt::format(", {}", in_workshop_units(parameters[1]));
+  return text + ")";
+}
+
+std::string joined(const std::vector<std::string>& parts, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) text += i + 1 == parts.size() ? fmt::format(" {} ", last) : "; ";
+    text += parts[i];
+  }
+  return text;
+}
+
+std::string gain_words(const Diagnosis& d) {
+  if (!d.gain) return "";
+  if (d.gain->extended.rms_mm >= d.gain->calibrated.rms_mm) {
+    return fmt::format(
+        " Held out, naming it does not make the tool truer ({:.2f} mm with and without; noise "
+        "alone "
+        "makes {:.2f} mm): the machine is not extended.",
+        d.gain->calibrated.rms_mm,
+        d.gain->noise_floor_mm);
+  }
+  return fmt::format(
+      " Held out, the tool's error falls from {:.2f} to {:.2f} mm; noise alone makes {:.2f} mm.",
+      d.gain->calibrated.rms_mm,
+      d.gain->extended.rms_mm,
+      d.gain->noise_floor_mm);
+}
+
+std::string assumed_words(const Diagnosis& d) {
+  const bool assumed =
+      std::any_of(d.causes.begin(), d.causes.end(), [](const Cause& c) { return c.order_assumed; });
+  return assumed ? " This rests on an assumed visiting order." : "";
+}
+
+std::string named_words(const Diagnosis& d) {
+  const Cause& cause = d.causes.front();
+  std::string text = fmt::format("Most likely {}: probability {}.",
+                                 sized(cause.cause, cause.parameters),
+                                 percent(cause.probability));
+  for (const SameCause& other : cause.same_as) {
+    text += fmt::format(" These points cannot tell it from this: {}.",
+                        sized(other.cause, other.parameters));
+  }
+  return text + assumed_words(d) + gain_words(d);
+}
+
+std::string set_words(const Diagnosis& d) {
+  std::vector<std::string> parts;
+  for (const Cause& c : d.causes) {
+    parts.push_back(fmt::format("{}, {}", sized(c.cause, c.parameters), percent(c.probability)));
+  }
+  return fmt::format("One of {} causes, which these points do not tell apart: {}.",
+                     d.causes.size(),
+                     joined(parts, "or")) +
+         assumed_words(d) + gain_words(d);
+}
+
+std::string several_words(const Diagnosis& d) {
+  std::vector<std::string> parts;
+  for (const Cause& c : d.causes) {
+    parts.push_back(fmt::format("{}, {}", sized(c.cause, c.parameters), percent(c.probability)));
+  }
+  return fmt::format("{} causes act together: {}.", d.causes.size(), joined(parts, "and")) +
+         assumed_words(d) + gain_words(d);
+}
+
+std::string unknown_words(const Diagnosis& d) {
+  std::string text =
+      "The points show a pattern that repeats over the bed and that no cause in the catalogue "
+      "explains";
+  if (!d.left_over.follows.empty()) {
+    text += fmt::format("; it follows {} best ({:.0f} % of it)",
+                        coordinate_words(d.left_over.follows),
+                        100.0 * d.left_over.share);
+  }
+  return text + ".";
+}
+
+std::string bad_words(const Diagnosis& d) {
+  std::vector<std::string> numbers;
+  for (const BadPoint& b : d.bad_points) numbers.push_back(fmt::format("{}", b.index + 1));
+  return fmt::format(
+      "Nothing is wrong but {} of the points: number {}. Without {} the machine fits.",
+      numbers.size(),
+      joined(numbers, "and"),
+      numbers.size() == 1 ? "it" : "them");
+}
+
+std::string nothing_words(const Session& session, const Diagnosis& d) {
+  std::string text = fmt::format(
+      "Nothing is found beyond the settings: what is left at the {} points is as large as the "
+      "stated noise.",
+      session.points.size());
+  if (d.family_wise_p < 0.05) {
+    text += fmt::format(
+        " The strongest effect would look as strong by chance in {:.0f} of 100 "
+        "sessions.",
+        100.0 * d.family_wise_p);
+  }
+  return text;
+}
+
+std::string sentence(const Session& session, const Diagnosis& d) {
+  switch (d.verdict) {
+    case Verdict::named:
+      return named_words(d);
+    case Verdict::named_set:
+      return set_words(d);
+    case Verdict::several_causes:
+      return several_words(d);
+    case Verdict::unknown_pattern:
+      return unknown_words(d);
+    case Verdict::noise_larger_than_stated:
+      return fmt::format(
+          "The points scatter {:.1f} times as much as was stated, and without a pattern: look at "
+          "the tape, at the marking and at play in the sled.",
+          d.noise_factor);
+    case Verdict::bad_points:
+      return bad_words(d);
+    case Verdict::nothing_found:
+      break;
+  }
+  return nothing_words(session, d);
+}
+
+void say_what_to_do(Diagnosis& d) {
+  for (const Cause& c : d.causes) {
+    if (d.what_to_do.size() < 2 && d.verdict != Verdict::named_set) {
+      d.what_to_do.emplace_back(c.cause.effect->remedy);
+    }
+  }
+  if (!d.next_measurements.empty()) {
+    const NextMeasurement& first = d.next_measurements.front();
+    const std::string what =
+        first.kind == MeasurementKind::reading ? reading_words(first.what, first.side)
+        : first.kind == MeasurementKind::revisit
+            ? first.what
+            : fmt::format("a new point at ({:.0f}, {:.0f}) mm", first.mark->x_mm, first.mark->y_mm);
+    d.what_to_do.push_back(
+        fmt::format("Measure next: {}{}. All of it raises the chance of a single name to {:.0f} %.",
+                    what,
+                    d.next_measurements.size() > 1
+                        ? fmt::format(", and {} more below", d.next_measurements.size() - 1)
+                        : "",
+                    100.0 * d.next_measurements.back().raises_probability_to));
+  }
+  if (!d.bad_points.empty() && d.what_to_do.size() < 3) {
+    std::vector<std::string> numbers;
+    for (const BadPoint& b : d.bad_points) numbers.push_back(fmt::format("{}", b.index + 1));
+    d.what_to_do.push_back(fmt::format("Measure point {} again.", joined(numbers, "and")));
+  }
+  for (const CalibratedSetting& s : d.settings) {
+    if (!s.off || d.what_to_do.size() >= 3) continue;
+    d.what_to_do.push_back(fmt::format("Check {}: {:.2f} is stated, {:.2f} fits the points.",
+                                       model::name(s.setting),
+                                       s.stated,
+                                       s.calibrated));
+  }
+  if (d.what_to_do.empty() && d.verdict == Verdict::unknown_pattern) {
+    d.what_to_do.emplace_back(
+        "Use the measured map (chaintrue fit): it corrects a pattern that repeats, whatever makes "
+        "it.");
+  }
+  if (d.what_to_do.empty()) {
+    d.what_to_do.emplace_back(
+        "Type in the calibrated settings; more is not to be had from these points.");
+  }
+}
+
+std::string not_proved(const Session& session, const Diagnosis& d) {
+  std::string text;
+  if (!d.causes.empty()) {
+    const Cause& lead = d.causes.front();
+    text = "Points show what fits, not what is: look at the part before changing it.";
+    if (lead.rival) {
+      text += fmt::format(
+          " A cause outside the catalogue that looks alike would carry the same "
+          "name; the nearest inside it is this: {}{} (likeness {:.3f}).",
+          lead.rival->effect->cause,
+          where(*lead.rival),
+          lead.rival_rho);
+    }
+  } else if (d.verdict == Verdict::unknown_pattern) {
+    text =
+        "That no cause in the catalogue explains it does not prove that none of them acts as well.";
+  } else {
+    text =
+        "This does not prove the machine perfect: causes smaller than their bounds below would "
+        "not have shown.";
+  }
+  if (!session.ordered) {
+    text += " The order of the visits is not known: drift, skipped teeth and play cannot be seen.";
+  }
+  return text;
+}
+
+}  // namespace
+
+void put_into_words(const Session& session, Diagnosis& d) {
+  if (session.noise_from_repeats) {
+    d.notes.push_back(fmt::format(
+        "No noise was stated: {:.2f} mm in length and {:.2f} mm in position come from the repeats.",
+        session.noise.length_mm,
+        session.noise.position_mm));
+  }
+  d.sentence = sentence(session, d);
+  d.not_proved = not_proved(session, d);
+  say_what_to_do(d);
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/workshop_units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+struct Unit {
+  std::string_view parameter;
+  double factor;
+  std::string_view words;  ///< {} the number
+};
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+constexpr std::array kUnits = {
+    Unit{"scale", 100.0, "{} %"},
+    Unit{"elongation", 100.0, "{} % longer links"},
+    Unit{"angle_rad", 1000.0, "{} mm a metre"},
+    Unit{"relative_weight", 100.0, "{} % heavier chain"},
+    Unit{"compliance_per_n", 1e6, "{} millionths a newton"},
+    Unit{"flexibility_mm_per_n", 1.0, "{} mm a newton"},
+    Unit{"force_n", 1.0, "{} N towards the right"},
+    Unit{"offset_mm", 1.0, "{} mm larger radius"},
+    Unit{"slope_mm_per_rad", 1.0 / kDegrees, "{} mm a degree"},
+    Unit{"knee_rad", kDegrees, "sets in at {} degrees below the horizontal"},
+    Unit{"phase_rad", kDegrees, "phase {} degrees"},
+    Unit{"rate_mm_per_visit", 1.0, "{} mm a visit"},
+    Unit{"links", 1.0, "{} links"},
+    Unit{"first_visit", 1.0, "from visit {} on"},
+    Unit{"visit", 1.0, "at visit {}"},
+    Unit{"amplitude_mm", 1.0, "{} mm"},
+    Unit{"half_width_mm", 1.0, "{} mm to either side"},
+    Unit{"distance_mm", 1.0, "{} mm"},
+};
+
+/// To its first two digits.
+double two_digits(double value) {
+  if (value == 0.0) return 0.0;
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1.0);
+  return step * std::round(value / step);
+}
+
+/// As many digits as the sigma bears: its first two; of a value without one, its own first two.
+std::string with_sigma(double value, double sigma) {
+  if (!(sigma > 0.0)) return fmt::format("{:g}", two_digits(value));
+  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 6);
+  return fmt::format("{:.{}f} +- {:.{}f}", value, digits, sigma, digits);
+}
+
+}  // namespace
+
+std::string in_workshop_units(const ParameterEstimate& estimate) {
+  for (const Unit& unit : kUnits) {
+    if (unit.parameter != estimate.parameter) continue;
+    const bool whole = unit.parameter == "links" || unit.parameter.ends_with("visit");
+    const std::string number =
+        whole && !estimate.parameter.starts_with("rate")
+            ? fmt::format("{:g}", estimate.value)
+            : with_sigma(unit.factor * estimate.value, unit.factor * estimate.sigma);
+    return fmt::format(fmt::runtime(unit.words), number);
+  }
+  return fmt::format("{} = {}", estimate.parameter, with_sigma(estimate.value, estimate.sigma));
+}
+
+std::string coordinate_words(std::string_view coordinate) {
+  struct Words {
+    std::string_view name;
+    std::string_view words;
+  };
+  constexpr std::array kWords = {
+      Words{"angle_left", "the angle of the left chain"},
+      Words{"angle_right", "the angle of the right chain"},
+      Words{"length_left", "the length of the left chain"},
+      Words{"length_right", "the length of the right chain"},
+      Words{"tension_left", "the pull in the left chain"},
+      Words{"tension_right", "the pull in the right chain"},
+      Words{"order", "the order of the visits"},
+      Words{"x", "the place from left to right"},
+      Words{"y", "the height on the sheet"},
+  };
+  for (const Words& w : kWords) {
+    if (w.name == coordinate) return std::string(w.words);
+  }
+  return std::string(coordinate);
+}
+
+std::string reading_words(std::string_view what, std::string_view side) {
+  if (what == "motor_spacing_mm") return "the distance between the motors' axes, with a tape";
+  if (what == "beam_rise_mm")
+    return "how much higher the right motor is than the left, with a level";
+  if (what == "ring_radius_mm") return "from the bit to the end of a chain";
+  if (what == "sled_mass_kg") return "the sled's weight, on a scale";
+  if (what == "chain_mass_kg_per_m") return "the weight of a metre of chain";
+  if (what == "link_pitch_mm") {
+    return fmt::format("the length of 100 links of the {} chain, pulled taut", side);
+  }
+  return std::string(what);
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Numbers as a person in a workshop says them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "grid/diagnosis/diagnosis.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// "0.120 +- 0.010 %", "1 link", "sets in at 52.0 degrees": from the parameter's name and its unit.
+[[nodiscard]] std::string in_workshop_units(const ParameterEstimate& estimate);
+
+/// "the angle of the left chain" for angle_left.
+[[nodiscard]] std::string coordinate_words(std::string_view coordinate);
+
+/// "the distance between the motors' axes, with a tape" for motor_spacing_mm.
+[[nodiscard]] std::string reading_words(std::string_view what, std::string_view side);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/diagnosis_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "grid/files/diagnosis_record.hpp"
+#include "grid/files/machine_record.hpp"
+#include "grid/files/whole_file.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using diagnosis::BadPoint;
+using diagnosis::Diagnosis;
+using diagnosis::Verdict;
+
+constexpr Range kPositive{"", 0.0, 1e12};
+constexpr Range kMm{"mm", -1e6, 1e6};
+constexpr Range kShare{"", 0.0, 1.0};
+constexpr int kMostPoints = 1000000;
+
+Value<Verdict> verdict_word() {
+  std::vector<std::pair<std::string, Verdict>> names;
+  for (const Verdict verdict : {Verdict::named,
+                                Verdict::named_set,
+                                Verdict::several_causes,
+                                Verdict::unknown_pattern,
+                                Verdict::noise_larger_than_stated,
+                                Verdict::bad_points,
+                                Verdict::nothing_found}) {
+    names.emplace_back(diagnosis::name(verdict), verdict);
+  }
+  return choice<Verdict>(std::move(names));
+}
+
+Value<std::uint64_t> seed_value() {
+  const std::string expected = "a whole number of at least 0";
+  return {[expected](const Cursor& at) -> std::optional<std::uint64_t> {
+            if (at.json().is_number_unsigned()) return at.json().get<std::uint64_t>();
+            at.expect(expected);
+            return std::nullopt;
+          },
+          [](const std::uint64_t& value) { return Json(value); },
+          expected};
+}
+
+const Record<StatedNoise>& noise_record() {
+  static const auto record =
+      Record<StatedNoise>("the noise as stated")
+          .required("length_mm", &StatedNoise::length_mm, number(kPositive))
+          .required("position_mm", &StatedNoise::position_mm, number(kPositive))
+          .required("dof", &StatedNoise::dof, number(kPositive));
+  return record;
+}
+
+/// Where a bad point's tool would have to have been.
+struct Shift {
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+  double sigmas = 0.0;
+};
+
+const Record<Shift>& shift_record() {
+  static const auto record = Record<Shift>("a bad point's shift")
+                                 .required("x_mm", &Shift::x_mm, number(kMm))
+                                 .required("y_mm", &Shift::y_mm, number(kMm))
+                                 .required("sigmas", &Shift::sigmas, number(kPositive));
+  return record;
+}
+
+/// The points' indices and, beside them, how far each is off: two lists of one length.
+void bad_point_keys(Record<Diagnosis>& record) {
+  static const Value<std::vector<int>> indices = list(integer(0, kMostPoints));
+  static const Value<std::vector<Shift>> shifts = list(object(shift_record()));
+  record.custom(
+      "bad_points",
+      true,
+      indices.expected,
+      [](const Cursor& at, Diagnosis& object) {
+        const auto read = indices.read(at);
+        if (!read) return;
+        for (const int index : *read)
+          object.bad_points.push_back({.index = static_cast<std::size_t>(index)});
+      },
+      [](const Diagnosis& object) {
+        Json json = Json::array();
+        for (const BadPoint& bad : object.bad_points) json.push_back(bad.index);
+        return std::optional<Json>(std::move(json));
+      });
+  record.custom(
+      "bad_point_shifts",
+      true,
+      shifts.expected,
+      [](const Cursor& at, Diagnosis& object) {
+        const auto read = shifts.read(at);
+        if (!read) return;
+        if (read->size() != object.bad_points.size())
+          return at.expect("as many shifts as there are bad_points");
+        for (std::size_t i = 0; i < read->size(); ++i) {
+          object.bad_points[i].shift_mm = {(*read)[i].x_mm, (*read)[i].y_mm};
+          object.bad_points[i].distance = (*read)[i].sigmas;
+        }
+      },
+      [](const Diagnosis& object) {
+        Json json = Json::array();
+        for (const BadPoint& bad : object.bad_points) {
+          json.push_back(
+              shift_record().write({bad.shift_mm.x() + 0.0, bad.shift_mm.y() + 0.0, bad.distance}));
+        }
+        return std::optional<Json>(std::move(json));
+      });
+}
+
+void check_diagnosis(const Cursor& at, Diagnosis& object) {
+  if (!at.child("verdict").clean() || !at.child("causes").clean()) return;
+  const bool names_one = object.verdict == Verdict::named || object.verdict == Verdict::named_set ||
+                         object.verdict == Verdict::several_causes;
+  if (at.has("verdict") && at.has("causes") && names_one && object.causes.empty()) {
+    at.problems().add(
+        at.child("causes").pointer(),
+        "none",
+        fmt::format("at least one cause with the verdict \"{}\"", diagnosis::name(object.verdict)));
+  }
+}
+
+Record<Diagnosis> make_diagnosis_record() {
+  Record<Diagnosis> record("a diagnosis", "chaintrue_diagnosis");
+  record.required("verdict", &Diagnosis::verdict, verdict_word())
+      .required("sentence", &Diagnosis::sentence, text())
+      .required("what_to_do", &Diagnosis::what_to_do, list(text()))
+      .required("not_proved", &Diagnosis::not_proved, text())
+      .required("notes", &Diagnosis::notes, list(text()))
+      .required("causes", &Diagnosis::causes, list(object(cause_record())))
+      .required("hypotheses", &Diagnosis::hypotheses, list(object(hypothesis_record())))
+      .required("left_over", &Diagnosis::left_over, object(left_over_record()));
+  bad_point_keys(record);
+  record.required("not_testable", &Diagnosis::not_testable, list(object(not_testable_record())))
+      .required("bounds", &Diagnosis::bounds, list(object(bound_record())))
+      .required("settings", &Diagnosis::settings, list(object(calibrated_setting_record())))
+      .optional("gain", &Diagnosis::gain, object(gain_record()))
+      .required("next_measurements",
+                &Diagnosis::next_measurements,
+                list(object(next_measurement_record())))
+      .required("extended_machine", &Diagnosis::extended_machine, object(machine_record()))
+      .required("data_corrections", &Diagnosis::data_corrections, list(object(effect_record())))
+      .required("noise_factor", &Diagnosis::noise_factor, number(kPositive))
+      .required("family_wise_p", &Diagnosis::family_wise_p, number(kShare))
+      .required("terms", &Diagnosis::terms, list(object(term_record())))
+      .required("separations", &Diagnosis::separations, list(object(separation_record())))
+      .required("points", &Diagnosis::points, list(object(point_picture_record())))
+      .required("seed", &Diagnosis::seed, seed_value())
+      .required("grid_name", &Diagnosis::grid_name, text())
+      .optional("stated_noise", &Diagnosis::stated_noise, object(noise_record()))
+      .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()))
+      .check(check_diagnosis);
+  return record;
+}
+
+const Record<Diagnosis>& diagnosis_record() {
+  static const Record<Diagnosis> record = make_diagnosis_record();
+  return record;
+}
+
+}  // namespace
+
+Diagnosis read_diagnosis(const std::filesystem::path& path) {
+  return parse_diagnosis(read_whole_file(path), name_in_messages(path));
+}
+
+Diagnosis parse_diagnosis(const std::string& text, const std::string& file) {
+  return read_document(diagnosis_record(), text, file);
+}
+
+std::string write_diagnosis(const Diagnosis& diagnosis) {
+  return write_document(diagnosis_record(), diagnosis);
+}
+
+}  // namespace chaintrue::grid::files

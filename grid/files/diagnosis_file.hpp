@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue_diagnosis files: what a diagnosis found, with every number that its report shows.
+/// Unknown keys are errors, except "comment". Same diagnosis, same bytes.
+///
+///   { "file_type": "chaintrue_diagnosis", "format_version": "1.0",
+///     "verdict": "named", "sentence": "...", "what_to_do": [...], "not_proved": "...",
+///     "causes":     [ {"effect": "chain_pitch_error", "side": "left", "probability": 0.97,
+///                      "same_as": [ {"effect", "side", "parameters"} ],
+///                      "parameters": {"elongation": {"value": 0.0012, "sigma": 0.0001}}, ...} ],
+///     "hypotheses": [ {"effect": "chain_pitch_error", "side": "left", "probability": 0.97} ],
+///     "left_over":  {"delta", "follows", "share", "p_value"},
+///     "bad_points": [indices], "bad_point_shifts": [ {"x_mm", "y_mm", "sigmas"} ],
+///     "not_testable": [...], "bounds": [...], "settings": [...],
+///     "gain": {"scheme", "position_rms_mm": {row: mm}, "position_percentile_95_mm": {row: mm},
+///              "position_rms_90_percent_mm": {row: [low, high]}, "border_rms_mm": {row: mm}, ...},
+///     "next_measurements": [...], "extended_machine": { a chaintrue_machine }, ... }
+///
+/// A side, a follow-up's place and what a left-over follows are null where there is none.
+///
+/// \code
+///   const grid::diagnosis::Diagnosis found = read_diagnosis("diagnosis.json");
+///   fmt::print("{}\n", found.sentence);
+/// \endcode
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "grid/diagnosis/diagnosis.hpp"
+
+namespace chaintrue::grid::files {
+
+/// "-" reads standard input. \throws InputError with every problem of the file.
+[[nodiscard]] diagnosis::Diagnosis read_diagnosis(const std::filesystem::path& path);
+/// Parses text; `file` is the name used in messages.
+[[nodiscard]] diagnosis::Diagnosis parse_diagnosis(const std::string& text,
+                                                   const std::string& file);
+/// \throws std::logic_error where a number is not finite.
+[[nodiscard]] std::string write_diagnosis(const diagnosis::Diagnosis& diagnosis);
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Held-out errors in a chaintrue_diagnosis file: one object a figure, one key a way of modelling.
+#include <array>
+#include <string_view>
+
+#include "grid/files/diagnosis_record.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using diagnosis::Gain;
+using diagnosis::HeldOut;
+using diagnosis::Transfer;
+
+constexpr Range kErrorMm{"mm", 0.0, 1e6};
+constexpr int kMostFolds = 1000;
+constexpr int kMostPoints = 1000000;
+
+/// A way of modelling by its key; the sheet's placement alone is not there for every grid.
+template <class T>
+struct ErrorRow {
+  std::string_view key;
+  HeldOut T::*member = nullptr;
+  std::optional<HeldOut> T::*maybe = nullptr;
+
+  [[nodiscard]] const HeldOut* of(const T& object) const {
+    if (member != nullptr) return &(object.*member);
+    return object.*maybe ? &*(object.*maybe) : nullptr;
+  }
+  [[nodiscard]] HeldOut& made_in(T& object) const {
+    if (member != nullptr) return object.*member;
+    if (!(object.*maybe)) (object.*maybe).emplace();
+    return *(object.*maybe);
+  }
+};
+
+constexpr std::array kGainRows = {
+    ErrorRow<Gain>{"as_delivered", &Gain::as_delivered},
+    ErrorRow<Gain>{"placed", nullptr, &Gain::placed},
+    ErrorRow<Gain>{"calibrated", &Gain::calibrated},
+    ErrorRow<Gain>{"extended", &Gain::extended},
+    ErrorRow<Gain>{"extended_and_surface", &Gain::extended_and_surface},
+    ErrorRow<Gain>{"surface_only", &Gain::surface_only},
+};
+constexpr std::array kTransferRows = {
+    ErrorRow<Transfer>{"as_delivered", &Transfer::as_delivered},
+    ErrorRow<Transfer>{"calibrated", &Transfer::calibrated},
+    ErrorRow<Transfer>{"extended", &Transfer::extended},
+    ErrorRow<Transfer>{"extended_and_surface", &Transfer::extended_and_surface},
+};
+
+/// One figure of a row: how it is read into the row and written from it.
+struct Figure {
+  std::string expected;
+  std::function<void(const Cursor&, HeldOut&)> read;
+  std::function<Json(const HeldOut&)> write;
+};
+
+Figure single(double HeldOut::*member) {
+  const Value<double> value = number(kErrorMm);
+  return {value.expected,
+          [value, member](const Cursor& at, HeldOut& row) {
+            if (const auto read = value.read(at)) row.*member = *read;
+          },
+          [value, member](const HeldOut& row) { return value.write(row.*member); }};
+}
+
+Figure interval() {
+  constexpr const char* kExpected = "a pair of numbers in mm, the lower one first";
+  const Value<std::vector<double>> value = list(number(kErrorMm), 2);
+  return {kExpected,
+          [value](const Cursor& at, HeldOut& row) {
+            const auto read = value.read(at);
+            if (!read || read->size() < 2) return;
+            if (read->size() > 2 || (*read)[1] < (*read)[0]) return at.expect(kExpected);
+            row.low_mm = (*read)[0];
+            row.high_mm = (*read)[1];
+          },
+          [](const HeldOut& row) {
+            return Json::array({row.low_mm, row.high_mm});
+          }};
+}
+
+/// An object of one figure for every row; `floor`, where given, stands at its end.
+template <class T, std::size_t kCount>
+Record<T> figure_record(const std::array<ErrorRow<T>, kCount>& rows,
+                        const Figure& figure,
+                        double T::*floor = nullptr) {
+  Record<T> record("an object with one figure a way of modelling");
+  for (const ErrorRow<T>& row : rows) {
+    record.custom(
+        std::string(row.key),
+        row.member != nullptr,
+        figure.expected,
+        [row, figure](const Cursor& at, T& object) { figure.read(at, row.made_in(object)); },
+        [row, figure](const T& object) {
+          const HeldOut* held = row.of(object);
+          return held != nullptr ? std::optional<Json>(figure.write(*held)) : std::nullopt;
+        });
+  }
+  if (floor != nullptr) record.required("noise_floor", floor, number(kErrorMm));
+  return record;
+}
+
+/// A nested record that fills the very object that holds it.
+template <class T>
+void nested(Record<T>& record, const std::string& key, const Record<T>& part) {
+  record.custom(
+      key,
+      true,
+      part.expected(),
+      [&part](const Cursor& at, T& object) { part.read_into(at, object); },
+      [&part](const T& object) { return std::optional<Json>(part.write(object)); });
+}
+
+template <class T, std::size_t kCount>
+void error_figures(Record<T>& record, const std::array<ErrorRow<T>, kCount>& rows) {
+  static const auto rms = figure_record(rows, single(&HeldOut::rms_mm), &T::noise_floor_mm);
+  static const auto worst = figure_record(rows, single(&HeldOut::percentile_95_mm));
+  static const auto intervals = figure_record(rows, interval());
+  nested(record, "position_rms_mm", rms);
+  nested(record, "position_percentile_95_mm", worst);
+  nested(record, "position_rms_90_percent_mm", intervals);
+}
+
+const Record<Gain::Border>& border_record() {
+  using Border = Gain::Border;
+  static const auto record =
+      Record<Border>("errors at the border")
+          .required("calibrated", &Border::calibrated_mm, number(kErrorMm))
+          .required("extended", &Border::extended_mm, number(kErrorMm))
+          .required("extended_and_surface", &Border::extended_and_surface_mm, number(kErrorMm))
+          .required("surface_only", &Border::surface_only_mm, number(kErrorMm));
+  return record;
+}
+
+}  // namespace
+
+const Record<Gain>& gain_record() {
+  static const auto record = [] {
+    Record<Gain> gain("the gain");
+    gain.required("scheme", &Gain::scheme, text());
+    error_figures(gain, kGainRows);
+    gain.required("border_rms_mm", &Gain::border, object(border_record()))
+        .required("folds", &Gain::folds, integer(0, kMostFolds))
+        .required("folds_agree", &Gain::folds_agree, integer(0, kMostFolds))
+        .check([](const Cursor& at, Gain& object) {
+          if (at.clean() && object.folds_agree > object.folds)
+            at.child("folds_agree").expect("at most as many as folds");
+        });
+    return gain;
+  }();
+  return record;
+}
+
+const Record<Transfer>& transfer_record() {
+  static const auto record = [] {
+    const Value<int> whole = integer(0, kMostPoints);
+    Record<Transfer> transfer("another grid foretold");
+    transfer.required("to", &Transfer::to, text())
+        .custom(
+            "points",
+            true,
+            whole.expected,
+            [whole](const Cursor& at, Transfer& object) {
+              if (const auto value = whole.read(at))
+                object.points = static_cast<std::size_t>(*value);
+            },
+            [](const Transfer& object) { return std::optional<Json>(object.points); });
+    error_figures(transfer, kTransferRows);
+    return transfer;
+  }();
+  return record;
+}
+
+}  // namespace chaintrue::grid::files

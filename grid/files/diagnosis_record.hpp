@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The parts of a chaintrue_diagnosis file. Private to grid/files.
+#pragma once
+
+#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/files/json_reader.hpp"
+
+namespace chaintrue::grid::files {
+
+[[nodiscard]] const Record<diagnosis::Cause>& cause_record();
+[[nodiscard]] const Record<diagnosis::Hypothesis>& hypothesis_record();
+[[nodiscard]] const Record<diagnosis::LeftOver>& left_over_record();
+[[nodiscard]] const Record<diagnosis::NotTestable>& not_testable_record();
+[[nodiscard]] const Record<diagnosis::Bound>& bound_record();
+[[nodiscard]] const Record<diagnosis::CalibratedSetting>& calibrated_setting_record();
+[[nodiscard]] const Record<diagnosis::NextMeasurement>& next_measurement_record();
+[[nodiscard]] const Record<diagnosis::PointPicture>& point_picture_record();
+[[nodiscard]] const Record<diagnosis::Term>& term_record();
+[[nodiscard]] const Record<diagnosis::Separation>& separation_record();
+/// Both speak of held-out errors row by row; diagnosis_gain_record.cpp.
+[[nodiscard]] const Record<diagnosis::Gain>& gain_record();
+[[nodiscard]] const Record<diagnosis::Transfer>& transfer_record();
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/corrected_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "grid/map/length_points.hpp"
+#include "model/effects/catalogue.hpp"
+#include "model/reading_model.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::AppliedEffect;
+using model::Machine;
+using model::effects::Effect;
+using model::effects::find_effect;
+using model::effects::Station;
+
+bool is_of_the_paper(const Effect& effect) { return effect.station == Station::paper; }
+
+/// The machine with those effects alone for which `keep` is true.
+template <class Keep>
+Machine with_effects_that(Machine machine, Keep keep) {
+  std::erase_if(machine.effects, [&](const AppliedEffect& applied) {
+    const Effect* effect = find_effect(applied.effect);
+    return effect == nullptr || !keep(*effect);
+  });
+  return machine;
+}
+
+std::string names_of(const Machine& machine) {
+  std::string names;
+  for (const AppliedEffect& applied : machine.effects) {
+    names += fmt::format("{}{}{}{}",
+                         names.empty() ? "" : ", ",
+                         applied.effect,
+                         applied.side.empty() ? "" : " ",
+                         applied.side);
+  }
+  return names;
+}
+
+tl::expected<std::vector<model::ChainLengths>, FitFailure> readings_with(
+    const Machine& machine, const std::vector<model::Visit>& visits) {
+  auto read = model::readings(model::ReadingModel(machine), visits);
+  if (read) return *std::move(read);
+  return tl::unexpected(
+      FitFailure{FitFailure::Reason::point_unreachable,
+                 fmt::format("point {} cannot be reached by the machine as stated: {}",
+                             read.error().index + 1,
+                             model::explain(read.error().reason))});
+}
+
+/// Takes the visit effects out of the readings, which are in the order of the points.
+tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid,
+                                                const Machine& with_visits,
+                                                const Machine& without) {
+  const auto points = length_points(grid);
+  if (!points) return tl::unexpected(points.error());
+  std::vector<model::Visit> visits;
+  for (const MeasuredPoint& point : grid.points) visits.push_back({point.mark, *point.order});
+  const auto disturbed = readings_with(with_visits, visits);
+  if (!disturbed) return tl::unexpected(disturbed.error());
+  const auto quiet = readings_with(without, visits);
+  if (!quiet) return tl::unexpected(quiet.error());
+  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    const model::ChainLengths read = (*points)[i].lengths;
+    grid.points[i].lengths =
+        model::ChainLengths{read.left_mm - ((*disturbed)[i].left_mm - (*quiet)[i].left_mm),
+                            read.right_mm - ((*disturbed)[i].right_mm - (*quiet)[i].right_mm)};
+    grid.points[i].commanded.reset();
+  }
+  return {};
+}
+
+}  // namespace
+
+tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid) {
+  CorrectedData corrected{grid, {}};
+  if (!grid.machine || !model::effects::problems_of_effects(*grid.machine).empty())
+    return corrected;
+  const auto of_the_visit = [](const Effect& effect) {
+    return model::effects::depends_on_visit(effect);
+  };
+  const Machine paper = with_effects_that(*grid.machine, is_of_the_paper);
+  const Machine visit = with_effects_that(*grid.machine, of_the_visit);
+  const Machine rest = with_effects_that(*grid.machine, [&](const Effect& effect) {
+    return !is_of_the_paper(effect) && !of_the_visit(effect);
+  });
+  if (!paper.effects.empty()) {
+    const model::Paper marks(paper);
+    for (MeasuredPoint& point : corrected.grid.points) point.mark = marks.place(point.mark);
+    corrected.notes.push_back(
+        fmt::format("The marks were put where they truly are ({}).", names_of(paper)));
+  }
+  if (!visit.effects.empty()) {
+    const bool has_order =
+        std::all_of(grid.points.begin(), grid.points.end(), [](const MeasuredPoint& point) {
+          return point.order.has_value();
+        });
+    if (has_order) {
+      Machine both = rest;
+      both.effects.insert(both.effects.end(), visit.effects.begin(), visit.effects.end());
+      if (auto done = correct_readings(corrected.grid, both, rest); !done)
+        return tl::unexpected(done.error());
+      corrected.notes.push_back(fmt::format(
+          "The readings were freed of what depends on the visit ({}).", names_of(visit)));
+    } else {
+      corrected.notes.push_back(fmt::format(
+          "The readings could not be freed of {}: the points do not say in which order they were "
+          "visited.",
+          names_of(visit)));
+    }
+  }
+  corrected.grid.machine->effects = rest.effects;
+  return corrected;
+}
+
+}  // namespace chaintrue::grid

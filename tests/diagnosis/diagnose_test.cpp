@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bad input with its words, and laws of a diagnosis on generated sessions.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/synthetic/generator.hpp"
+#include "grid/synthetic/strength.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using synthetic::SyntheticSpec;
+using testing::HasSubstr;
+
+MeasuredGrid session(const std::vector<model::AppliedEffect>& hidden,
+                     std::uint64_t seed,
+                     int columns = 7,
+                     int rows = 4) {
+  SyntheticSpec spec;
+  spec.design.columns = columns;
+  spec.design.rows = rows;
+  spec.order = synthetic::VisitingOrder::random;
+  spec.repeats = 6;
+  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
+  spec.stated = StatedNoise{0.2, 0.3, 12.0};
+  spec.hidden = hidden;
+  spec.seed = seed;
+  const auto made = synthetic::generate(model::Machine{}, spec);
+  EXPECT_TRUE(made);
+  return made->grid;
+}
+
+DiagnosisOptions quick() {
+  DiagnosisOptions options;
+  options.gain = false;
+  options.next_measurements = false;
+  return options;
+}
+
+void expect_refused(const MeasuredGrid& grid,
+                    DiagnosisFailure::Reason reason,
+                    const std::string& words) {
+  const auto answer = diagnose(grid, quick());
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().reason, reason);
+  EXPECT_THAT(answer.error().sentence, HasSubstr(words));
+}
+
+TEST(DiagnoseBadInput, TooFewPoints) {
+  MeasuredGrid grid = session({}, 1);
+  grid.points.resize(7);
+  expect_refused(grid, DiagnosisFailure::Reason::too_few_points, "7 points are too few");
+}
+
+TEST(DiagnoseBadInput, NoNoiseAndNoRepeats) {
+  MeasuredGrid grid = session({}, 1);
+  grid.noise.reset();
+  grid.points.resize(20);
+  std::erase_if(grid.points, [&](const MeasuredPoint& p) {
+    return std::count_if(grid.points.begin(), grid.points.end(), [&](const MeasuredPoint& q) {
+             return std::hypot(p.mark.x_mm - q.mark.x_mm, p.mark.y_mm - q.mark.y_mm) < 25.0;
+           }) > 1;
+  });
+  expect_refused(grid, DiagnosisFailure::Reason::no_noise, "measure at least six points twice");
+}
+
+TEST(DiagnoseBadInput, RepeatsStandInForStatedNoise) {
+  MeasuredGrid grid = session({}, 2);
+  grid.noise.reset();
+  const auto answer = diagnose(grid, quick());
+  ASSERT_TRUE(answer);
+  EXPECT_THAT(answer->notes, testing::Contains(HasSubstr("come from the repeats")));
+}
+
+TEST(DiagnoseBadInput, NoMachine) {
+  MeasuredGrid grid = session({}, 1);
+  grid.machine.reset();
+  expect_refused(grid, DiagnosisFailure::Reason::no_machine, "--machine");
+}
+
+TEST(DiagnoseBadInput, ReadingAgainstStatement) {
+  MeasuredGrid grid = session({}, 1);
+  grid.readings.push_back({"motor_spacing_mm", "", 2900.0, 1.0});
+  expect_refused(grid,
+                 DiagnosisFailure::Reason::contradictory_settings,
+                 "motor_spacing_mm is 2900, but the machine states 2978.4");
+}
+
+TEST(DiagnoseBadInput, TwoReadingsAgainstEachOther) {
+  MeasuredGrid grid = session({}, 1);
+  grid.readings.push_back({"link_pitch_mm", "left", 6.350, 0.001});
+  grid.readings.push_back({"link_pitch_mm", "left", 6.370, 0.001});
+  expect_refused(grid,
+                 DiagnosisFailure::Reason::contradictory_settings,
+                 "two readings of link_pitch_mm contradict each other");
+}
+
+TEST(DiagnoseBadInput, ExchangedColumnsAreSuspected) {
+  MeasuredGrid grid = session({}, 3);
+  for (MeasuredPoint& p : grid.points) std::swap(p.lengths->left_mm, p.lengths->right_mm);
+  expect_refused(grid,
+                 DiagnosisFailure::Reason::contradictory_settings,
+                 "columns look exchanged: with that mended they are within");
+}
+
+TEST(DiagnoseBadInput, InchesAreSuspected) {
+  MeasuredGrid grid = session({}, 3);
+  for (MeasuredPoint& p : grid.points) {
+    p.lengths = model::ChainLengths{p.lengths->left_mm / 25.4, p.lengths->right_mm / 25.4};
+  }
+  expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings, "look like inches");
+}
+
+TEST(DiagnoseBadInput, AxesTurnedRoundAreSuspected) {
+  MeasuredGrid grid = session({}, 3);
+  for (MeasuredPoint& p : grid.points) p.mark.y_mm = -p.mark.y_mm;
+  expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings, "y axis looks turned");
+}
+
+TEST(DiagnoseBadInput, AnotherMachineAltogether) {
+  MeasuredGrid grid = session({}, 3);
+  for (MeasuredPoint& p : grid.points) {
+    // The right chain of another machine: what calibrating leads to is none.
+    p.lengths->right_mm = 5000.0 - p.lengths->right_mm;
+  }
+  expect_refused(grid,
+                 DiagnosisFailure::Reason::contradictory_settings,
+                 "no machine near the stated one fits these points");
+}
+
+/// Every effect, at a strength that leaves no doubt, named with its size inside four sigma.
+class EveryEffect : public testing::TestWithParam<const model::effects::Effect*> {};
+
+TEST_P(EveryEffect, IsFoundWithItsSize) {
+  const model::effects::Effect& effect = *GetParam();
+  const auto side = effect.sides.front();
+  std::vector<double> values = model::effects::nominal_values(effect);
+  if (!effect.parameters.front().integer) {
+    // About delta 25 on the 7 x 4 grid of the default machine, found from the usual size's
+    // strength.
+    synthetic::StrengthTable table(
+        model::Machine{}, synthetic::regular_session({}, 7, 4), StatedNoise{0.2, 0.3, 12.0});
+    const double factor = 25.0 / table.strength(effect, side).delta;
+    const double limit = effect.parameters.front().upper / values.front();
+    values.front() *= std::min(factor, 0.9 * limit);
+    if (table.strength(effect, side).delta * std::min(factor, 0.9 * limit) < 10.0) {
+      GTEST_SKIP() << effect.id << " never shows enough on this grid: calibration takes it up";
+    }
+  }
+  const auto applied = model::effects::applied(effect, side, values);
+  const auto answer = diagnose(session({applied}, 7), quick());
+  ASSERT_TRUE(answer) << answer.error().sentence;
+  SCOPED_TRACE(answer->sentence);
+  ASSERT_FALSE(answer->causes.empty());
+  const Cause& lead = answer->causes.front();
+  const auto is_it = [&](const CauseId& c) { return c.effect == &effect && c.side == side; };
+  const std::vector<ParameterEstimate>* found = is_it(lead.cause) ? &lead.parameters : nullptr;
+  for (const SameCause& same : lead.same_as) {
+    if (is_it(same.cause)) found = &same.parameters;
+  }
+  ASSERT_NE(found, nullptr);
+  const ParameterEstimate& size = found->front();
+  // Four sigma, and 1 % of the size for secants of effects that grow faster than linearly.
+  EXPECT_NEAR(size.value, values.front(), 4.0 * size.sigma + 0.01 * std::abs(values.front()));
+}
+
+std::string name_of_effect(const testing::TestParamInfo<const model::effects::Effect*>& info) {
+  return std::string(info.param->id);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue,
+                         EveryEffect,
+                         testing::ValuesIn(model::effects::catalogue().begin(),
+                                           model::effects::catalogue().end()),
+                         name_of_effect);
+
+TEST(Diagnose, ClassesComeFromTheSignatures) {
+  const auto made = make_session(session({}, 5));
+  ASSERT_TRUE(made);
+  const auto analysis = analyse(*made, quick());
+  ASSERT_TRUE(analysis);
+  const CauseId pitch{model::effects::find_effect("chain_pitch_error"),
+                      model::effects::EffectSide::both};
+  const CauseId tape{model::effects::find_effect("tape_scale"), model::effects::EffectSide::both};
+  for (const CauseClass& members : analysis->judgement.classes) {
+    const bool has = std::find(members.begin(), members.end(), pitch) != members.end();
+    if (!has) {
+      EXPECT_EQ(members.size(), 1u) << members.front().effect->id;
+      continue;
+    }
+    EXPECT_EQ(members, (CauseClass{pitch, tape}));
+  }
+}
+
+TEST(Diagnose, ALinkReadingPartsPitchFromTape) {
+  // 0.3 % on the paper; the links are read to be nominal.
+  MeasuredGrid grid = session({{"tape_scale", "both", {{"scale", 0.003}}}}, 9);
+  const auto before = diagnose(grid, quick());
+  ASSERT_TRUE(before);
+  ASSERT_EQ(before->verdict, Verdict::named) << before->sentence;
+  EXPECT_EQ(before->causes.front().cause.effect->id, "chain_pitch_error");
+  ASSERT_EQ(before->causes.front().same_as.size(), 1u);
+  EXPECT_TRUE(before->extended_machine.effects.empty()) << "not before somebody read the links";
+  grid.readings.push_back({"link_pitch_mm", "left", 6.350, 0.001});
+  grid.readings.push_back({"link_pitch_mm", "right", 6.350, 0.001});
+  const auto after = diagnose(grid, quick());
+  ASSERT_TRUE(after);
+  ASSERT_EQ(after->verdict, Verdict::named) << after->sentence;
+  EXPECT_EQ(after->causes.front().cause.effect->id, "tape_scale");
+  EXPECT_TRUE(after->extended_machine.effects.empty()) << "paper never goes into the machine";
+  ASSERT_EQ(after->data_corrections.size(), 1u);
+}
+
+TEST(Diagnose, WithoutOrderTheVisitsAreNotTestable) {
+  MeasuredGrid grid = session({}, 11);
+  for (MeasuredPoint& p : grid.points) p.order.reset();
+  const auto answer = diagnose(grid, quick());
+  ASSERT_TRUE(answer);
+  for (const char* id : {"drift", "tooth_skip", "link_miscount", "direction_hysteresis"}) {
+    const auto said = std::count_if(answer->not_testable.begin(),
+                                    answer->not_testable.end(),
+                                    [&](const NotTestable& n) { return n.cause.effect->id == id; });
+    EXPECT_EQ(said, static_cast<std::ptrdiff_t>(model::effects::find_effect(id)->sides.size()))
+        << id;
+    EXPECT_TRUE(std::none_of(answer->bounds.begin(), answer->bounds.end(), [&](const Bound& b) {
+      return b.cause.effect->id == id;
+    })) << "not testable is not absent";
+  }
+}
+
+TEST(Diagnose, PointsInAnotherOrderGiveTheSameBytes) {
+  MeasuredGrid grid = session({{"chain_sag", "", {{"relative_weight", 0.4}}}}, 13);
+  const auto one = diagnose(grid, quick());
+  std::reverse(grid.points.begin(), grid.points.end());
+  const auto other = diagnose(grid, quick());
+  ASSERT_TRUE(one);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(one->sentence, other->sentence);
+  ASSERT_EQ(one->hypotheses.size(), other->hypotheses.size());
+  for (std::size_t k = 0; k < one->hypotheses.size(); ++k) {
+    EXPECT_EQ(one->hypotheses[k].probability, other->hypotheses[k].probability) << k;
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The closed forms of the contest against brute force: numerical integrals over settings, sizes and
+// noise, densities that integrate to one, and the score's distribution under noise alone.
+#include "grid/diagnosis/evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "grid/diagnosis/normal.hpp"
+#include "grid/diagnosis/null_distribution.hpp"
+#include "grid/synthetic/random.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr double kDof = 12.0;
+
+/// Six rows, one setting, one cause: small enough for an integral over everything.
+Rows small_rows(double lowest) {
+  Rows rows;
+  rows.e.resize(6);
+  rows.e << 1.2, -0.4, 2.1, 0.3, -1.7, 0.9;
+  rows.by_setting.resize(6, 1);
+  rows.by_setting.col(0) << 0.5, 0.4, 0.6, 0.5, 0.3, 0.2;
+  rows.g.resize(6, 1);
+  rows.g.col(0) << 1.0, -0.5, 1.5, 0.2, -1.0, 0.7;
+  rows.points.resize(3);
+  rows.setting = Eigen::VectorXd::Zero(1);
+  rows.expected_change = Eigen::VectorXd::Constant(1, 0.4);
+  rows.sigma = Eigen::VectorXd::Constant(1, 2.0);
+  Direction direction;
+  direction.cause = {model::effects::find_effect("chain_stretch"),
+                     model::effects::EffectSide::none};
+  direction.values = {1.0};
+  direction.lowest = lowest;
+  direction.highest = 100.0;
+  rows.directions = {direction};
+  return rows;
+}
+
+double log_normal_density(double x, double mean, double sigma) {
+  const double z = (x - mean) / sigma;
+  return -0.5 * z * z - std::log(sigma) - 0.5 * std::log(2.0 * std::numbers::pi);
+}
+
+/// p(e) with setting, size and noise integrated on a raster. Priors scale with the noise, as the
+/// conjugate form has it.
+double brute_force_at(const Rows& rows, const Space& space, double lowest, bool with_cause,
+                      double delta_sigma) {
+  const double size_sigma = delta_sigma / space.g.col(0).norm();
+  double total = 0.0;
+  const double step_u = 0.05;
+  for (double u = -3.0; u <= 3.0; u += step_u) {  // u = log of the noise's square
+    const double square = std::exp(u);
+    // Scaled inverse chi^2 about each anchor, as a density in u.
+    double prior = 0.0;
+    const auto part = [&](double scale) {
+      const double anchor = kDof * scale * scale;
+      return std::exp(0.5 * kDof * std::log(0.5 * anchor) - std::lgamma(0.5 * kDof) -
+                      0.5 * kDof * u - 0.5 * anchor / square);
+    };
+    prior += (1.0 - kLargerNoisePrior) * part(1.0);
+    for (const double scale : kLargerNoise) {
+      prior += kLargerNoisePrior / std::size(kLargerNoise) * part(scale);
+    }
+    const double s = std::sqrt(square);
+    double inner = 0.0;
+    const int steps = 240;
+    for (int i = 0; i < steps; ++i) {
+      const double z = -6.0 + 12.0 * (i + 0.5) / steps;
+      const double theta = rows.expected_change(0) + rows.sigma(0) * s * z;
+      const double weight_theta = std::exp(log_normal_density(z, 0.0, 1.0)) * 12.0 / steps;
+      const int sizes = with_cause ? steps : 1;
+      for (int k = 0; k < sizes; ++k) {
+        double beta = 0.0;
+        double weight = weight_theta;
+        if (with_cause) {
+          const double y = -6.0 + 12.0 * (k + 0.5) / steps;
+          beta = size_sigma * s * y;
+          if (beta < lowest) continue;
+          weight *= std::exp(log_normal_density(y, 0.0, 1.0)) * 12.0 / steps;
+        }
+        const Eigen::VectorXd left = rows.e - rows.by_setting.col(0) * theta - rows.g.col(0) * beta;
+        inner += weight * std::exp(-0.5 * left.squaredNorm() / square) *
+                 std::pow(2.0 * std::numbers::pi * square, -3.0);
+      }
+    }
+    // A one-sided size has its prior's whole mass on that side.
+    if (with_cause && lowest == 0.0) inner *= 2.0;
+    total += prior * inner * step_u;
+  }
+  return total;
+}
+
+double brute_force(const Rows& rows, const Space& space, double lowest, bool with_cause) {
+  return std::log(
+      (1.0 - kWideDeltaPrior) * brute_force_at(rows, space, lowest, with_cause, kUsualDelta) +
+      kWideDeltaPrior * brute_force_at(rows, space, lowest, with_cause, kWideDelta));
+}
+
+TEST(Evidence, OfNothingEqualsTheIntegral) {
+  const Rows rows = small_rows(-100.0);
+  const Space space = make_space(rows, {false, false, false}, {});
+  const Metric metric = plain_metric(space, {0});
+  const NoiseDensity noise(kDof, 6);
+  const double closed = set_evidence(metric, rows.directions, {}, noise).log_evidence;
+  EXPECT_NEAR(closed, brute_force(rows, space, -100.0, false), 2e-4)  // raster of 240 by 120
+      << "settings integrated in closed form";
+}
+
+TEST(Evidence, OfACauseEqualsTheIntegral) {
+  for (const double lowest : {-100.0, 0.0}) {
+    const Rows rows = small_rows(lowest);
+    const Space space = make_space(rows, {false, false, false}, {});
+    const Metric metric = plain_metric(space, {0});
+    const NoiseDensity noise(kDof, 6);
+    const std::array<Eigen::Index, 1> set = {0};
+    const double closed = set_evidence(metric, rows.directions, set, noise).log_evidence;
+    // Where the size is cut at zero the closed form takes the noise at its mean for the cut alone.
+    const double tolerance = lowest == 0.0 ? 0.02 : 2e-3;
+    EXPECT_NEAR(closed, brute_force(rows, space, lowest, true), tolerance) << "from " << lowest;
+  }
+}
+
+TEST(Evidence, DensityIntegratesToOne) {
+  const NoiseDensity noise(kDof, 1);
+  double sum = 0.0;
+  const double step = 0.01;
+  for (double e = -200.0; e <= 200.0; e += step) sum += std::exp(noise.log_density(e * e)) * step;
+  EXPECT_NEAR(sum, 1.0, 1e-6);  // tails of t with 12 dof beyond 200 sigma are below 1e-12
+}
+
+TEST(Evidence, NoiseSquareIsTheMeanOfThePosterior) {
+  const NoiseDensity noise(kDof, 40);
+  // Far from the anchors of larger noise the conjugate mean holds alone.
+  EXPECT_NEAR(noise.noise_square(20.0), (kDof + 20.0) / (40.0 + kDof - 2.0), 0.02);
+  EXPECT_GT(noise.larger_share(400.0), 0.9);
+  EXPECT_LT(noise.larger_share(40.0), 0.1);
+}
+
+TEST(Evidence, MassOfTheNormalAddsUp) {
+  for (const double a : {-30.0, -3.0, 0.0, 2.0, 20.0}) {
+    const double b = a + 1.5;
+    const double c = b + 4.0;
+    const double parts = std::exp(log_normal_mass(a, b) - log_normal_mass(a, c)) +
+                         std::exp(log_normal_mass(b, c) - log_normal_mass(a, c));
+    EXPECT_NEAR(parts, 1.0, 1e-3) << a;  // the tail's series beyond 25 sigma: 3 / z^4
+    EXPECT_DOUBLE_EQ(log_normal_mass(a, b), log_normal_mass(-b, -a));
+  }
+}
+
+TEST(Evidence, QuadraticIsThatOfGeneralisedLeastSquares) {
+  const Rows rows = small_rows(-100.0);
+  const Space space = make_space(rows, {false, true, false}, {});
+  const std::vector<Eigen::Index> kept = {0, 1, 4, 5};
+  ASSERT_EQ(space.kept, kept);
+  const Eigen::VectorXd a = rows.by_setting(kept, 0);
+  const Eigen::MatrixXd v = Eigen::MatrixXd::Identity(4, 4) + 4.0 * a * a.transpose();
+  const Eigen::VectorXd r = rows.e(kept) - 0.4 * a;
+  EXPECT_NEAR(space.e.squaredNorm(), r.dot(v.inverse() * r), 1e-12);  // rounding
+  EXPECT_NEAR(space.log_det, std::log(v.determinant()), 1e-12);       // rounding
+  EXPECT_NEAR(space.g.col(0).dot(space.e), rows.g.col(0)(kept).dot(v.inverse() * r), 1e-12);
+}
+
+TEST(NullDistribution, HoldsItsSize) {
+  const Rows rows = small_rows(0.0);
+  const Space space = make_space(rows, {false, false, false}, {});
+  const SingleScore score(rows, space, kDof);
+  const NullDistribution null = draw_null(score, 6, 4000, 1);
+  synthetic::Random random(20261121);
+  SCOPED_TRACE("seed 20261121");
+  int below = 0;
+  constexpr int kSets = 4000;
+  for (int set = 0; set < kSets; ++set) {
+    Eigen::VectorXd e(6);
+    for (Eigen::Index i = 0; i < 6; ++i) e(i) = random.normal();
+    if (null.p_value(score.by_cause(e).maxCoeff()) < 0.05) ++below;
+  }
+  // 200 expected; both sides' draws have a standard deviation of 14: four of the difference.
+  EXPECT_NEAR(below, 200, 80);
+  EXPECT_GT(null.p_value(1e9), 0.0) << "never certain";
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis

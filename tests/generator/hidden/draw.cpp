@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/hidden/draw.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "generator/hidden/grid_text.hpp"
+
+namespace chaintrue::generator {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+constexpr std::pair<Mix, std::string_view> kMixes[] = {
+    {Mix::single, "single"},
+    {Mix::nothing, "nothing"},
+    {Mix::heavy, "heavy"},
+    {Mix::wrong_noise, "wrong_noise"},
+    {Mix::uneven_noise, "uneven_noise"},
+    {Mix::two, "two"},
+    {Mix::three, "three"},
+    {Mix::unlisted, "unlisted"},
+    {Mix::bad_points, "bad_points"},
+    {Mix::bad_points_and_effect, "bad_points_and_effect"},
+    {Mix::no_order, "no_order"},
+    {Mix::rounded, "rounded"},
+};
+
+/// Interval of delta, drawn log-uniformly.
+struct Range {
+  double from = 6.0;
+  double to = 22.0;
+};
+
+/// An effect with the strength that it has in the data.
+struct Sized {
+  Hidden hidden;
+  double delta = 0.0;
+  Signature signature;
+};
+
+TrueMachine stated_machine(const Recipe& recipe, Dice& dice) {
+  TrueMachine m;
+  if (!recipe.other_machines) return m;
+  const double half = std::round(dice.uniform(1400.0, 1750.0));
+  const double up = std::round(dice.uniform(1000.0, 1350.0));
+  m.axis = {{{-half, up}, {half, up}}};
+  m.over_top = dice.uniform() < 0.6;
+  m.ring_radius_mm = std::round(10.0 * dice.uniform(70.0, 180.0)) / 10.0;
+  m.sled_mass_kg = std::round(10.0 * dice.uniform(8.0, 15.0)) / 10.0;
+  m.tilt_from_vertical_deg = std::round(dice.uniform(5.0, 20.0));
+  m.chain_mass_kg_per_m = 0.001 * std::round(dice.uniform(125.0, 150.0));
+  return m;
+}
+
+TrueMachine with_settings_off(TrueMachine m, double factor, Dice& dice) {
+  for (Vec2& axis : m.axis) {
+    axis.x += 1.5 * factor * dice.normal();
+    axis.y += 1.5 * factor * dice.normal();
+  }
+  for (double& zero : m.chain_zero_mm) zero += 0.5 * factor * dice.normal();
+  return m;
+}
+
+// The size that gives the wanted delta: the secant of log delta over log size, which is straight
+// for most effects.
+std::optional<Sized> sized(const Yardstick& yardstick, Hidden effect, double wanted) {
+  const CauseCard& c = card(effect.cause);
+  const double sign = effect.size < 0.0 ? -1.0 : 1.0;
+  const double bound = sign > 0.0 ? c.upper : -c.lower;
+  double size = std::min(c.usual, 0.5 * bound);
+  double slope = effect.cause == Cause::chain_plane_offset ? 2.0 : 1.0;
+  double last_log_size = 0.0, last_log_delta = 0.0;
+  for (int n = 0; n < 25; ++n) {
+    effect.size = sign * size;
+    const Hidden one[] = {effect};
+    const auto signature = yardstick.signature(one);
+    if (!signature) return std::nullopt;
+    const double delta = signature->norm();
+    if (!(delta > 1e-9)) return std::nullopt;
+    if (std::abs(delta / wanted - 1.0) < 1e-3) return Sized{effect, delta, *signature};
+    const double log_size = std::log(size), log_delta = std::log(delta);
+    if (n > 0 && std::abs(log_size - last_log_size) > 1e-12) {
+      slope = std::clamp((log_delta - last_log_delta) / (log_size - last_log_size), 0.3, 4.0);
+    }
+    last_log_size = log_size;
+    last_log_delta = log_delta;
+    const double step = std::clamp((std::log(wanted) - log_delta) / slope, -2.5, 2.5);
+    // A step that would leave the catalogue's bounds stops at them once; beyond, there is no size.
+    const double next = size * std::exp(step);
+    if (next > bound) {
+      if (size >= bound) return std::nullopt;
+      size = bound;
+    } else {
+      size = next;
+    }
+  }
+  return std::nullopt;
+}
+
+// Whole links: any of the pairs whose delta is in range, each as likely.
+std::optional<Sized> whole_links(const Yardstick& yardstick,
+                                 Hidden effect,
+                                 Range range,
+                                 Dice& dice) {
+  std::vector<Sized> fitting;
+  const int last = yardstick.visits().back().number;
+  const int first = effect.cause == Cause::tooth_skip ? 1 : 0;
+  for (int visit = first; visit <= last; ++visit) {
+    for (int links = 1; links <= 3; ++links) {
+      effect.place = visit;
+      effect.size = links;
+      const Hidden one[] = {effect};
+      auto signature = yardstick.signature(one);
+      if (!signature) return std::nullopt;
+      const double delta = signature->norm();
+      if (delta < range.from || delta > range.to) continue;
+      fitting.push_back({effect, delta, *signature});
+    }
+  }
+  if (fitting.empty()) return std::nullopt;
+  Sized chosen = fitting[dice.below(fitting.size())];
+  const double sign = dice.sign();
+  chosen.hidden.size *= sign;
+  chosen.signature *= sign;
+  return chosen;
+}
+
+// Side and place drawn anew up to 30 times before the effect is given up.
+std::optional<Sized> draw_effect(const Yardstick& yardstick, Cause cause, Range range, Dice& dice) {
+  const CauseCard& c = card(cause);
+  for (int n = 0; n < 30; ++n) {
+    Hidden effect{cause, c.sides[dice.below(c.sides.size())], 0.0, 0.0};
+    if (c.whole) {
+      // A single wanted strength: whole links come near it at best.
+      const Range near = range.from == range.to ? Range{0.87 * range.from, 1.15 * range.to} : range;
+      if (auto found = whole_links(yardstick, effect, near, dice)) return found;
+      continue;
+    }
+    effect.size = c.lower < 0.0 ? dice.sign() : 1.0;
+    if (c.place == Place::phase) effect.place = dice.uniform(-kPi, kPi);
+    if (c.place == Place::angle) {
+      const auto seen = yardstick.angles(effect.where == Where::left ? 0 : 1);
+      const auto n_seen = static_cast<double>(seen.size());
+      const double from = seen[static_cast<std::size_t>(0.10 * n_seen)];
+      const double to = seen[static_cast<std::size_t>(0.85 * n_seen)];
+      effect.place = dice.uniform(from, to);
+    }
+    const double wanted =
+        range.from == range.to ? range.from : dice.log_uniform(range.from, range.to);
+    if (auto found = sized(yardstick, effect, wanted)) return found;
+  }
+  return std::nullopt;
+}
+
+// Effects that are not each other's likeness, each with a strength of its own.
+std::vector<Sized> draw_effects(
+    const Yardstick& yardstick, const Recipe& recipe, std::size_t count, Range range, Dice& dice) {
+  for (int n = 0; n < 300; ++n) {
+    std::vector<Sized> chosen;
+    while (chosen.size() < count) {
+      const Cause cause =
+          recipe.cause && chosen.empty() ? *recipe.cause : static_cast<Cause>(dice.below(kCauses));
+      auto next = draw_effect(yardstick, cause, range, dice);
+      if (!next) break;
+      const bool alike = std::any_of(chosen.begin(), chosen.end(), [&](const Sized& other) {
+        return other.hidden.cause == next->hidden.cause ||
+               std::abs(other.signature.dot(next->signature)) >= 0.85 * other.delta * next->delta;
+      });
+      if (alike) break;
+      chosen.push_back(std::move(*next));
+    }
+    if (chosen.size() == count) return chosen;
+  }
+  throw std::runtime_error("draw_effects: no effect of the catalogue fits the recipe");
+}
+
+bool same_class(const Hidden& h, const Rival& r) {
+  if (h.cause == r.cause && h.where == r.where) return true;
+  const auto uniform = [](Cause cause, Where where) {
+    return (cause == Cause::tape_scale || cause == Cause::chain_pitch_error) &&
+           where == Where::both;
+  };
+  return uniform(h.cause, h.where) && uniform(r.cause, r.where);
+}
+
+void note_rival(const Yardstick& yardstick, const Sized& truth, Answer& answer) {
+  for (const Rival& r : yardstick.rivals()) {
+    if (same_class(truth.hidden, r)) continue;
+    const double rho = likeness(truth.signature, r);
+    if (rho <= answer.nearest_rho) continue;
+    answer.nearest_rho = rho;
+    answer.nearest = r.cause;
+    answer.nearest_where = r.where;
+  }
+  answer.separable = truth.delta >= strength_to_separate(answer.nearest_rho);
+}
+
+// Scaled so that what the catalogue cannot explain has a delta of 10 to 20.
+void draw_unlisted(const Yardstick& yardstick, Answer& answer, Dice& dice) {
+  const auto rivals = yardstick.rivals();
+  for (int n = 0; n < 200; ++n) {
+    Unlisted u = draw_oddity(static_cast<Oddity>(dice.below(kOddities)), dice);
+    std::vector<Vec2> shifts;
+    for (const Visit& v : yardstick.visits()) shifts.push_back(shift(u, v.place));
+    const Signature s = yardstick.signature_of_shifts(shifts);
+    const double whole = s.norm();
+    double best = 0.0;
+    for (const Rival& r : rivals) best = std::max(best, likeness(s, r));
+    const double left = whole * std::sqrt(std::max(0.0, 1.0 - best * best));
+    if (!(left > 1e-3)) continue;
+    u.size_mm = dice.log_uniform(10.0, 20.0) / left;
+    // More than this is no longer overlooked.
+    if (u.size_mm > 12.0) continue;
+    answer.unlisted = u;
+    answer.left_over_delta = left * u.size_mm;
+    answer.whole_delta = whole * u.size_mm;
+    return;
+  }
+  throw std::runtime_error("draw_unlisted: nothing fits");
+}
+
+std::vector<Visit> true_visits(const std::vector<PlannedVisit>& planned, Dice& dice) {
+  std::vector<Visit> visits;
+  for (const PlannedVisit& p : planned) {
+    const double beside = p.repeat ? 2.0 : 8.0;
+    visits.push_back(
+        {{p.place.x + dice.uniform(-beside, beside), p.place.y + dice.uniform(-beside, beside)},
+         static_cast<int>(visits.size())});
+  }
+  return visits;
+}
+
+std::vector<HiddenMachine::Note> written_down(const Recipe& recipe,
+                                              const std::vector<Visit>& visits,
+                                              const std::vector<Lengths>& exact,
+                                              const std::vector<Hidden>& hidden,
+                                              NoiseLevel noise,
+                                              Dice& dice) {
+  const bool heavy = recipe.kind == Mix::heavy;
+  const double towards = dice.uniform(-kPi, kPi);
+  const auto draw = [&] { return heavy ? dice.heavy_tailed() : dice.normal(); };
+  const auto rounded = [&](double value) {
+    return recipe.kind == Mix::rounded ? 0.5 * std::round(2.0 * value) : value;
+  };
+  std::vector<HiddenMachine::Note> notes;
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    const Vec2 p = visits[i].place;
+    double factor = 1.0;
+    if (recipe.kind == Mix::uneven_noise) {
+      const double along = (p.x / 1200.0 * std::cos(towards) + p.y / 600.0 * std::sin(towards)) /
+                           std::numbers::sqrt2;
+      factor = 1.0 + 2.0 * std::max(0.0, along);
+    }
+    const Vec2 mark = written(p, hidden);
+    HiddenMachine::Note note;
+    note.number = visits[i].number;
+    note.mark.x = rounded(mark.x + factor * noise.position_mm * draw());
+    note.mark.y = rounded(mark.y + factor * noise.position_mm * draw());
+    for (std::size_t c = 0; c < 2; ++c) {
+      note.lengths[c] = rounded(exact[i][c] + factor * noise.length_mm * draw());
+    }
+    notes.push_back(note);
+  }
+  return notes;
+}
+
+// A tenth of the points, slips of 8 to 20 mm in any direction, never more than one at a mark.
+void slip(std::vector<HiddenMachine::Note>& notes, Answer& answer, Dice& dice) {
+  const std::size_t count = (notes.size() + 5) / 10;
+  while (answer.bad_points.size() < count) {
+    const std::size_t i = dice.below(notes.size());
+    const auto near = [&](std::size_t k) {
+      return std::hypot(notes[k].mark.x - notes[i].mark.x, notes[k].mark.y - notes[i].mark.y) <
+             50.0;
+    };
+    if (std::any_of(answer.bad_points.begin(), answer.bad_points.end(), near)) continue;
+    answer.bad_points.push_back(i);
+    const double far = dice.uniform(8.0, 20.0), angle = dice.uniform(-kPi, kPi);
+    notes[i].mark.x += far * std::cos(angle);
+    notes[i].mark.y += far * std::sin(angle);
+  }
+  std::sort(answer.bad_points.begin(), answer.bad_points.end());
+}
+
+std::size_t effects_in(Mix mix) {
+  switch (mix) {
+    case Mix::single:
+    case Mix::no_order:
+    case Mix::rounded:
+    case Mix::bad_points_and_effect:
+      return 1;
+    case Mix::two:
+      return 2;
+    case Mix::three:
+      return 3;
+    default:
+      return 0;
+  }
+}
+
+Range range_of(const Recipe& recipe) {
+  if (recipe.delta) return {*recipe.delta, *recipe.delta};
+  if (recipe.kind == Mix::three) return {12.0, 22.0};
+  if (recipe.kind == Mix::bad_points_and_effect) return {12.0, 12.0};
+  return {};
+}
+
+}  // namespace
+
+std::string_view word(Mix mix) {
+  for (const auto& [value, name] : kMixes) {
+    if (value == mix) return name;
+  }
+  return "";
+}
+
+std::optional<Mix> mix_of(std::string_view text) {
+  for (const auto& [value, name] : kMixes) {
+    if (name == text) return value;
+  }
+  return std::nullopt;
+}
+
+SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
+  Dice machine_dice(seed, "machine"), order_dice(seed, "order"), place_dice(seed, "places");
+  Dice effect_dice(seed, "effects"), noise_dice(seed, "noise"), slip_dice(seed, "slips");
+  const TrueMachine stated = stated_machine(recipe, machine_dice);
+  const TrueMachine truth = with_settings_off(stated, recipe.settings_off, machine_dice);
+
+  Answer answer;
+  const auto drawn_order = static_cast<Order>(order_dice.below(kOrders));
+  answer.order = recipe.order.value_or(drawn_order);
+  Layout layout = layout_of(recipe.points);
+  layout.extent = recipe.extent;
+  const auto visits = true_visits(plan_visits(layout, answer.order, order_dice), place_dice);
+
+  const NoiseLevel noise;
+  const auto yardstick = Yardstick::make(truth, visits, noise, {});
+  if (!yardstick) throw std::runtime_error("draw_set: the machine cannot reach its own bed");
+  if (!recipe.exactly.empty()) {
+    answer.hidden = recipe.exactly;
+    for (const Hidden& h : recipe.exactly) {
+      const Hidden one[] = {h};
+      const auto signature = yardstick->signature(one);
+      if (!signature) throw std::runtime_error("draw_set: the machine cannot take an effect");
+      answer.delta.push_back(signature->norm());
+    }
+  } else if (const std::size_t count = effects_in(recipe.kind); count > 0) {
+    const auto effects = draw_effects(*yardstick, recipe, count, range_of(recipe), effect_dice);
+    for (const Sized& s : effects) {
+      answer.hidden.push_back(s.hidden);
+      answer.delta.push_back(s.delta);
+    }
+    note_rival(*yardstick, effects.front(), answer);
+  }
+  if (recipe.kind == Mix::unlisted) draw_unlisted(*yardstick, answer, effect_dice);
+
+  HiddenMachine machine(stated, truth, answer.hidden);
+  if (answer.unlisted) machine.suffers(*answer.unlisted);
+  machine.went_to(visits);
+  const auto exact = machine.exact(visits);
+  if (!exact) throw std::runtime_error("draw_set: the hidden machine cannot reach a mark");
+  auto notes = written_down(recipe, visits, *exact, answer.hidden, noise, noise_dice);
+  const bool slips = recipe.kind == Mix::bad_points || recipe.kind == Mix::bad_points_and_effect;
+  if (slips) slip(notes, answer, slip_dice);
+
+  WrittenGrid grid;
+  grid.stated = stated;
+  grid.stated_noise = noise;
+  if (recipe.kind == Mix::wrong_noise) {
+    answer.noise_ratio = noise_dice.log_uniform(0.7, 1.5);
+    grid.stated_noise = {noise.length_mm * answer.noise_ratio,
+                         noise.position_mm * answer.noise_ratio};
+  }
+  grid.with_order = recipe.kind != Mix::no_order;
+  grid.notes = std::move(notes);
+  std::string text = grid_text(grid);
+  return {std::move(text), std::move(answer), std::move(machine), noise, std::move(grid.notes)};
+}
+
+}  // namespace chaintrue::generator

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The catalogue written down a second time, from its description alone: what each effect does to
+/// a reading, and in which order. The bounds are those of the product's catalogue (a test compares
+/// them), everything else is the hidden side's own.
+///
+///   reading = (L0 + plane + eccentricity + kink + hysteresis) / (1 + e) + zero + drift + links
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "generator/hidden/rest.hpp"
+
+namespace chaintrue::generator {
+
+enum class Cause {
+  tape_scale,
+  axes_skew,
+  ring_radius,
+  sprocket_radius,
+  chain_sag,
+  chain_stretch,
+  beam_flex,
+  side_pull,
+  chain_plane_offset,
+  sprocket_eccentricity,
+  angular_kink,
+  direction_hysteresis,
+  chain_pitch_error,
+  drift,
+  tooth_skip,
+  link_miscount,
+};
+inline constexpr std::size_t kCauses = 16;
+
+enum class Where { nowhere, left, right, both, x, y };
+[[nodiscard]] std::string_view word(Where where);
+
+/// What a second parameter counts.
+enum class Place { none, phase, angle, visit };
+
+struct CauseCard {
+  Cause cause;
+  std::string_view id;
+  std::string_view size_name;
+  double lower, upper;
+  double usual;
+  std::string_view place_name;
+  Place place;
+  bool whole;  ///< links
+  bool alters_machine;
+  bool needs_order;
+  std::vector<Where> sides;
+};
+[[nodiscard]] const std::array<CauseCard, kCauses>& cards();
+[[nodiscard]] const CauseCard& card(Cause cause);
+
+/// One effect at work; `place` where its card has one.
+struct Hidden {
+  Cause cause = Cause::tape_scale;
+  Where where = Where::nowhere;
+  double size = 0.0;
+  double place = 0.0;
+};
+
+/// The tool's place at a visit, and the visit's number.
+struct Visit {
+  Vec2 place;
+  int number = 0;
+};
+
+using Lengths = std::array<double, 2>;
+
+[[nodiscard]] TrueMachine altered(TrueMachine machine, std::span<const Hidden> effects);
+/// What is written beside a mark that truly is at `place`.
+[[nodiscard]] Vec2 written(Vec2 place, std::span<const Hidden> effects);
+/// Where the mark truly is beside which this is written.
+[[nodiscard]] Vec2 place_of(Vec2 written_mark, std::span<const Hidden> effects);
+
+/// Every visit at rest; nothing where one cannot be reached. `near` holds neighbours' rests.
+[[nodiscard]] std::optional<std::vector<Rest>> rests(const TrueMachine& machine,
+                                                     std::span<const Visit> visits,
+                                                     const std::vector<Rest>* near = nullptr);
+/// Readings of a session whose rests (with every machine effect on) are known. The visits stand in
+/// rising order of their numbers.
+[[nodiscard]] std::vector<Lengths> readings(const TrueMachine& machine,
+                                            std::span<const Hidden> effects,
+                                            std::span<const Visit> visits,
+                                            const std::vector<Rest>& at_rest);
+
+}  // namespace chaintrue::generator

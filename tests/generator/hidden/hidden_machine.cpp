@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <utility>
+
+#include "generator/hidden/draw.hpp"
+
+namespace chaintrue::generator {
+
+HiddenMachine::HiddenMachine(TrueMachine stated, TrueMachine truth, std::vector<Hidden> hidden)
+    : stated_(stated), truth_(truth), hidden_(std::move(hidden)) {}
+
+std::optional<std::vector<Lengths>> HiddenMachine::exact(std::span<const Visit> visits) const {
+  const TrueMachine with = altered(truth_, hidden_);
+  std::vector<Visit> where(visits.begin(), visits.end());
+  if (unlisted_) {
+    for (Visit& v : where) {
+      const Vec2 d = shift(*unlisted_, v.place);
+      v.place = {v.place.x + d.x, v.place.y + d.y};
+    }
+  }
+  const auto at_rest = rests(with, where);
+  if (!at_rest) return std::nullopt;
+  return readings(with, hidden_, where, *at_rest);
+}
+
+std::optional<HiddenMachine::Note> HiddenMachine::measure(Vec2 mark, NoiseLevel noise, Dice& dice) {
+  const int number = visits_.empty() ? 0 : visits_.back().number + 1;
+  std::vector<Visit> all = visits_;
+  all.push_back({place_of(mark, hidden_), number});
+  const auto read = exact(all);
+  if (!read) return std::nullopt;
+  visits_ = std::move(all);
+  Note note;
+  note.number = number;
+  note.mark = {mark.x + noise.position_mm * dice.normal(),
+               mark.y + noise.position_mm * dice.normal()};
+  for (std::size_t c = 0; c < 2; ++c) {
+    note.lengths[c] = read->back()[c] + noise.length_mm * dice.normal();
+  }
+  return note;
+}
+
+std::optional<HiddenMachine::Reading> HiddenMachine::read(std::string_view what,
+                                                          std::string_view side,
+                                                          Dice& dice) const {
+  const TrueMachine with = altered(truth_, hidden_);
+  const auto noisy = [&](double value, double sigma) {
+    return Reading{value + sigma * dice.normal(), sigma};
+  };
+  if (what == "motor_spacing_mm") return noisy(with.axis[1].x - with.axis[0].x, 1.0);
+  if (what == "beam_rise_mm") return noisy(with.axis[1].y - with.axis[0].y, 1.0);
+  if (what == "ring_radius_mm") return noisy(with.ring_radius_mm, 0.3);
+  if (what == "sled_mass_kg") return noisy(with.sled_mass_kg, 0.1);
+  if (what == "chain_mass_kg_per_m") return noisy(with.chain_mass_kg_per_m, 0.002);
+  if (what == "link_pitch_mm") {
+    const std::size_t chain = side == "right" ? 1 : 0;
+    double elongation = 0.0;
+    for (const Hidden& e : hidden_) {
+      if (e.cause != Cause::chain_pitch_error) continue;
+      const bool other =
+          (e.where == Where::left && chain == 1) || (e.where == Where::right && chain == 0);
+      if (!other) elongation += e.size;
+    }
+    return noisy(with.pitch_mm * (1.0 + elongation), 0.001);
+  }
+  return std::nullopt;
+}
+
+std::vector<Visit> fresh_session(const HiddenMachine& machine, double beside_mm, Dice& dice) {
+  std::vector<Visit> fresh = machine.visits();
+  const TrueMachine with = altered(machine.truth(), machine.hidden());
+  for (Visit& v : fresh) {
+    const Vec2 place{std::clamp(v.place.x + dice.uniform(-beside_mm, beside_mm), -1200.0, 1200.0),
+                     std::clamp(v.place.y + dice.uniform(-beside_mm, beside_mm), -600.0, 600.0)};
+    if (come_to_rest(with, place)) v.place = place;
+  }
+  return fresh;
+}
+
+}  // namespace chaintrue::generator

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/hidden/session.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace chaintrue::generator {
+
+std::string_view word(Order order) {
+  constexpr std::string_view kWords[] = {
+      "rows", "columns", "serpentine_rows", "serpentine_columns", "random"};
+  return kWords[static_cast<std::size_t>(order)];
+}
+
+Layout layout_of(int points) {
+  Layout layout;
+  if (points == 28) return layout;
+  if (points == 60) {
+    layout.columns = 10;
+    layout.rows = 6;
+  } else if (points == 117) {
+    layout.columns = 13;
+    layout.rows = 9;
+  } else {
+    throw std::invalid_argument("layout_of: " + std::to_string(points) + " marks");
+  }
+  return layout;
+}
+
+std::vector<PlannedVisit> plan_visits(const Layout& layout, Order order, Dice& dice) {
+  const bool by_rows = order == Order::rows || order == Order::serpentine_rows;
+  const bool serpentine = order == Order::serpentine_rows || order == Order::serpentine_columns;
+  const int outer = by_rows ? layout.rows : layout.columns;
+  const int inner = by_rows ? layout.columns : layout.rows;
+  std::vector<PlannedVisit> marks;
+  for (int o = 0; o < outer; ++o) {
+    for (int k = 0; k < inner; ++k) {
+      const int i = serpentine && o % 2 == 1 ? inner - 1 - k : k;
+      const int column = by_rows ? i : o;
+      const int row = by_rows ? o : i;
+      const bool edge_column = column == 0 || column == layout.columns - 1;
+      const bool edge_row = row == 0 || row == layout.rows - 1;
+      if (layout.extent == Extent::without_corners && edge_column && edge_row) continue;
+      if (layout.extent == Extent::left_side && 2 * column > layout.columns) continue;
+      const double u = 2.0 * column / (layout.columns - 1) - 1.0;
+      const double v = 2.0 * row / (layout.rows - 1) - 1.0;
+      marks.push_back({{u * layout.half_width_mm, v * layout.half_height_mm}, 0, false});
+    }
+  }
+  if (order == Order::random) dice.shuffle(marks);
+  for (std::size_t i = 0; i < marks.size(); ++i) marks[i].mark = i;
+
+  // The k-th repeat comes once (k + 1) / (repeats + 1) of the marks are done, the last at the end.
+  std::vector<PlannedVisit> visits;
+  const auto repeats = static_cast<std::size_t>(layout.repeats);
+  std::vector<bool> taken(marks.size(), false);
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < repeats; ++k) {
+    const std::size_t done = std::max<std::size_t>(k + 1, (k + 1) * marks.size() / repeats);
+    while (next < done) visits.push_back(marks[next++]);
+    std::size_t again = dice.below(done);
+    while (taken[again]) again = dice.below(done);
+    taken[again] = true;
+    PlannedVisit repeat = marks[again];
+    repeat.repeat = true;
+    visits.push_back(repeat);
+  }
+  while (next < marks.size()) visits.push_back(marks[next++]);
+  return visits;
+}
+
+}  // namespace chaintrue::generator

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Where a person puts marks and in which order they are visited, repeats included.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "generator/hidden/effects.hpp"
+#include "generator/hidden/random.hpp"
+
+namespace chaintrue::generator {
+
+enum class Order { rows, columns, serpentine_rows, serpentine_columns, random };
+inline constexpr std::size_t kOrders = 5;
+[[nodiscard]] std::string_view word(Order order);
+
+/// Part of the bed that carries marks.
+enum class Extent { whole, without_corners, left_side };
+
+struct Layout {
+  int columns = 7;
+  int rows = 4;
+  double half_width_mm = 1200.0;
+  double half_height_mm = 600.0;
+  Extent extent = Extent::whole;
+  int repeats = 6;
+};
+/// 28, 60 or 117 marks. \throws std::invalid_argument for another number.
+[[nodiscard]] Layout layout_of(int points);
+
+/// Marks in visiting order, numbered from 0; the repeats are marks seen before, spread evenly over
+/// the session. `mark` says which one a visit returns to.
+struct PlannedVisit {
+  Vec2 place;
+  std::size_t mark = 0;
+  bool repeat = false;
+};
+[[nodiscard]] std::vector<PlannedVisit> plan_visits(const Layout& layout, Order order, Dice& dice);
+
+}  // namespace chaintrue::generator

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// How strong something hidden is in the data of a session: the length of its signature in units
+/// of noise, once the settings have taken their share.
+///
+/// Notation
+///   g      reading less what the machine without the effect reads at the mark as written, per
+///          visit and chain, whitened by C = s_L^2 + s_xy^2 J J', J = d(L, R)/d(x, y)
+///   A      what the six settings do, whitened alike, and their stated sigmas as further rows
+///   M      projection orthogonal to A;    delta = |M g|
+///   rho    |cosine| of M g of two effects
+///
+/// Derivatives are differences on the drum: the teeth's ripple of 0.02 mm is in the readings and
+/// would only disturb a slope.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "generator/hidden/effects.hpp"
+
+namespace chaintrue::generator {
+
+struct NoiseLevel {
+  double length_mm = 0.2;
+  double position_mm = 0.3;
+};
+struct StatedSigmas {
+  double motor_mm = 3.0;
+  double zero_mm = 1.0;
+};
+
+/// A signature after projection; empty where the machine cannot take the effect.
+using Signature = Eigen::VectorXd;
+
+/// An effect of the catalogue at one side and place, as the space its size (and phase) span.
+struct Rival {
+  Cause cause;
+  Where where;
+  Eigen::MatrixXd basis;  ///< orthonormal columns
+};
+
+class Yardstick {
+ public:
+  /// Nothing where the machine cannot reach a visit.
+  static std::optional<Yardstick> make(const TrueMachine& machine,
+                                       std::span<const Visit> visits,
+                                       NoiseLevel noise,
+                                       StatedSigmas stated);
+
+  [[nodiscard]] std::optional<Signature> signature(std::span<const Hidden> effects) const;
+  /// Of marks that truly lie `shift` away from where they are thought to be.
+  [[nodiscard]] Signature signature_of_shifts(std::span<const Vec2> shift) const;
+  /// Of readings that are `extra` too large.
+  [[nodiscard]] Signature signature_of_lengths(std::span<const Lengths> extra) const;
+
+  /// The whole catalogue at its usual sizes and at places all over the session.
+  [[nodiscard]] std::vector<Rival> rivals() const;
+
+  [[nodiscard]] const std::vector<Visit>& visits() const { return visits_; }
+  [[nodiscard]] const std::vector<Rest>& at_rest() const { return rests_; }
+  /// d(left, right)/d(x, y), row by row.
+  [[nodiscard]] const std::vector<std::array<double, 4>>& slopes() const { return slopes_; }
+  /// Angles of a chain over the session, ascending.
+  [[nodiscard]] std::vector<double> angles(std::size_t chain) const;
+
+ private:
+  [[nodiscard]] Eigen::VectorXd whitened(std::span<const Lengths> pairs) const;
+  [[nodiscard]] Signature projected(Eigen::VectorXd rows) const;
+
+  TrueMachine machine_;
+  std::vector<Visit> visits_;
+  std::vector<Rest> rests_;
+  std::vector<Lengths> plain_;
+  std::vector<std::array<double, 4>> slopes_;
+  std::vector<std::array<double, 3>> whitening_;  ///< lower triangle: 00, 10, 11
+  Eigen::MatrixXd settings_;                      ///< orthonormal
+};
+
+/// |cosine| between a signature and the nearest of what a rival can look like.
+[[nodiscard]] double likeness(const Signature& signature, const Rival& rival);
+/// 1.645 sqrt(2 / (1 - rho)): strength at which 95 of 100 are told from the rival.
+[[nodiscard]] double strength_to_separate(double rho);
+
+}  // namespace chaintrue::generator

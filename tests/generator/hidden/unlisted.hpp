@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Things that no catalogue lists: places where the board or the frame under the sled puts the bit
+/// beside its mark. The tool's shift is `size_mm` at its largest or per its own measure.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "generator/hidden/effects.hpp"
+#include "generator/hidden/random.hpp"
+
+namespace chaintrue::generator {
+
+enum class Oddity { dent, wavy_board, fold, edge, periodic_in_x };
+inline constexpr std::size_t kOddities = 5;
+[[nodiscard]] std::string_view word(Oddity oddity);
+
+struct Unlisted {
+  Oddity oddity = Oddity::dent;
+  double size_mm = 0.0;
+  Vec2 centre;                 ///< of a dent; a point of a fold's line
+  double direction_rad = 0.0;  ///< of a wave's run, across a fold
+  double extent_mm = 0.0;      ///< of a dent, an edge; wavelength of a wave
+  double phase_rad = 0.0;
+};
+
+/// How far the bit is from its mark at a place.
+[[nodiscard]] Vec2 shift(const Unlisted& what, Vec2 place);
+/// Its place and extent; the size is 1 mm.
+[[nodiscard]] Unlisted draw_oddity(Oddity oddity, Dice& dice);
+
+}  // namespace chaintrue::generator

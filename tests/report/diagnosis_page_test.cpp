@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The page of a diagnosis, made by the command from a file, in a real browser.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "grid/files/diagnosis_file.hpp"
+#include "tests/grid_files/sample_diagnosis.hpp"
+#include "tests/report/browser.hpp"
+
+namespace chaintrue::report::testing {
+namespace {
+
+using grid::diagnosis::Diagnosis;
+using grid::testing::kSamplePoints;
+using grid::testing::quiet_diagnosis;
+using grid::testing::sample_diagnosis;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class DiagnosisPage : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              fmt::format("chaintrue_diagnosis_{}", test->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string page_of(const Diagnosis& found) const {
+    std::ofstream(folder_ / "diagnosis.json") << grid::files::write_diagnosis(found);
+    const std::string command = fmt::format("'{}' report '{}' -o '{}' 2>'{}'",
+                                            CHAINTRUE_COMMAND,
+                                            (folder_ / "diagnosis.json").string(),
+                                            (folder_ / "page.html").string(),
+                                            (folder_ / "log").string());
+    const int status = std::system(command.c_str());
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << text_of("log");
+    return text_of("page.html");
+  }
+  [[nodiscard]] std::string text_of(const char* name) const {
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// What a person reads before scrolling, and that the mandatory line is there.
+TEST_F(DiagnosisPage, BeginsWithTheAnswer) {
+  const Diagnosis found = sample_diagnosis();
+  const std::string html = page_of(found);
+  const std::string first = html.substr(0, html.find("<section>"));
+  EXPECT_THAT(first, HasSubstr(found.sentence));
+  for (const std::string& line : found.what_to_do) EXPECT_THAT(first, HasSubstr(line));
+  EXPECT_THAT(first, HasSubstr("What this does not prove: " + found.not_proved));
+  for (const char* question : {"Found?", "Named?", "Enough data?", "Corrected?"})
+    EXPECT_THAT(first, HasSubstr(fmt::format("<b>{}</b>", question)));
+  EXPECT_THAT(first, HasSubstr("0.94 to 0.31 mm, noise 0.29"));
+}
+
+TEST_F(DiagnosisPage, HoldsTheNumbersOfTheFile) {
+  const std::string html = page_of(sample_diagnosis());
+  for (const char* text : {"chain pitch error, left (order assumed)",
+                           "or tape scale, both",
+                           "sheet placed, machine as stated",
+                           "3.42 to 4.38",
+                           "7 of 8 named the same",
+                           "On other points: a day later (60)",
+                           "the points bear no order",
+                           "point 10",
+                           "(63.5 mm)",
+                           "seed 18446744073709551615",
+                           "0.2 mm a chain and 0.3 mm a mark (one sigma, 12 degrees of freedom)"}) {
+    EXPECT_THAT(html, HasSubstr(text));
+  }
+}
+
+TEST_F(DiagnosisPage, DrawsEveryChartAndLogsNothing) {
+  if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
+  const Visit visited = visit(page_of(sample_diagnosis()));
+  EXPECT_THAT(problems_of(visited), IsEmpty());
+  // Before, after, and after under the magnifying glass.
+  EXPECT_EQ(count_marks(visited, "bed_arrows", "point_marks"), 3 * kSamplePoints);
+  EXPECT_EQ(count_marks(visited, "bed_arrows", "noise_ellipses"), 3 * kSamplePoints);
+  // Two chains, four panels each.
+  EXPECT_EQ(count_marks(visited, "residual_strip", "point_marks"), 8 * kSamplePoints);
+  // Length, folded and angle before and after for two chains; the visits once for each.
+  EXPECT_EQ(count_marks(visited, "residual_scatter", "point_marks"), 14 * kSamplePoints);
+  EXPECT_EQ(count_marks(visited, "probability_bars", "bars"), 4);
+  EXPECT_EQ(count_marks(visited, "gain_bars", "bars"), 6);
+  EXPECT_EQ(count_marks(visited, "separation_matrix", "cell_marks"), 6);
+  EXPECT_EQ(count_marks(visited, "next_points", "next_marks"), 2);
+  EXPECT_EQ(count_marks(visited, "next_points", "measured_marks"), kSamplePoints);
+}
+
+TEST_F(DiagnosisPage, OfNothingFoundHasNoEmptyCharts) {
+  const std::string html = page_of(quiet_diagnosis());
+  EXPECT_THAT(html, HasSubstr("The points do not say in which order they were visited"));
+  EXPECT_THAT(html, Not(HasSubstr("Why this cause")));
+  if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
+  const Visit visited = visit(html);
+  EXPECT_THAT(problems_of(visited), IsEmpty());
+  EXPECT_EQ(count_marks(visited, "residual_scatter", "point_marks"), 6 * kSamplePoints);
+}
+
+TEST_F(DiagnosisPage, NothingStandsOutOfAPhoneScreen) {
+  if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
+  const Visit visited =
+      visit(page_of(sample_diagnosis()),
+            "document.documentElement.dataset.overflow = "
+            "document.documentElement.scrollWidth - document.documentElement.clientWidth;",
+            {390, 844});
+  EXPECT_THAT(problems_of(visited), IsEmpty());
+  EXPECT_THAT(visited.dom, HasSubstr("data-overflow=\"0\""));
+}
+
+}  // namespace
+}  // namespace chaintrue::report::testing

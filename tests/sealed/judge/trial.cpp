@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sealed/judge/trial.hpp"
+
+#include <algorithm>
+#include <ctime>
+
+#include "grid/files/grid_file.hpp"
+#include "sealed/judge/follow_up.hpp"
+#include "sealed/judge/true_errors.hpp"
+
+namespace chaintrue::sealed {
+namespace {
+
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::Verdict;
+
+std::string id_of(std::string_view effect, std::string_view side) {
+  return std::string(effect) + ":" + (side.empty() ? "-" : std::string(side));
+}
+
+// Of the processor, so that other work on the machine does not count.
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void take_over(const Diagnosis& found, Trial& trial) {
+  trial.verdict = found.verdict;
+  for (const auto& cause : found.causes) {
+    NamedCause named{sealed::id_of(cause.cause), cause.probability, {}};
+    for (const auto& same : cause.same_as) named.same_as.push_back(sealed::id_of(same.cause));
+    trial.causes.push_back(std::move(named));
+  }
+  trial.hypotheses = found.hypotheses;
+  trial.family_wise_p = found.family_wise_p;
+  trial.left_over_delta = found.left_over.delta;
+  trial.noise_factor = found.noise_factor;
+  for (const auto& bad : found.bad_points) trial.bad_points.push_back(bad.index);
+  for (const auto& no : found.not_testable) trial.not_testable.push_back(sealed::id_of(no.cause));
+}
+
+}  // namespace
+
+std::string id_of(const generator::Hidden& hidden) {
+  return id_of(generator::card(hidden.cause).id, generator::word(hidden.where));
+}
+
+std::string id_of(const grid::diagnosis::CauseId& cause) {
+  return id_of(cause.effect->id, model::effects::name(cause.side));
+}
+
+Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
+  generator::SealedSet set = generator::draw_set(options.recipe, seed);
+  Trial trial;
+  trial.seed = seed;
+  trial.points = options.recipe.points;
+  const grid::MeasuredGrid grid = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
+  grid::diagnosis::DiagnosisOptions how;
+  how.gain = options.gain;
+  how.next_measurements = options.follow_up;
+  how.steps = options.steps;
+
+  const double start = thread_seconds();
+  const auto found = grid::diagnosis::diagnose(grid, how);
+  trial.seconds = thread_seconds() - start;
+
+  trial.answer = set.answer;
+  for (const auto& hidden : set.answer.hidden) trial.hidden.push_back(id_of(hidden));
+  if (!found) {
+    trial.failed = true;
+    trial.failure = found.error().sentence;
+    return trial;
+  }
+  take_over(*found, trial);
+  if (options.gain) trial.errors = true_errors(set, *found);
+  const bool ambiguous = trial.verdict == Verdict::named_set ||
+                         (trial.verdict == Verdict::named && trial.causes.size() > 1);
+  if (options.follow_up && ambiguous) {
+    trial.follow_up = follow_up(set, grid, *found, how, options.follow_up_measurements);
+  }
+  return trial;
+}
+
+bool means(const NamedCause& named, const std::string& id) {
+  return named.id == id ||
+         std::find(named.same_as.begin(), named.same_as.end(), id) != named.same_as.end();
+}
+
+bool names_something(const Trial& trial) {
+  return trial.verdict == Verdict::named || trial.verdict == Verdict::named_set ||
+         trial.verdict == Verdict::several_causes;
+}
+
+bool leads_right(const Trial& trial) {
+  return !trial.hidden.empty() && !trial.causes.empty() &&
+         means(trial.causes.front(), trial.hidden.front());
+}
+
+bool in_set(const Trial& trial) {
+  return !trial.hidden.empty() &&
+         std::any_of(trial.causes.begin(), trial.causes.end(), [&](const NamedCause& c) {
+           return means(c, trial.hidden.front());
+         });
+}
+
+bool all_named(const Trial& trial) {
+  return std::all_of(trial.hidden.begin(), trial.hidden.end(), [&](const std::string& id) {
+    return std::any_of(trial.causes.begin(), trial.causes.end(), [&](const NamedCause& c) {
+      return means(c, id);
+    });
+  });
+}
+
+}  // namespace chaintrue::sealed

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// One sealed set from the envelope to the judgement: the grid's text is read as a person's file
+/// would be, diagnosed, and only then is the answer opened.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/hidden/draw.hpp"
+#include "grid/diagnosis/diagnosis.hpp"
+
+namespace chaintrue::sealed {
+
+struct TrialOptions {
+  generator::Recipe recipe;
+  grid::diagnosis::Steps steps;
+  bool gain = false;       ///< held-out errors, reported and true
+  bool follow_up = false;  ///< measures what the diagnosis asks for, where it leaves a set
+  int follow_up_measurements = 8;
+};
+
+/// A cause as the diagnosis gave it.
+struct NamedCause {
+  std::string id;  ///< effect:side
+  double probability = 0.0;
+  std::vector<std::string> same_as;
+};
+
+/// Errors of the tool on a fresh session without noise [mm, rms].
+struct TrueErrors {
+  double calibrated = 0.0;
+  double extended = 0.0;       ///< as the diagnosis would have it
+  double oracle = 0.0;         ///< told the cause
+  double reported_drop = 0.0;  ///< of the mean square, as the diagnosis states it
+};
+
+struct FollowUp {
+  int measurements = 0;
+  bool single_right = false;
+};
+
+struct Trial {
+  std::uint64_t seed = 0;
+  int points = 0;
+  generator::Answer answer;
+  std::vector<std::string> hidden;  ///< effect:side
+  bool failed = false;
+  std::string failure;
+  grid::diagnosis::Verdict verdict = grid::diagnosis::Verdict::nothing_found;
+  std::vector<NamedCause> causes;
+  std::vector<grid::diagnosis::Hypothesis> hypotheses;
+  double family_wise_p = 1.0;
+  double left_over_delta = 0.0;
+  double noise_factor = 1.0;
+  std::vector<std::size_t> bad_points;
+  std::vector<std::string> not_testable;
+  double seconds = 0.0;
+  std::optional<TrueErrors> errors;
+  std::optional<FollowUp> follow_up;
+};
+
+[[nodiscard]] Trial run_trial(const TrialOptions& options, std::uint64_t seed);
+
+/// The cause or a member of its class.
+[[nodiscard]] bool means(const NamedCause& named, const std::string& id);
+/// Any of named, named_set, several_causes.
+[[nodiscard]] bool names_something(const Trial& trial);
+/// The hidden cause leads.
+[[nodiscard]] bool leads_right(const Trial& trial);
+/// The hidden cause is among `causes`.
+[[nodiscard]] bool in_set(const Trial& trial);
+/// Every hidden cause is among `causes`.
+[[nodiscard]] bool all_named(const Trial& trial);
+/// effect:side, `-` for no side.
+[[nodiscard]] std::string id_of(const generator::Hidden& hidden);
+[[nodiscard]] std::string id_of(const grid::diagnosis::CauseId& cause);
+
+}  // namespace chaintrue::sealed

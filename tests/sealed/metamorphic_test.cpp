@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What must not change a diagnosis, and what must change it in a known way.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "generator/hidden/random.hpp"
+#include "model/effects/catalogue.hpp"
+#include "model/reading_model.hpp"
+#include "sealed/posed.hpp"
+
+namespace chaintrue::sealed {
+namespace {
+
+using generator::Cause;
+using generator::Hidden;
+using generator::Mix;
+using generator::Order;
+using generator::Where;
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::Verdict;
+
+generator::SealedSet drawn(std::uint64_t seed) {
+  generator::Recipe recipe;
+  recipe.kind = Mix::single;
+  return generator::draw_set(recipe, seed);
+}
+
+void expect_same(const Diagnosis& a, const Diagnosis& b) {
+  EXPECT_EQ(a.verdict, b.verdict);
+  ASSERT_EQ(ids(a), ids(b));
+  for (std::size_t i = 0; i < a.causes.size(); ++i) {
+    EXPECT_EQ(a.causes[i].probability, b.causes[i].probability);
+    for (std::size_t k = 0; k < a.causes[i].parameters.size(); ++k) {
+      EXPECT_EQ(a.causes[i].parameters[k].value, b.causes[i].parameters[k].value);
+    }
+  }
+  ASSERT_EQ(a.hypotheses.size(), b.hypotheses.size());
+  for (std::size_t i = 0; i < a.hypotheses.size(); ++i) {
+    EXPECT_EQ(a.hypotheses[i].effect, b.hypotheses[i].effect);
+    EXPECT_EQ(a.hypotheses[i].probability, b.hypotheses[i].probability);
+  }
+}
+
+TEST(Metamorphic, SameDataSameAnswer) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto grid = read(drawn(seed));
+    expect_same(diagnosed(grid), diagnosed(grid));
+  }
+}
+
+TEST(Metamorphic, TheOrderOfLinesInTheFileSaysNothing) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    auto grid = read(drawn(seed));
+    const Diagnosis before = diagnosed(grid);
+    generator::Dice dice(seed, "shuffled lines");
+    dice.shuffle(grid.points);
+    expect_same(before, diagnosed(grid));
+  }
+}
+
+std::string mirrored(std::string id) {
+  const auto colon = id.find(':');
+  const std::string side = id.substr(colon + 1);
+  if (side == "left") return id.substr(0, colon) + ":right";
+  if (side == "right") return id.substr(0, colon) + ":left";
+  return id;
+}
+
+// Seen in a mirror, left is right and the rest is the same. Searches that run over places from one
+// end may end a step apart; the verdict and the names may not.
+TEST(Metamorphic, TheMirrorImageHasTheMirroredCause) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    auto grid = read(drawn(seed));
+    const Diagnosis before = diagnosed(grid);
+    for (auto& p : grid.points) {
+      p.mark.x_mm = -p.mark.x_mm;
+      std::swap(p.lengths->left_mm, p.lengths->right_mm);
+    }
+    auto& motors = grid.machine->motors;
+    std::swap(motors.left, motors.right);
+    motors.left.x_mm = -motors.left.x_mm;
+    motors.right.x_mm = -motors.right.x_mm;
+    std::swap(grid.machine->chain_zero.left_mm, grid.machine->chain_zero.right_mm);
+    const Diagnosis after = diagnosed(grid);
+    EXPECT_EQ(before.verdict, after.verdict);
+    ASSERT_EQ(before.causes.size(), after.causes.size());
+    ASSERT_FALSE(before.causes.empty());
+    EXPECT_EQ(mirrored(ids(before).front()), ids(after).front());
+    EXPECT_NEAR(before.causes.front().probability, after.causes.front().probability, 0.02);
+  }
+}
+
+// Twice the noise and twice everything that is not as stated: the same in units of noise.
+TEST(Metamorphic, TwiceTheNoiseAndTwiceTheErrorIsTheSame) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto set = drawn(seed);
+    auto grid = read(set);
+    const Diagnosis before = diagnosed(grid);
+    const model::ReadingModel stated(*grid.machine);
+    for (auto& p : grid.points) {
+      const auto as_stated = stated.at(p.mark);
+      ASSERT_TRUE(as_stated);
+      p.lengths->left_mm += p.lengths->left_mm - as_stated->lengths.left_mm;
+      p.lengths->right_mm += p.lengths->right_mm - as_stated->lengths.right_mm;
+    }
+    grid.noise->length_mm *= 2.0;
+    grid.noise->position_mm *= 2.0;
+    grid.machine->uncertainty.motor_position_mm *= 2.0;
+    grid.machine->uncertainty.chain_zero_mm *= 2.0;
+    // Whole links are not whole any more when they are doubled, or are two.
+    if (generator::card(set.answer.hidden.front().cause).whole) continue;
+    const Diagnosis after = diagnosed(grid);
+    EXPECT_EQ(before.verdict, after.verdict);
+    ASSERT_FALSE(before.causes.empty() || after.causes.empty());
+    EXPECT_EQ(ids(before).front(), ids(after).front());
+  }
+}
+
+// What the machine file has already is not found again.
+TEST(Metamorphic, AnEffectThatTheModelHasIsNothingNew) {
+  const std::vector<Hidden> known[] = {{{Cause::chain_pitch_error, Where::left, 0.0012, 0.0}},
+                                       {{Cause::beam_flex, Where::nowhere, 0.015, 0.0}},
+                                       {{Cause::sprocket_eccentricity, Where::right, 1.0, 0.4}},
+                                       {{Cause::direction_hysteresis, Where::both, 0.6, 0.0}}};
+  for (const auto& effects : known) {
+    const Hidden& h = effects.front();
+    const auto& card = generator::card(h.cause);
+    SCOPED_TRACE(std::string(card.id));
+    auto grid = read(posed(effects, Order::random, 8));
+    EXPECT_TRUE(led_by(diagnosed(grid), id_of(h)));
+    model::AppliedEffect stated{std::string(card.id), std::string(word(h.where)), {}};
+    stated.parameters[std::string(card.size_name)] = h.size;
+    if (card.place == generator::Place::phase) stated.parameters["phase_rad"] = h.place;
+    grid.machine->effects.push_back(stated);
+    const Diagnosis found = diagnosed(grid);
+    EXPECT_EQ(found.verdict, Verdict::nothing_found) << found.sentence;
+  }
+}
+
+// With what was named in the model, nothing is left to name.
+TEST(Metamorphic, OnceNamedAndInTheModelItIsGone) {
+  for (std::uint64_t seed = 11; seed <= 18; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    auto grid = read(drawn(seed));
+    const Diagnosis found = diagnosed(grid);
+    if (found.verdict != Verdict::named) continue;
+    model::AppliedEffect named{std::string(found.causes.front().cause.effect->id),
+                               std::string(model::effects::name(found.causes.front().cause.side)),
+                               {}};
+    for (const auto& p : found.causes.front().parameters) named.parameters[p.parameter] = p.value;
+    grid.machine->effects.push_back(named);
+    const Diagnosis again = diagnosed(grid);
+    EXPECT_FALSE(names_any(again)) << again.sentence;
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue::sealed

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Sets made to mislead.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "generator/hidden/strength.hpp"
+#include "grid/files/grid_file.hpp"
+#include "sealed/posed.hpp"
+
+namespace chaintrue::sealed {
+namespace {
+
+using generator::Cause;
+using generator::Hidden;
+using generator::Order;
+using generator::Where;
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::Verdict;
+using testing::AnyOf;
+using testing::Contains;
+using testing::HasSubstr;
+
+bool not_testable(const Diagnosis& found, const std::string& effect) {
+  return std::any_of(found.not_testable.begin(), found.not_testable.end(), [&](const auto& no) {
+    return no.cause.effect->id == effect;
+  });
+}
+
+// 1 mm on the wheel's radius: motors and zeros take all of it but a delta of 1.
+TEST(Traps, WhatTheSettingsAbsorbIsBoundedAndNotNamed) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto set = posed({{Cause::sprocket_radius, Where::nowhere, 1.0, 0.0}}, Order::rows, seed);
+    ASSERT_LT(set.answer.delta.front(), 1.5);
+    const Diagnosis found = diagnosed(read(set));
+    EXPECT_EQ(found.verdict, Verdict::nothing_found) << found.sentence;
+    const auto bound = std::find_if(found.bounds.begin(), found.bounds.end(), [](const auto& b) {
+      return b.cause.effect->id == "sprocket_radius";
+    });
+    if (bound != found.bounds.end()) {
+      EXPECT_GT(bound->upper_95, 1.0);
+    } else {
+      EXPECT_TRUE(not_testable(found, "sprocket_radius"));
+    }
+  }
+}
+
+// The left motor was taped 15 mm beside where it is, five of its sigmas: a setting that is off, and
+// no cause.
+TEST(Traps, ASettingFarOffIsASetting) {
+  int off = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    grid::MeasuredGrid grid = read(posed({}, Order::serpentine_rows, seed));
+    grid.machine->motors.left.x_mm -= 15.0;
+    const Diagnosis found = diagnosed(grid);
+    EXPECT_FALSE(names_any(found)) << found.sentence;
+    for (const auto& s : found.settings) {
+      off += s.off && s.setting == model::Setting::motor_left_x_mm ? 1 : 0;
+    }
+  }
+  EXPECT_GE(off, 3);
+}
+
+// The second effect takes back what the first one shows; alone, either would be named at once.
+TEST(Traps, EffectsThatCancelAreNotSeen) {
+  const auto blank = posed({}, Order::random, 3);
+  const auto yardstick =
+      generator::Yardstick::make(blank.machine.truth(), blank.machine.visits(), {}, {});
+  const Hidden first[] = {{Cause::tape_scale, Where::both, 0.001, 0.0}};
+  // Of both chains and of the tape along both axes: no data of this kind tells them apart.
+  const Hidden second[] = {{Cause::chain_pitch_error, Where::both, 0.001, 0.0}};
+  const auto a = yardstick->signature(first), b = yardstick->signature(second);
+  Hidden answer = second[0];
+  answer.size *= -a->dot(*b) / b->squaredNorm();
+  const Hidden both[] = {first[0], answer};
+  ASSERT_GT(a->norm(), 8.0);
+  ASSERT_LT(yardstick->signature(both)->norm(), 1.0);
+  const Diagnosis found = diagnosed(read(posed({both[0], both[1]}, Order::random, 3)));
+  EXPECT_EQ(found.verdict, Verdict::nothing_found) << found.sentence;
+}
+
+// One reading a link too long: a miscount or a bad point, that one in either case, and no machine.
+TEST(Traps, OnePointIsNotAMachine) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto set =
+        posed({{Cause::link_miscount, Where::left, 1.0, 11.0}}, Order::serpentine_columns, seed);
+    const Diagnosis found = diagnosed(read(set));
+    std::vector<std::size_t> bad;
+    for (const auto& b : found.bad_points) bad.push_back(b.index);
+    EXPECT_THAT(bad, Contains(11u));
+    if (found.verdict != Verdict::bad_points) {
+      EXPECT_TRUE(led_by(found, "link_miscount:left")) << found.sentence;
+    }
+    EXPECT_TRUE(found.extended_machine.effects.empty());
+  }
+}
+
+// Columns visited from left to right: time runs with x. Drift of the right chain then looks like
+// that chain's pitch; in random order it looks like nothing else.
+TEST(Traps, DriftIsOwnedUpToWhenTheOrderIsARaster) {
+  const std::vector<Hidden> drift{{Cause::drift, Where::right, 0.06, 0.0}};
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Diagnosis raster = diagnosed(read(posed(drift, Order::columns, seed)));
+    EXPECT_THAT(ids(raster), Contains("drift:right")) << raster.sentence;
+    const Diagnosis random = diagnosed(read(posed(drift, Order::random, seed)));
+    EXPECT_EQ(random.verdict, Verdict::named) << random.sentence;
+    EXPECT_TRUE(led_by(random, "drift:right"));
+  }
+}
+
+TEST(Traps, WithoutAnOrderHysteresisIsNotTestable) {
+  const auto set =
+      posed({{Cause::direction_hysteresis, Where::both, 0.8, 0.0}}, Order::serpentine_rows, 2);
+  grid::MeasuredGrid grid = read(set);
+  EXPECT_TRUE(led_by(diagnosed(grid), "direction_hysteresis:both"));
+  for (auto& p : grid.points) p.order.reset();
+  const Diagnosis found = diagnosed(grid);
+  for (const char* effect : {"direction_hysteresis", "drift", "tooth_skip"}) {
+    EXPECT_TRUE(not_testable(found, effect)) << effect;
+    for (const auto& id : ids(found)) EXPECT_THAT(id, testing::Not(HasSubstr(effect)));
+    for (const auto& b : found.bounds) EXPECT_NE(b.cause.effect->id, effect);
+  }
+}
+
+TEST(Traps, SwappedColumnsAreSaidToBeSwapped) {
+  grid::MeasuredGrid grid = read(posed({}, Order::rows, 4));
+  for (auto& p : grid.points) std::swap(p.lengths->left_mm, p.lengths->right_mm);
+  const auto found = grid::diagnosis::diagnose(grid);
+  ASSERT_FALSE(found);
+  EXPECT_THAT(found.error().sentence, HasSubstr("columns look exchanged"));
+  EXPECT_THROW((void)grid::files::parse_grid(grid::files::write_grid(grid), "swapped.json"),
+               grid::files::InputError);
+}
+
+TEST(Traps, InchesAreRefusedWhereTheFileIsRead) {
+  grid::MeasuredGrid grid = read(posed({}, Order::rows, 4));
+  for (auto& p : grid.points) {
+    p.lengths->left_mm /= 25.4;
+    p.lengths->right_mm /= 25.4;
+  }
+  try {
+    (void)grid::files::parse_grid(grid::files::write_grid(grid), "inches.json");
+    FAIL() << "read without a word";
+  } catch (const grid::files::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("inch"));
+  }
+}
+
+TEST(Traps, ExchangedPointsAreTheTwoBadOnes) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    grid::MeasuredGrid grid = read(posed({}, Order::serpentine_rows, seed));
+    std::swap(grid.points[7].lengths, grid.points[20].lengths);
+    const Diagnosis found = diagnosed(grid);
+    EXPECT_EQ(found.verdict, Verdict::bad_points) << found.sentence;
+    std::vector<std::size_t> bad;
+    for (const auto& b : found.bad_points) bad.push_back(b.index);
+    EXPECT_THAT(bad, testing::UnorderedElementsAre(7u, 20u));
+  }
+}
+
+// The paper is mended by correcting the data. A machine that was given the tape's error would cut
+// it into every part.
+TEST(Traps, TheTapesErrorStaysOutOfTheMachine) {
+  for (const Where where : {Where::x, Where::y}) {
+    const double scale = where == Where::x ? 0.0016 : 0.004;
+    const auto set = posed({{Cause::tape_scale, where, scale, 0.0}}, Order::columns, 5);
+    SCOPED_TRACE("delta " + std::to_string(set.answer.delta.front()));
+    grid::diagnosis::DiagnosisOptions how;
+    how.next_measurements = false;
+    const auto found = grid::diagnosis::diagnose(read(set), how);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(led_by(*found, "tape_scale:" + std::string(word(where)))) << found->sentence;
+    EXPECT_TRUE(found->extended_machine.effects.empty());
+    ASSERT_EQ(found->data_corrections.size(), 1u);
+    EXPECT_EQ(found->data_corrections.front().effect, "tape_scale");
+    EXPECT_NEAR(found->data_corrections.front().parameters.at("scale"), scale, 0.3 * scale);
+  }
+}
+
+// What is there but too small to be seen is below its bound.
+TEST(Traps, BoundsHold) {
+  int held = 0, bounded = 0;
+  for (const auto& card : generator::cards()) {
+    if (card.whole || card.place != generator::Place::none || card.sides.size() > 1) continue;
+    const auto blank = posed({}, Order::random, 6);
+    const auto yardstick =
+        generator::Yardstick::make(blank.machine.truth(), blank.machine.visits(), {}, {});
+    Hidden one[] = {{card.cause, Where::nowhere, card.usual, 0.0}};
+    one[0].size *= 2.0 / yardstick->signature(one)->norm();
+    if (one[0].size > card.upper) continue;
+    for (std::uint64_t seed = 6; seed <= 8; ++seed) {
+      const Diagnosis found = diagnosed(read(posed({one[0]}, Order::random, seed)));
+      for (const auto& b : found.bounds) {
+        if (b.cause.effect->id != card.id || b.parameter != card.size_name) continue;
+        ++bounded;
+        held += b.upper_95 >= std::abs(one[0].size) ? 1 : 0;
+        EXPECT_GT(b.upper_95, 0.0);
+      }
+    }
+  }
+  EXPECT_GT(bounded, 12);
+  EXPECT_GE(held, fewest(bounded, 0.95));
+}
+
+}  // namespace
+}  // namespace chaintrue::sealed

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue diagnose: what the simulation gets wrong on these points, why, what naming the cause
+/// gains, and what to measure next.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/files/diagnosis_file.hpp"
+#include "grid/files/grid_file.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "grid/map/corrected_data.hpp"
+#include "tools/cli/assumed_order.hpp"
+#include "tools/cli/diagnosis_page.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/grid_input.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+using grid::diagnosis::Diagnosis;
+
+struct DiagnoseCommand {
+  GridInput input;
+  std::string output;
+  std::string report;
+  std::string extended_machine;
+  std::string corrected_grid;
+  std::string held_out;
+  std::string assume_order;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+void assume_order(const DiagnoseCommand& command, grid::MeasuredGrid& measured) {
+  if (command.assume_order.empty()) return;
+  OptionProblems problems;
+  if (std::any_of(measured.points.begin(), measured.points.end(), [](const auto& point) {
+        return point.order.has_value();
+      })) {
+    problems.add("--assume-order",
+                 command.assume_order,
+                 "to be left out, since these points say in which order they were visited");
+    problems.throw_if_any();
+  }
+  const auto numbers = assumed_order(measured.points, *order_from_word(command.assume_order));
+  if (!numbers) {
+    problems.add("--assume-order", command.assume_order, numbers.error());
+    problems.throw_if_any();
+  }
+  for (std::size_t i = 0; i < measured.points.size(); ++i) measured.points[i].order = (*numbers)[i];
+}
+
+std::string file_name(const std::string& path) {
+  return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
+}
+
+/// The grid as a fit on the extended machine wants it: marks where they are, readings without what
+/// depends on the visit. An order that was only assumed is not handed on as if it were known.
+std::string corrected_grid_text(const Diagnosis& found,
+                                grid::MeasuredGrid measured,
+                                bool order_assumed) {
+  measured.machine = found.extended_machine;
+  measured.machine->effects.insert(measured.machine->effects.end(),
+                                   found.data_corrections.begin(),
+                                   found.data_corrections.end());
+  auto corrected = grid::corrected_data(measured);
+  if (!corrected) throw files::InputError({{"corrected grid", "", "", corrected.error().sentence}});
+  for (auto& point : corrected->grid.points) {
+    if (order_assumed) point.order.reset();
+  }
+  return files::write_grid(corrected->grid);
+}
+
+std::string extended_machine_text(const Diagnosis& found, const std::string& source) {
+  std::string named;
+  for (const auto& cause : found.causes) {
+    named += fmt::format("{}{}", named.empty() ? "" : "; ", cause_title(cause.cause));
+  }
+  std::vector<std::string> comments = {
+      fmt::format("Made by chaintrue diagnose from {}: settings calibrated, named: {}.",
+                  source,
+                  named.empty() ? "nothing" : named)};
+  for (const auto& correction : found.data_corrections) {
+    comments.push_back(
+        fmt::format("Not in here, because it belongs to the data: {}.", cause_title(correction)));
+  }
+  return files::write_machine(found.extended_machine, comments);
+}
+
+tl::expected<Diagnosis, std::string> diagnosed(const DiagnoseCommand& command,
+                                               const grid::MeasuredGrid& measured) {
+  const auto sentence = [](const std::string& path, const auto& failure) {
+    return tl::unexpected(fmt::format("{}: {}", files::name_in_messages(path), failure.sentence));
+  };
+  grid::diagnosis::DiagnosisOptions options;
+  options.seed = command.seed;
+  options.order_assumed = !command.assume_order.empty();
+  // Seconds, where there are hundreds of points.
+  const bool is_watched = ::isatty(STDERR_FILENO) != 0;
+  if (is_watched) fmt::print(stderr, "Diagnosing {} points ...", measured.points.size());
+  auto found = grid::diagnosis::diagnose(measured, options);
+  if (is_watched) fmt::print(stderr, "\r\x1b[K");
+  if (!found) return sentence(command.input.grid, found.error());
+  if (found->grid_name.empty())
+    found->grid_name = measured.name.empty() ? file_name(command.input.grid) : measured.name;
+  if (!found->stated_noise) found->stated_noise = measured.noise;
+  if (options.order_assumed) {
+    found->notes.insert(found->notes.begin(),
+                        fmt::format("The visiting order was not measured but assumed: {}, lines "
+                                    "from the top left.",
+                                    command.assume_order));
+  }
+  if (!command.held_out.empty()) {
+    GridInput other = command.input;
+    other.grid = command.held_out;
+    const grid::MeasuredGrid to = read_grid_input(other);
+    const auto transferred = grid::diagnosis::transfer(measured, *found, to);
+    if (!transferred) return sentence(command.held_out, transferred.error());
+    found->transferred = *transferred;
+    if (found->transferred->to.empty())
+      found->transferred->to = to.name.empty() ? file_name(command.held_out) : to.name;
+  }
+  return std::move(*found);
+}
+
+int run_diagnose(const DiagnoseCommand& command) {
+  grid::MeasuredGrid measured = read_grid_input(command.input);
+  assume_order(command, measured);
+  const auto found = diagnosed(command, measured);
+  if (!found) {
+    fmt::print(stderr, "{}\n", found.error());
+    return kBadInput;
+  }
+  const std::string source = file_name(command.input.grid);
+  const std::string file = files::write_diagnosis(*found);
+  std::vector<files::OutputFile> outputs;
+  const auto add = [&outputs](const std::string& path, auto&& text) {
+    if (!path.empty()) outputs.push_back({path, text()});
+  };
+  add(command.output, [&] { return file; });
+  add(command.report, [&] { return report::render(diagnosis_page(*found, source)); });
+  add(command.extended_machine, [&] { return extended_machine_text(*found, source); });
+  add(command.corrected_grid,
+      [&] { return corrected_grid_text(*found, measured, !command.assume_order.empty()); });
+  const bool is_stdout_taken = std::any_of(
+      outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });
+  files::write_whole_files(outputs);
+  if (command.json && !is_stdout_taken) {
+    fmt::print("{}", file);
+  } else {
+    fmt::print(is_stdout_taken ? stderr : stdout, "{}", diagnosis_in_words(*found));
+  }
+  if (!command.report.empty() && command.report != "-")
+    fmt::print(stderr, "The report is {}: open it in any browser.\n", command.report);
+  return kDone;
+}
+
+void add_diagnose_outputs(CLI::App& verb, DiagnoseCommand& command) {
+  verb.add_option("-o,--output", command.output, "The diagnosis with all its numbers (JSON)");
+  verb.add_option("--report", command.report, "The diagnosis as a page for a browser (HTML)");
+  verb.add_option("--extended-machine",
+                  command.extended_machine,
+                  "The machine with its settings calibrated and what was named in it");
+  verb.add_option("--corrected-grid",
+                  command.corrected_grid,
+                  "The points on that machine, marks and readings corrected where the cause lies "
+                  "with them: what to fit");
+  verb.add_flag("--json", command.json, "The diagnosis file on standard output, for programs");
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, Run& run) {
+  auto command = std::make_shared<DiagnoseCommand>();
+  CLI::App* verb = app.add_subcommand(
+      "diagnose", "What the simulation gets wrong, why, and what naming the cause gains");
+  add_grid_options(*verb, command->input);
+  add_diagnose_outputs(*verb, *command);
+  verb->add_option("--held-out",
+                   command->held_out,
+                   "Another grid of the same machine: how well what was found foretells it");
+  verb->add_option("--assume-order",
+                   command->assume_order,
+                   "Visiting order of points that bear none, lines from the top left; opens drift, "
+                   "skips and hysteresis, and the verdict says that it was assumed")
+      ->check(CLI::IsMember({"rows", "columns", "serpentine_rows", "serpentine_columns"}));
+  verb->add_option(
+          "--seed", command->seed, "Of the simulated chances; the same seed, the same answer")
+      ->capture_default_str();
+  verb->footer(
+      "Any answer is an answer: the exit code is 0 also where nothing was found.\n\n"
+      "Example:\n"
+      "  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x5 --repeats 6 "
+      "\\\n"
+      "    --length-noise-mm 0.2 --position-noise-mm 0.3 --effect "
+      "chain_pitch_error:left:elongation=0.0012 -o worn.json\n"
+      "  build/chaintrue diagnose worn.json -o diagnosis.json --report diagnosis.html "
+      "--extended-machine worn_machine.json\n"
+      "  build/chaintrue fit worn.json --machine worn_machine.json -o map.json");
+  verb->callback([command, &run] { run = [command] { return run_diagnose(*command); }; });
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The pictures of a diagnosis' page. Residuals are measured less predicted; vermilion is before,
+/// blue is with the causes named.
+#pragma once
+
+#include <vector>
+
+#include "grid/diagnosis/diagnosis.hpp"
+#include "tools/report/page.hpp"
+
+namespace chaintrue::cli {
+
+/// Arrows of the tool before and after, at one scale, and after once more where it is much smaller.
+[[nodiscard]] std::vector<report::ChartRow> arrow_charts(const grid::diagnosis::Diagnosis& found);
+/// Measured, best cause, rival, remainder: one chart a chain. Empty where no cause is named.
+[[nodiscard]] std::vector<report::Chart> strip_charts(const grid::diagnosis::Diagnosis& found);
+/// Against the chain's length, and beside it the same folded at one turn of the sprocket; a row a
+/// chain.
+[[nodiscard]] std::vector<report::ChartRow> length_charts(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] report::ChartRow angle_charts(const grid::diagnosis::Diagnosis& found);
+/// Coloured by which way the chain moved; only where the points have an order (has_order).
+[[nodiscard]] report::ChartRow order_charts(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] bool has_order(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] report::Chart probability_chart(const grid::diagnosis::Diagnosis& found);
+/// Precondition: the diagnosis has a gain.
+[[nodiscard]] report::Chart gain_chart(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] report::Chart separation_chart(const grid::diagnosis::Diagnosis& found);
+/// The follow-up's places on the bed.
+[[nodiscard]] report::Chart next_points_chart(const grid::diagnosis::Diagnosis& found);
+
+/// The surest hypotheses that the bars and the first page show; the rest is below a percent.
+[[nodiscard]] std::vector<grid::diagnosis::Hypothesis> leading_hypotheses(
+    const grid::diagnosis::Diagnosis& found);
+
+}  // namespace chaintrue::cli

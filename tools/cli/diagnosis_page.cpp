@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/diagnosis_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/map_words.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::diagnosis::Cause;
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::MeasurementKind;
+using grid::diagnosis::Verdict;
+using report::Light;
+using report::Paragraph;
+using report::Section;
+using report::Table;
+using report::Tone;
+
+/// What a verdict looks like at a glance.
+struct VerdictLights {
+  Verdict verdict;
+  Tone tone;
+  Tone found_tone;
+  std::string_view found;
+  Tone named_tone;
+  std::string_view named;
+};
+
+constexpr VerdictLights kVerdicts[] = {
+    {Verdict::named, Tone::good, Tone::good, "yes", Tone::good, "yes, one cause"},
+    {Verdict::named_set, Tone::caution, Tone::good, "yes", Tone::caution, "one of a few"},
+    {Verdict::several_causes, Tone::good, Tone::good, "yes", Tone::good, "yes, several together"},
+    {Verdict::unknown_pattern,
+     Tone::bad,
+     Tone::good,
+     "yes, a pattern",
+     Tone::bad,
+     "no known cause"},
+    {Verdict::noise_larger_than_stated,
+     Tone::caution,
+     Tone::caution,
+     "noise, larger than stated",
+     Tone::caution,
+     "no cause"},
+    {Verdict::bad_points, Tone::caution, Tone::caution, "bad points", Tone::caution, "no cause"},
+    {Verdict::nothing_found,
+     Tone::good,
+     Tone::good,
+     "nothing hidden",
+     Tone::good,
+     "nothing to name"},
+};
+
+const VerdictLights& lights_of(Verdict verdict) {
+  return *std::find_if(std::begin(kVerdicts), std::end(kVerdicts), [verdict](const auto& lights) {
+    return lights.verdict == verdict;
+  });
+}
+
+Light data_light(const Diagnosis& found) {
+  if (found.verdict == Verdict::named_set) {
+    return {Tone::caution,
+            "Enough data?",
+            fmt::format("not to tell {} causes apart", found.causes.size())};
+  }
+  if (!found.not_testable.empty()) {
+    return {Tone::caution,
+            "Enough data?",
+            found.not_testable.size() == 1
+                ? "one cause could not be tested"
+                : fmt::format("{} causes could not be tested", found.not_testable.size())};
+  }
+  return {Tone::good, "Enough data?", "yes"};
+}
+
+Light corrected_light(const Diagnosis& found) {
+  constexpr double kNearTheNoise = 1.25, kFarFromIt = 2.0;
+  if (!found.gain) return {Tone::caution, "Corrected?", "not measured"};
+  const double before_mm = found.gain->calibrated.rms_mm, after_mm = found.gain->extended.rms_mm;
+  const double floor_mm = found.gain->noise_floor_mm;
+  const Tone tone = after_mm <= kNearTheNoise * floor_mm ? Tone::good
+                    : after_mm <= kFarFromIt * floor_mm  ? Tone::caution
+                                                         : Tone::bad;
+  return {tone,
+          "Corrected?",
+          found.causes.empty()
+              ? fmt::format("{:.2f} mm, noise {:.2f}", after_mm, floor_mm)
+              : fmt::format("{:.2f} to {:.2f} mm, noise {:.2f}", before_mm, after_mm, floor_mm)};
+}
+
+std::vector<report::Figure> figures_of(const Diagnosis& found) {
+  if (!found.gain) return {};
+  const auto& gain = *found.gain;
+  std::vector<report::Figure> figures = {
+      {fmt::format("{:.2f} mm", gain.as_delivered.rms_mm), "rms as the machine was stated"}};
+  if (gain.placed)
+    figures.push_back({fmt::format("{:.2f} mm", gain.placed->rms_mm), "once the sheet is placed"});
+  figures.push_back({fmt::format("{:.2f} mm", gain.calibrated.rms_mm), "with settings calibrated"});
+  if (!found.causes.empty()) {
+    figures.push_back({fmt::format("{:.2f} mm", gain.extended.rms_mm),
+                       fmt::format("with the cause (90 %: {:.2f} to {:.2f})",
+                                   gain.extended.low_mm,
+                                   gain.extended.high_mm)});
+  }
+  figures.push_back({fmt::format("{:.2f} mm", gain.noise_floor_mm), "noise of the readings"});
+  return figures;
+}
+
+std::string cause_and_remedy(const model::effects::Effect& effect) {
+  return typeset(fmt::format("{}. What to do: {}.", effect.cause, effect.remedy));
+}
+
+Section causes_section(const Diagnosis& found) {
+  Table table{{{"cause"}, {"size"}, {"probability", true}, {"what it is"}}, {}, ""};
+  for (const Cause& cause : found.causes) {
+    table.rows.push_back(
+        {{cause_title(cause.cause) + (cause.order_assumed ? " (order assumed)" : ""),
+          typeset(sizes_in_words(cause.parameters)),
+          percent(cause.probability),
+          cause_and_remedy(*cause.cause.effect)},
+         false});
+    for (const auto& same : cause.same_as) {
+      table.rows.push_back({{"or " + cause_title(same.cause),
+                             typeset(sizes_in_words(same.parameters)),
+                             "the same",
+                             cause_and_remedy(*same.cause.effect)},
+                            false});
+      table.caption =
+          "No points of this kind tell the causes marked \"or\" from the one above them.";
+    }
+  }
+  return {found.verdict == Verdict::named_set ? "One of these"
+          : found.causes.size() > 1           ? "The causes"
+                                              : "The cause",
+          {std::move(table)}};
+}
+
+Section arrows_section(const Diagnosis& found) {
+  Section section{"What it does to the tool", {}};
+  for (report::ChartRow& row : arrow_charts(found)) section.blocks.emplace_back(std::move(row));
+  return section;
+}
+
+Section signature_section(const Diagnosis& found) {
+  Section section{"Why this cause", {}};
+  section.blocks.emplace_back(Paragraph{
+      "What was measured beside what the cause makes of it, once the settings have taken what they "
+      "can. A cause is right where its picture is the measured one and only noise is left."});
+  for (report::Chart& chart : strip_charts(found)) section.blocks.emplace_back(std::move(chart));
+  return section;
+}
+
+Section residuals_section(const Diagnosis& found) {
+  Section section{"What the error follows", {}};
+  for (report::ChartRow& row : length_charts(found)) section.blocks.emplace_back(std::move(row));
+  section.blocks.emplace_back(angle_charts(found));
+  if (has_order(found)) {
+    section.blocks.emplace_back(order_charts(found));
+  } else {
+    section.blocks.emplace_back(Paragraph{
+        "The points do not say in which order they were visited, so drift, skipped links and "
+        "friction cannot be looked for."});
+  }
+  return section;
+}
+
+Section probabilities_section(const Diagnosis& found) {
+  Section section{"How sure", {probability_chart(found)}};
+  section.blocks.emplace_back(Paragraph{left_over_sentence(found.left_over)});
+  return section;
+}
+
+Table error_table(const std::vector<GainRow>& rows, double floor_mm, bool has_border) {
+  Table table{
+      {{"model"}, {"rms, mm", true}, {"90 % interval", true}, {"95 % of points below", true}},
+      {},
+      ""};
+  if (has_border) table.columns.push_back({"at the border, rms", true});
+  for (const GainRow& row : rows) {
+    std::vector<std::string> cells = {
+        std::string(row.what),
+        fixed(row.held_out->rms_mm, 2),
+        fmt::format("{:.2f} to {:.2f}", row.held_out->low_mm, row.held_out->high_mm),
+        fixed(row.held_out->percentile_95_mm, 2)};
+    if (has_border) cells.push_back(row.border_mm ? fixed(*row.border_mm, 2) : "\u2013");
+    table.rows.push_back({std::move(cells), false});
+  }
+  table.rows.push_back({std::vector<std::string>(table.columns.size(), "\u2013"), false});
+  table.rows.back().cells[0] = "noise of the readings";
+  table.rows.back().cells[1] = fixed(floor_mm, 2);
+  return table;
+}
+
+Section gain_section(const Diagnosis& found) {
+  const auto& gain = *found.gain;
+  Section section{"What naming it gains", {gain_chart(found)}};
+  Table table = error_table(gain_rows(found), gain.noise_floor_mm, true);
+  table.caption = fmt::format(
+      "Error of the tool at points that had no part in the fit: {}. The naming was repeated in "
+      "every "
+      "fold; {} of {} named the same. At the border the outermost points were held out.",
+      gain.scheme,
+      gain.folds_agree,
+      gain.folds);
+  section.blocks.emplace_back(std::move(table));
+  return section;
+}
+
+Section transfer_section(const Diagnosis& found) {
+  const auto& other = *found.transferred;
+  Table table = error_table(transfer_rows(found), other.noise_floor_mm, false);
+  table.caption =
+      "Nothing was fitted to these points but, where the sheet was placed by hand, its place.";
+  return {fmt::format("On other points: {} ({})", other.to, other.points), {std::move(table)}};
+}
+
+Section separation_section(const Diagnosis& found) {
+  Section section{"What these points can tell apart", {separation_chart(found)}};
+  Table table{
+      {{"cause"}, {"and"}, {"alike to", true}, {"told apart from a strength of", true}}, {}, ""};
+  for (const auto& pair : found.separations) {
+    table.rows.push_back(
+        {{cause_title(pair.first),
+          cause_title(pair.second),
+          fixed(pair.rho, 3),
+          std::isfinite(pair.delta_needed) ? fixed(pair.delta_needed, 1) : "never"},
+         false});
+  }
+  table.caption =
+      "Strength in units of noise; at that strength 95 of 100 such machines are named right. The "
+      "strengths found here are in the table of every cause.";
+  section.blocks.emplace_back(std::move(table));
+  return section;
+}
+
+Section next_section(const Diagnosis& found) {
+  Section section{"What to measure next", {}};
+  Table table{{{"no.", true}, {"what"}, {"a single right name then", true}}, {}, ""};
+  bool has_places = false;
+  for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
+    const auto& next = found.next_measurements[i];
+    has_places = has_places || next.mark.has_value();
+    table.rows.push_back(
+        {{fmt::format("{}", i + 1), follow_up_in_words(next), percent(next.raises_probability_to)},
+         false});
+  }
+  table.caption =
+      "In this order; the probability is that of all up to this one done. Points go into the "
+      "grid's "
+      "file, readings into its \"readings\"; chaintrue plan GRID --after prints the lines.";
+  section.blocks.emplace_back(std::move(table));
+  if (has_places) section.blocks.emplace_back(next_points_chart(found));
+  return section;
+}
+
+/// What became of a term, in one word.
+std::string fate_of(const Diagnosis& found, const grid::diagnosis::Term& term) {
+  for (const Cause& cause : found.causes) {
+    if (cause.cause == term.cause)
+      return found.verdict == Verdict::named_set ? "in the set" : "named";
+  }
+  for (const auto& bound : found.bounds) {
+    if (bound.cause == term.cause) return "absent";
+  }
+  return "not named";
+}
+
+Section terms_section(const Diagnosis& found) {
+  Table table{{{"cause"},
+               {"size, were it alone"},
+               {"strength", true},
+               {"share left", true},
+               {"chance of noise", true},
+               {"probability", true},
+               {"verdict"}},
+              {},
+              "Strength in units of noise. Share left: what the calibration of the settings leaves "
+              "of the cause. Chance of noise: that noise alone lets any cause look as strong."};
+  for (const auto& term : found.terms) {
+    const std::string fate = fate_of(found, term);
+    table.rows.push_back({{cause_title(term.cause),
+                           typeset(size_in_words(term.parameter, term.value, term.sigma)),
+                           fixed(term.delta, 1),
+                           share_percent(term.share_left),
+                           share_percent(term.p_value),
+                           percent(term.probability),
+                           fate},
+                          fate == "named" || fate == "in the set"});
+  }
+  return {"Every cause that was tested", {std::move(table)}};
+}
+
+Section bounds_section(const Diagnosis& found) {
+  Section section{"Looked for and absent, and not testable", {}};
+  if (!found.bounds.empty()) {
+    Table table{{{"absent"}, {"larger than this it would have shown"}}, {}, "95 % bounds."};
+    for (const auto& bound : found.bounds)
+      table.rows.push_back({{cause_title(bound.cause), bound_in_words(bound)}, false});
+    section.blocks.emplace_back(std::move(table));
+  }
+  if (!found.not_testable.empty()) {
+    Table table{{{"not testable"}, {"because"}}, {}, "Nothing is said about these."};
+    for (const auto& missing : found.not_testable)
+      table.rows.push_back({{cause_title(missing.cause), missing.reason}, false});
+    section.blocks.emplace_back(std::move(table));
+  }
+  return section;
+}
+
+Section bad_points_section(const Diagnosis& found) {
+  Table table{{{"point"}, {"right of its mark, mm", true}, {"up, mm", true}, {"in sigmas", true}},
+              {},
+              "Where the tool would have to have been for the reading to be right. They were set "
+              "aside; measure them again."};
+  for (const auto& bad : found.bad_points)
+    table.rows.push_back({{fmt::format("point {}", bad.index + 1),
+                           fixed(bad.shift_mm.x(), 2),
+                           fixed(bad.shift_mm.y(), 2),
+                           fixed(bad.distance, 1)},
+                          true});
+  return {"Bad points", {std::move(table)}};
+}
+
+Section settings_section(const Diagnosis& found) {
+  Table table{{{"setting"},
+               {"stated", true},
+               {"\u00b1", true},
+               {"calibrated", true},
+               {"\u00b1", true},
+               {"unit"},
+               {"remark"}},
+              {},
+              "\u00b1: one sigma."};
+  for (const auto& result : found.settings) {
+    const int digits = unit_of(result.setting) == "mm" ? 2 : 3;
+    const auto cell = [&](double value) { return fixed(in_unit(result.setting, value), digits); };
+    table.rows.push_back(
+        {{std::string(setting_in_words(result.setting)),
+          cell(result.stated),
+          cell(result.stated_sigma),
+          cell(result.calibrated),
+          cell(result.sigma),
+          std::string(unit_of(result.setting)),
+          result.off ? "off: further from what was stated than its uncertainty allows; check it"
+                     : ""},
+         result.off});
+  }
+  return {"The machine's settings", {std::move(table)}};
+}
+
+Section method_section(const Diagnosis& found) {
+  Section section{"What this rests on", {}};
+  for (const std::string& note : found.notes) section.blocks.emplace_back(Paragraph{typeset(note)});
+  std::string noise = found.stated_noise
+                          ? fmt::format(
+                                "Noise as stated: {:g} mm a chain and {:g} mm a mark (one "
+                                "sigma, {:g} degrees of freedom); ",
+                                found.stated_noise->length_mm,
+                                found.stated_noise->position_mm,
+                                found.stated_noise->dof)
+                          : std::string("The noise was not stated; ");
+  noise += fmt::format("what was found is {:.2f} times that.", found.noise_factor);
+  section.blocks.emplace_back(Paragraph{std::move(noise)});
+  for (const auto& correction : found.data_corrections) {
+    section.blocks.emplace_back(
+        Paragraph{fmt::format("The data are corrected by {}; it does not go into the machine.",
+                              cause_title(correction))});
+  }
+  return section;
+}
+
+}  // namespace
+
+report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
+  const VerdictLights& lights = lights_of(found.verdict);
+  report::Page page;
+  page.title = fmt::format("Diagnosis: {}", found.grid_name);
+  page.subtitle = fmt::format("{}, {} points", found.extended_machine.name, found.points.size());
+  page.verdict = typeset(found.sentence);
+  const bool is_something_left = is_surprising(found.left_over);
+  page.tone = is_something_left && lights.tone == Tone::good ? Tone::caution : lights.tone;
+  page.lights = {
+      {lights.found_tone, "Found?", std::string(lights.found)},
+      {is_something_left ? std::max(lights.named_tone, Tone::caution) : lights.named_tone,
+       "Named?",
+       fmt::format("{}{}",
+                   lights.named,
+                   is_something_left && !found.causes.empty() ? "; not all of it" : "")},
+      data_light(found),
+      corrected_light(found)};
+  for (const std::string& line : found.what_to_do) page.advice.push_back(typeset(line));
+  page.figures = figures_of(found);
+  if (!found.not_proved.empty())
+    page.not_proved = "What this does not prove: " + typeset(found.not_proved);
+  if (!found.causes.empty()) page.sections.push_back(causes_section(found));
+  if (!found.points.empty()) page.sections.push_back(arrows_section(found));
+  if (!found.points.empty() && !found.causes.empty())
+    page.sections.push_back(signature_section(found));
+  if (found.gain) page.sections.push_back(gain_section(found));
+  if (found.transferred) page.sections.push_back(transfer_section(found));
+  if (!found.next_measurements.empty()) page.sections.push_back(next_section(found));
+  if (!found.points.empty()) page.sections.push_back(residuals_section(found));
+  if (!found.hypotheses.empty()) page.sections.push_back(probabilities_section(found));
+  if (!found.terms.empty()) page.sections.push_back(terms_section(found));
+  if (!found.separations.empty()) page.sections.push_back(separation_section(found));
+  if (!found.bad_points.empty()) page.sections.push_back(bad_points_section(found));
+  if (!found.bounds.empty() || !found.not_testable.empty())
+    page.sections.push_back(bounds_section(found));
+  if (!found.settings.empty()) page.sections.push_back(settings_section(found));
+  page.sections.push_back(method_section(found));
+  page.provenance =
+      fmt::format("Made from {} by chaintrue {}; seed {}.", source, CHAINTRUE_VERSION, found.seed);
+  return page;
+}
+
+}  // namespace chaintrue::cli

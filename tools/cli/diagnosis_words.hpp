@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A diagnosis in the words and units of a workshop, for the terminal and for the report's page.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/diagnosis/diagnosis.hpp"
+
+namespace chaintrue::cli {
+
+/// "chain pitch error, left"
+[[nodiscard]] std::string cause_title(const grid::diagnosis::CauseId& cause);
+[[nodiscard]] std::string cause_title(const model::AppliedEffect& effect);
+/// Also for nothing, unknown, noise and bad_points.
+[[nodiscard]] std::string hypothesis_title(const grid::diagnosis::Hypothesis& hypothesis);
+
+/// A parameter in a workshop unit: `elongation` 0.0012 is "0.12 % longer links"; without a sigma
+/// where it is 0.
+[[nodiscard]] std::string size_in_words(std::string_view parameter, double value, double sigma);
+/// A bound in the same unit.
+[[nodiscard]] std::string bound_in_words(const grid::diagnosis::Bound& bound);
+/// All parameters, parted by commas.
+[[nodiscard]] std::string sizes_in_words(
+    const std::vector<grid::diagnosis::ParameterEstimate>& parameters);
+
+/// Noise alone leaves as much in less than one of a hundred cases.
+[[nodiscard]] bool is_surprising(const grid::diagnosis::LeftOver& left_over);
+/// What is left over once the causes named are in the model, in a sentence.
+[[nodiscard]] std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over);
+/// What to do, where, and how well.
+[[nodiscard]] std::string follow_up_in_words(const grid::diagnosis::NextMeasurement& next);
+
+/// 97 %, or "above 99.9 %" and "below 0.1 %": certainty is never claimed.
+[[nodiscard]] std::string percent(double probability);
+/// A share or a chance: 100 % and 0 % are possible, "below 0.1 %" where it is neither.
+[[nodiscard]] std::string share_percent(double share);
+[[nodiscard]] std::string capitalised(std::string text);
+/// For the page: the first letter large, +- as one sign that no line is broken at.
+[[nodiscard]] std::string typeset(std::string text);
+/// Fixed digits with a true minus sign, never "-0.00".
+[[nodiscard]] std::string fixed(double value, int digits);
+
+/// A line of the gain table.
+struct GainRow {
+  std::string_view what;
+  const grid::diagnosis::HeldOut* held_out = nullptr;
+  std::optional<double> border_mm;
+};
+/// Rows point into the diagnosis. Precondition: it has a gain. Rows of an extension are left out
+/// where nothing was named.
+[[nodiscard]] std::vector<GainRow> gain_rows(const grid::diagnosis::Diagnosis& diagnosis);
+/// The same on the other grid. Precondition: there is one.
+[[nodiscard]] std::vector<GainRow> transfer_rows(const grid::diagnosis::Diagnosis& diagnosis);
+
+/// Everything for the terminal: verdict, advice, causes, gain, follow-up, settings, what is absent
+/// and what could not be tested.
+[[nodiscard]] std::string diagnosis_in_words(const grid::diagnosis::Diagnosis& diagnosis);
+
+}  // namespace chaintrue::cli

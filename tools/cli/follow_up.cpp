@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/follow_up.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "tools/cli/diagnosis_words.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::MeasuredGrid;
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::NextMeasurement;
+
+/// The number of the next visit; empty where visits are not numbered.
+std::optional<int> next_visit(const MeasuredGrid& measured) {
+  std::optional<int> last;
+  for (const auto& point : measured.points) {
+    if (point.order) last = std::max(last.value_or(*point.order), *point.order);
+  }
+  return last ? std::optional(*last + 1) : std::nullopt;
+}
+
+/// Points of this grid give commands in place of lengths.
+bool gives_commands(const MeasuredGrid& measured) {
+  return !measured.points.empty() && !measured.points.front().lengths;
+}
+
+}  // namespace
+
+std::string follow_up_list(const Diagnosis& found) {
+  if (found.next_measurements.empty()) {
+    return "No measurement is proposed: none would change the verdict, or none was worked out.\n";
+  }
+  std::string text = "Measure, in this order:\n";
+  int number = 0;
+  for (const NextMeasurement& next : found.next_measurements) {
+    fmt::format_to(std::back_inserter(text),
+                   "{:>3}. {} A single right name then has probability {}.\n",
+                   ++number,
+                   follow_up_in_words(next),
+                   percent(next.raises_probability_to));
+  }
+  return text;
+}
+
+std::string follow_up_json(const Diagnosis& found, const MeasuredGrid& measured) {
+  const std::string_view values = gives_commands(measured)
+                                      ? R"("commanded_x_mm": null, "commanded_y_mm": null)"
+                                      : R"("left_mm": null, "right_mm": null)";
+  std::optional<int> visit = next_visit(measured);
+  std::string points, readings;
+  for (const NextMeasurement& next : found.next_measurements) {
+    if (next.mark) {
+      fmt::format_to(std::back_inserter(points),
+                     "  {{\"x_mm\": {:.1f}, \"y_mm\": {:.1f}, {}{}}},\n",
+                     next.mark->x_mm + 0.0,
+                     next.mark->y_mm + 0.0,
+                     values,
+                     visit ? fmt::format(", \"order\": {}", (*visit)++) : "");
+    } else {
+      fmt::format_to(std::back_inserter(readings),
+                     "  {{\"what\": \"{}\"{}, \"value\": null, \"sigma\": {}}},\n",
+                     next.what,
+                     next.side.empty() ? "" : fmt::format(", \"side\": \"{}\"", next.side),
+                     next.sigma > 0.0 ? fmt::format("{:g}", next.sigma) : "null");
+    }
+  }
+  std::string text;
+  if (!points.empty()) text += "\"points\": add, each null filled in\n" + points;
+  if (!readings.empty()) text += "\"readings\": add, each null filled in\n" + readings;
+  return text;
+}
+
+std::string follow_up_csv(const Diagnosis& found, const MeasuredGrid& measured) {
+  std::optional<int> visit = next_visit(measured);
+  const bool commands = gives_commands(measured);
+  std::string text = fmt::format("x_mm,y_mm,{}{}\n",
+                                 commands ? "commanded_x_mm,commanded_y_mm" : "left_mm,right_mm",
+                                 visit ? ",order" : "");
+  for (const NextMeasurement& next : found.next_measurements) {
+    if (!next.mark) continue;
+    fmt::format_to(std::back_inserter(text),
+                   "{:.1f},{:.1f},,{}\n",
+                   next.mark->x_mm + 0.0,
+                   next.mark->y_mm + 0.0,
+                   visit ? fmt::format(",{}", (*visit)++) : "");
+  }
+  return text;
+}
+
+}  // namespace chaintrue::cli

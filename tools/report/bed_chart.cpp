@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/report/bed_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace chaintrue::report {
+namespace {
+
+/// The longest arrow of a panel spans this share of the bed's width.
+constexpr double kLongestArrow = 0.12;
+
+double width_mm(const Outline& outline) { return outline.x_max_mm - outline.x_min_mm; }
+
+}  // namespace
+
+double round_down_125(double value) {
+  if (!(value > 0.0)) return 0.0;
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {5.0, 2.0}) {
+    if (value >= step * decade) return step * decade;
+  }
+  return decade;
+}
+
+Outline view_of(const Outline& sheet, const std::vector<Arrow>& marks) {
+  if (!(width_mm(sheet) > 0.0) || !(sheet.y_max_mm > sheet.y_min_mm)) {
+    throw std::invalid_argument(
+        fmt::format("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
+                    sheet.x_min_mm,
+                    sheet.x_max_mm,
+                    sheet.y_min_mm,
+                    sheet.y_max_mm));
+  }
+  Outline view = sheet;
+  for (const Arrow& mark : marks) {
+    view.x_min_mm = std::min(view.x_min_mm, mark.x_mm);
+    view.x_max_mm = std::max(view.x_max_mm, mark.x_mm);
+    view.y_min_mm = std::min(view.y_min_mm, mark.y_mm);
+    view.y_max_mm = std::max(view.y_max_mm, mark.y_mm);
+  }
+  const double margin_mm = 0.05 * width_mm(sheet);
+  return {view.x_min_mm - margin_mm,
+          view.x_max_mm + margin_mm,
+          view.y_min_mm - margin_mm,
+          view.y_max_mm + margin_mm};
+}
+
+std::vector<Signal> bed_signals(const Outline& sheet, const std::vector<Arrow>& marks) {
+  const Outline view = view_of(sheet, marks);
+  return {{"x_min_mm", view.x_min_mm},
+          {"x_max_mm", view.x_max_mm},
+          {"y_min_mm", view.y_min_mm},
+          {"y_max_mm", view.y_max_mm},
+          {"sheet_x_min_mm", sheet.x_min_mm},
+          {"sheet_x_max_mm", sheet.x_max_mm},
+          {"sheet_y_min_mm", sheet.y_min_mm},
+          {"sheet_y_max_mm", sheet.y_max_mm}};
+}
+
+double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows) {
+  double longest_mm = 0.0;
+  for (const Arrow& arrow : arrows) {
+    if (!arrow.is_bad) longest_mm = std::max(longest_mm, std::hypot(arrow.dx_mm, arrow.dy_mm));
+  }
+  return longest_mm > 0.0 ? round_down_125(kLongestArrow * width_mm(sheet) / longest_mm) : 1.0;
+}
+
+Chart arrows_chart(const Outline& sheet,
+                   const std::vector<Arrow>& arrows,
+                   double magnification,
+                   const char* color) {
+  Chart chart{.specification = "bed_arrows"};
+  DataTable table{"arrows",
+                  {"name", "x_mm", "y_mm", "dx_mm", "dy_mm", "is_bad", "noise_x_mm", "noise_y_mm"},
+                  {}};
+  for (const Arrow& arrow : arrows) {
+    table.rows.push_back({arrow.name,
+                          arrow.x_mm,
+                          arrow.y_mm,
+                          arrow.dx_mm,
+                          arrow.dy_mm,
+                          arrow.is_bad,
+                          arrow.noise_x_mm,
+                          arrow.noise_y_mm});
+  }
+  chart.data.push_back(std::move(table));
+  chart.signals = bed_signals(sheet, arrows);
+  const double key_mm = round_down_125(kLongestArrow * width_mm(sheet) / magnification);
+  chart.signals.push_back({"magnification", magnification});
+  chart.signals.push_back({"key_mm", key_mm});
+  chart.signals.push_back(
+      {"key_text", fmt::format("{:g} mm, drawn {:g} times as long", key_mm, magnification)});
+  chart.signals.push_back({"color", std::string(color)});
+  return chart;
+}
+
+}  // namespace chaintrue::report

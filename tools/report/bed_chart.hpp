@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What every picture of the bed shares: its outline, the window around it, and arrows on it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/report/page.hpp"
+
+namespace chaintrue::report {
+
+/// The sheet, or what of it was measured.
+struct Outline {
+  double x_min_mm = 0.0;
+  double x_max_mm = 0.0;
+  double y_min_mm = 0.0;
+  double y_max_mm = 0.0;
+};
+
+/// Vermilion and blue of Okabe and Ito's palette, told apart with every colour vision.
+inline constexpr const char* kBeforeColor = "#d55e00";
+inline constexpr const char* kAfterColor = "#0072b2";
+inline constexpr const char* kNeutralColor = "#8a94a3";
+
+/// A shift of the tool at a mark.
+struct Arrow {
+  std::string name{};
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+  double dx_mm = 0.0;
+  double dy_mm = 0.0;
+  bool is_bad = false;
+  /// One sigma of the shift, drawn as an ellipse at the mark; 0: not drawn.
+  double noise_x_mm = 0.0;
+  double noise_y_mm = 0.0;
+};
+
+/// The largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) not above value; 0 for 0.
+[[nodiscard]] double round_down_125(double value);
+
+/// The sheet and the marks, with a margin of 5 % of the sheet's width.
+/// \throws std::invalid_argument for a sheet without an extent.
+[[nodiscard]] Outline view_of(const Outline& sheet, const std::vector<Arrow>& marks);
+/// As the charts of the bed declare them.
+[[nodiscard]] std::vector<Signal> bed_signals(const Outline& sheet,
+                                              const std::vector<Arrow>& marks);
+
+/// How much to magnify, so that the longest arrow of a good point spans an eighth of the bed; once
+/// where all are of no length.
+[[nodiscard]] double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows);
+/// charts/bed_arrows without title and caption; the scale is printed in the picture.
+[[nodiscard]] Chart arrows_chart(const Outline& sheet,
+                                 const std::vector<Arrow>& arrows,
+                                 double magnification,
+                                 const char* color);
+
+}  // namespace chaintrue::report
