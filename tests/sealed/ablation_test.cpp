@@ -27,7 +27,7 @@ int count(const std::vector<Trial>& all, bool (*hit)(const Trial&)) {
 TEST(Ablation, WithoutProjectionCausesAreMistaken) {
   TrialOptions o = options(Mix::single);
   o.steps.project_settings = false;
-  EXPECT_LT(count(trials(o, 9100, 40), leads_right), 32);
+  EXPECT_LT(count(trials(o, 9100, 20), leads_right), 16);
 }
 
 // A beam 150 mm above the bed: at its top centre the chains are level, and where the mark is off
@@ -42,12 +42,12 @@ TEST(Ablation, WithoutWhiteningLessIsFound) {
   const auto alone = [](const Trial& t) {
     return t.verdict == grid::diagnosis::Verdict::named && leads_right(t);
   };
-  const int with = count(trials(o, 9600, 30), alone);
+  const int with = count(trials(o, 9600, 16), alone);
   o.steps.whiten = false;
-  const int without = count(trials(o, 9600, 30), alone);
-  std::printf("right with whitening %d, without %d of 30\n", with, without);
-  EXPECT_GE(with, 24);
-  EXPECT_LE(without, with - 6);
+  const int without = count(trials(o, 9600, 16), alone);
+  std::printf("right with whitening %d, without %d of 16\n", with, without);
+  EXPECT_GE(with, 11);
+  EXPECT_LE(without, with - 3);
 }
 
 // The noise is three times what was said. Whoever takes it from the fit alone sees nothing odd.
@@ -57,19 +57,19 @@ TEST(Ablation, WithoutTheNoisesAnchorWrongNoiseIsNotSeen) {
   };
   TrialOptions o = options(Mix::nothing);
   o.recipe.noise_ratio = 1.0 / 3.0;
-  const int with = count(trials(o, 9700, 15), said);
+  const int with = count(trials(o, 9700, 8), said);
   o.steps.anchor_noise = false;
-  const int without = count(trials(o, 9700, 15), said);
-  std::printf("said with the anchor %d, without %d of 15\n", with, without);
-  EXPECT_GE(with, 13);
-  EXPECT_LE(without, 3);
+  const int without = count(trials(o, 9700, 8), said);
+  std::printf("said with the anchor %d, without %d of 8\n", with, without);
+  EXPECT_GE(with, 7);
+  EXPECT_LE(without, 1);
 }
 
 // A slip of the pen weighs more than any cause where no point may be set aside.
 TEST(Ablation, WithoutARobustStartSlipsMakeCauses) {
   TrialOptions o = options(Mix::bad_points);
   o.steps.robust = false;
-  EXPECT_GE(count(trials(o, 9400, 20), names_something), 10);
+  EXPECT_GE(count(trials(o, 9400, 10), names_something), 5);
 }
 
 // Places that may be chosen freely fit noise better than they should: the best of many counts in
@@ -87,9 +87,9 @@ TEST(Ablation, WithoutAveragingPlacesAreTooSure) {
     }
     return sum / static_cast<double>(all.size());
   };
-  const double with = placed(trials(o, 9000, 25));
+  const double with = placed(trials(o, 9000, 10));
   o.steps.average_location = false;
-  const double without = placed(trials(o, 9000, 25));
+  const double without = placed(trials(o, 9000, 10));
   std::printf("probability of causes with a place: %.4f, without averaging %.4f\n", with, without);
   EXPECT_GT(without, 3.0 * with);
 }

@@ -46,7 +46,7 @@ void expect_same(const Diagnosis& a, const Diagnosis& b) {
 }
 
 TEST(Metamorphic, SameDataSameAnswer) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto grid = read(drawn(seed));
     expect_same(diagnosed(grid), diagnosed(grid));
@@ -54,7 +54,7 @@ TEST(Metamorphic, SameDataSameAnswer) {
 }
 
 TEST(Metamorphic, TheOrderOfLinesInTheFileSaysNothing) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     auto grid = read(drawn(seed));
     const Diagnosis before = diagnosed(grid);
@@ -75,7 +75,7 @@ std::string mirrored(std::string id) {
 // Seen in a mirror, left is right and the rest is the same. Searches that run over places from one
 // end may end a step apart; the verdict and the names may not.
 TEST(Metamorphic, TheMirrorImageHasTheMirroredCause) {
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     auto grid = read(drawn(seed));
     const Diagnosis before = diagnosed(grid);
@@ -99,7 +99,7 @@ TEST(Metamorphic, TheMirrorImageHasTheMirroredCause) {
 
 // Twice the noise and twice everything that is not as stated: the same in units of noise.
 TEST(Metamorphic, TwiceTheNoiseAndTwiceTheErrorIsTheSame) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto set = drawn(seed);
     auto grid = read(set);
@@ -147,7 +147,7 @@ TEST(Metamorphic, AnEffectThatTheModelHasIsNothingNew) {
 
 // With what was named in the model, nothing is left to name.
 TEST(Metamorphic, OnceNamedAndInTheModelItIsGone) {
-  for (std::uint64_t seed = 11; seed <= 18; ++seed) {
+  for (std::uint64_t seed = 11; seed <= 15; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     auto grid = read(drawn(seed));
     const Diagnosis found = diagnosed(grid);

