@@ -269,6 +269,8 @@ struct DiagnosisOptions {
   bool gain = true;  ///< held-out errors, naming repeated in each fold
   bool next_measurements = true;
   bool order_assumed = false;  ///< the points' order was assumed by somebody, not measured
+  /// Chain or paper, which no points tell apart: the person has it that it is the chain.
+  bool accept_class = false;
   /// Nothing but this cause is looked for: what somebody who knew it would find.
   std::optional<CauseId> told;
   Steps steps;
