@@ -33,6 +33,7 @@ struct MapPart {
   std::vector<SettingResult> settings;
   std::vector<MapPoint> points;
   std::optional<MirrorTest> mirror;
+  std::optional<DistancesUsed> distances;
   std::vector<std::string> notes;
 };
 
@@ -192,6 +193,18 @@ const Record<MirrorTest>& mirror_record() {
   return record;
 }
 
+const Record<DistancesUsed>& distances_record() {
+  constexpr int kMost = 1000000;
+  static const auto record =
+      Record<DistancesUsed>("the distances between holes")
+          .required("used", &DistancesUsed::used, integer(0, kMost))
+          .required("set_aside", &DistancesUsed::set_aside, integer(0, kMost))
+          .required("tape_sigma_mm", &DistancesUsed::tape_sigma_mm, number(kPositive))
+          .required("left_out_all", &DistancesUsed::left_out_all, object(summary_record()))
+          .required("left_out_good", &DistancesUsed::left_out_good, object(summary_record()));
+  return record;
+}
+
 void check_map(const Cursor& at, MapPart& map) {
   if (map.model.has_value() == map.direct.has_value()) {
     at.expect("either \"on_machine\" or \"direct\", the two kinds of surface, and not both");
@@ -223,6 +236,7 @@ const Record<MapPart>& map_record() {
           .required("settings", &MapPart::settings, list(object(setting_record())))
           .required("points", &MapPart::points, list(object(point_record())))
           .optional("mirror", &MapPart::mirror, object(mirror_record()))
+          .optional("distances", &MapPart::distances, object(distances_record()))
           .required("notes", &MapPart::notes, list(text()))
           .check(check_map);
   return record;
@@ -241,6 +255,7 @@ MapPart part_of(const MapContents& map) {
                map.settings,
                map.points,
                map.mirror,
+               map.distances,
                map.notes};
   if (const auto* model = std::get_if<ModelSurface>(&map.surface)) {
     part.model = files::part_of(*model);
@@ -268,6 +283,7 @@ MapContents contents_of(const MapPart& part) {
   map.settings = part.settings;
   map.points = part.points;
   map.mirror = part.mirror;
+  map.distances = part.distances;
   map.notes = part.notes;
   return map;
 }

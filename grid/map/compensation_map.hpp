@@ -105,6 +105,16 @@ struct MirrorTest {
   std::string sentence;
 };
 
+/// What a map made from holes and a tape stands on (grid/holes): its points are the holes, where the
+/// distances say they are, and its held-out errors those of distances, along the tape.
+struct DistancesUsed {
+  int used = 0;
+  int set_aside = 0;
+  double tape_sigma_mm = 0.0;
+  ErrorSummary left_out_all;
+  ErrorSummary left_out_good;
+};
+
 /// Surface on the calibrated model.
 struct ModelSurface {
   model::Machine machine;  ///< calibrated
@@ -157,6 +167,8 @@ struct MapContents {
   std::vector<SettingResult> settings;
   std::vector<MapPoint> points;
   std::optional<MirrorTest> mirror;
+  /// Only of a map made from holes.
+  std::optional<DistancesUsed> distances = std::nullopt;
   /// Sentences for the person: what was assumed, set aside, or found odd.
   std::vector<std::string> notes;
 };
