@@ -134,10 +134,7 @@ std::optional<TrueErrors> true_errors(const generator::SealedSet& set,
   const auto oracle = told(set, *fresh, set.answer.hidden);
   if (!predicted || !calibrated || !oracle) return std::nullopt;
   TrueErrors errors{*calibrated, tool_rms_mm(*fresh, *predicted), *oracle, 0.0};
-  if (found.gain) {
-    const double before = found.gain->calibrated.rms_mm, after = found.gain->extended.rms_mm;
-    errors.reported_drop = before * before - after * after;
-  }
+  if (found.gain) errors.reported_drop = found.gain->drop_mm2;
   return errors;
 }
 
