@@ -127,7 +127,8 @@ TEST_F(HolesCommands, TheCertificateIsOnePage) {
   ASSERT_EQ(run("fit " + holes_ + " -o map.json").code, 0);
   ASSERT_EQ(run("report map.json --certificate -o certificate.html").code, 0);
   EXPECT_THAT(content_of(folder_ / "certificate.html"),
-              AllOf(HasSubstr("95 % interval"),
+              AllOf(HasSubstr("class=\"one-sheet\""),
+                    HasSubstr("95 % interval"),
                     HasSubstr("What was measured"),
                     HasSubstr("What is named"),
                     HasSubstr("What remains")));
