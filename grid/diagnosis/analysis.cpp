@@ -188,7 +188,7 @@ Judgement decide(const Session& session,
                  const Contest& contest,
                  const std::vector<bool>& excluded,
                  bool seen) {
-  constexpr double kOverPattern = 1.8;  // strength of the leading cause over what is left
+  constexpr double kOverPattern = 2.2;  // strength of the leading cause over what is left
   Judgement judged = judge(rows, contest, excluded, seen);
   if (judged.listed.empty() || judged.pattern <= kPatternPossible || judged.best_pattern < 0) {
     return judged;

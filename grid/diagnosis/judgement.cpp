@@ -179,7 +179,8 @@ class Judge {
   void name_causes(const Grouped& leading) {
     // Beside a pattern that nobody knows a cause must be needed, not only possible.
     if (result_.pattern > kPatternPossible &&
-        result_.marginal.front().probability < kNeededBesidePattern) {
+        (leading_key_.size() > 1 ? result_.marginal.front().probability : result_.caused) <
+            kNeededBesidePattern) {
       keep_silent();
       return;
     }

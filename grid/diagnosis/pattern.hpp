@@ -29,7 +29,6 @@ inline constexpr PatternShape kPatternShapes[] = {
     {PatternKind::chains, 450.0},
     {PatternKind::chains, 800.0},
     {PatternKind::along_axes, 180.0},
-    {PatternKind::along_axes, 400.0},
 };
 /// Strengths at which each shape is tried, in units of noise.
 inline constexpr double kPatternDeltas[] = {4.0, 6.5, 10.0, 16.0, 25.0, 60.0};

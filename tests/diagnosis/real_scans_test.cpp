@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A real machine, scanned twice a day apart: the names stand whatever line is left out, one scan
 // foretells the other, and an effect planted on the real residuals is found. The scans stay in
-// ../shared/data; every second line of them is enough here. What all their points say is in
-// docs/diagnosis.md.
+// ../shared/data; of the larger one every second mark is enough here. With CHAINTRUE_LONG set in
+// the environment every line is left out in turn. What all points say is in docs/diagnosis.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
-#include <functional>
+#include <numbers>
 #include <set>
 
 #include "grid/diagnosis/diagnosis.hpp"
@@ -28,7 +29,6 @@ constexpr const char* kUpper = "D_2018-10-01_upper_half.csv";
 
 int line(double coordinate_mm) { return static_cast<int>(std::lround(coordinate_mm / kPitchMm)); }
 
-/// A scan, every second line of it, visited by assumption as its README has it.
 class RealScans : public testing::Test {
  protected:
   void SetUp() override {
@@ -44,9 +44,6 @@ class RealScans : public testing::Test {
         files::read_groundcontrol(data_ / "holey" / "groundcontrol_2018-09-01b.ini").machine;
     options.pitch_mm = kPitchMm;
     MeasuredGrid grid = files::read_optical(data_ / "optical_grid" / file, options).grid;
-    std::erase_if(grid.points, [](const MeasuredPoint& p) {
-      return line(p.mark.x_mm) % 2 == 0 || line(p.mark.y_mm) % 2 == 0;
-    });
     grid.noise = StatedNoise{0.1, 0.3, 12.0};
     return grid;
   }
@@ -72,7 +69,8 @@ class RealScans : public testing::Test {
 };
 
 TEST_F(RealScans, BothScansNameTheBannersScale) {
-  for (const char* file : {kFull, kUpper}) {
+  for (const char* file : {kUpper, kFull}) {
+    if (file == kFull && std::getenv("CHAINTRUE_LONG") == nullptr) continue;
     const Diagnosis d = diagnosed(scan(file));
     EXPECT_TRUE(names(d).contains("tape_scale:x")) << file << ": " << d.sentence;
     EXPECT_TRUE(std::none_of(d.extended_machine.effects.begin(),
@@ -92,6 +90,7 @@ TEST_F(RealScans, NamesStandWithoutAnyLine) {
     };
     for (const MeasuredPoint& p : whole.points) lines.insert(of(p));
     for (const int left_out : lines) {
+      if (columns && left_out % 10 != 0 && std::getenv("CHAINTRUE_LONG") == nullptr) continue;
       MeasuredGrid grid = whole;
       std::erase_if(grid.points, [&](const MeasuredPoint& p) { return of(p) == left_out; });
       const Diagnosis d = diagnosed(grid);
@@ -102,8 +101,10 @@ TEST_F(RealScans, NamesStandWithoutAnyLine) {
 }
 
 TEST_F(RealScans, OneScanForetellsTheOther) {
-  const MeasuredGrid first = scan(kFull);
-  const MeasuredGrid second = scan(kUpper);
+  // The later scan, of the upper half, and the earlier one's marks there.
+  const MeasuredGrid first = scan(kUpper);
+  MeasuredGrid second = scan(kFull);
+  std::erase_if(second.points, [](const MeasuredPoint& p) { return p.mark.y_mm < -1.0; });
   const Diagnosis d = diagnosed(first);
   const auto told = transfer(first, d, second);
   ASSERT_TRUE(told);
@@ -115,33 +116,38 @@ TEST_F(RealScans, OneScanForetellsTheOther) {
       told->extended.rms_mm,
       told->extended_and_surface.rms_mm);
   // A day apart: a pattern of the machine or of the banner shows in both.
-  EXPECT_LT(told->extended.rms_mm, 0.4 * told->calibrated.rms_mm);
+  EXPECT_LT(told->extended.rms_mm, 0.6 * told->calibrated.rms_mm);
   EXPECT_LT(told->extended_and_surface.rms_mm, told->extended.rms_mm);
 }
 
 TEST_F(RealScans, APlantedEffectIsFound) {
-  // No model of the noise: the scan's own residuals, and a pitch error of the left chain on top.
-  constexpr double kElongation = 0.002;
+  // No model of the noise: the scan's own residuals, and a left sprocket bored 0.4 mm off on top.
+  constexpr double kAmplitudeMm = 0.4;
+  constexpr double kTurnMm = 63.5;
   MeasuredGrid grid = scan(kUpper);
   const auto lengths = length_points(grid);
   ASSERT_TRUE(lengths);
+  const auto is_planted = [](const Cause& c) {
+    return c.cause.effect->id == "sprocket_eccentricity" &&
+           c.cause.side == model::effects::EffectSide::left;
+  };
   const Diagnosis before = diagnosed(grid);
+  EXPECT_TRUE(std::none_of(before.causes.begin(), before.causes.end(), is_planted))
+      << before.sentence;
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    const double length = (*lengths)[i].lengths.left_mm;
     grid.points[i].lengths = (*lengths)[i].lengths;
-    grid.points[i].lengths->left_mm /= 1.0 + kElongation;
+    grid.points[i].lengths->left_mm +=
+        kAmplitudeMm * std::sin(2.0 * std::numbers::pi * length / kTurnMm + 1.0);
     grid.points[i].commanded.reset();
   }
   const Diagnosis after = diagnosed(grid);
   SCOPED_TRACE(after.sentence);
-  EXPECT_FALSE(names(before).contains("chain_pitch_error:left")) << before.sentence;
-  const auto found = std::find_if(after.causes.begin(), after.causes.end(), [](const Cause& c) {
-    return c.cause.effect->id == "chain_pitch_error" &&
-           c.cause.side == model::effects::EffectSide::left;
-  });
+  const auto found = std::find_if(after.causes.begin(), after.causes.end(), is_planted);
   ASSERT_NE(found, after.causes.end());
   const ParameterEstimate& size = found->parameters.front();
-  EXPECT_NEAR(size.value, kElongation, std::max(4.0 * size.sigma, 0.25 * kElongation))
-      << "what the machine has of it by itself is in the same number";
+  // What the real sprocket has of its own is in the same number: below 0.1 mm by the bound before.
+  EXPECT_NEAR(size.value, kAmplitudeMm, 4.0 * size.sigma + 0.1);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/groundcontrol_file.hpp"
+#include "grid/files/holes_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/optical_file.hpp"
 #include "grid/files/points_file.hpp"
@@ -61,6 +62,11 @@ Outcome diagnosis_outcome(const std::string& text, const std::string& name) {
   return {write_diagnosis(parse_diagnosis(text, name)), {}, {}};
 }
 
+Outcome holes_outcome(const std::string& text, const std::string& name) {
+  const ReadHoles read = parse_holes(text, name);
+  return {write_holes(read.holes), messages_of(read.warnings), {}};
+}
+
 using Reader = std::function<Outcome(const std::string& text, const std::string& name)>;
 
 const std::map<std::string, Reader>& readers() {
@@ -69,7 +75,8 @@ const std::map<std::string, Reader>& readers() {
                                                         {"points", points_outcome},
                                                         {"optical", optical_outcome},
                                                         {"groundcontrol", groundcontrol_outcome},
-                                                        {"diagnosis", diagnosis_outcome}};
+                                                        {"diagnosis", diagnosis_outcome},
+                                                        {"holes", holes_outcome}};
   return by_kind;
 }
 

@@ -43,8 +43,8 @@ TEST_P(GoodInput, IsReadAndWrittenTheSameEachTime) {
   EXPECT_EQ(read_fixture(GetParam()).written, first.written);
   // What is written is a chaintrue file, whatever was read.
   std::string kind = "points";
-  // A diagnosis holds a machine, and a grid may.
-  for (const char* known : {"diagnosis", "grid", "machine"}) {
+  // A diagnosis holds a machine, and holes or a grid may.
+  for (const char* known : {"diagnosis", "holes", "grid", "machine"}) {
     if (kind == "points" &&
         first.written.find(std::string("chaintrue_") + known) != std::string::npos)
       kind = known;

@@ -100,6 +100,7 @@ TEST_F(ImportCommand, BadInputIsExitCodeThreeAndNothingIsWritten) {
 TEST_F(ImportCommand, EveryBadFileIsRefusedByItsVerbInItsOwnWords) {
   const std::map<std::string, std::string> verbs = {
       {"grid", "fit fixtures/bad/{}"},
+      {"holes", "fit fixtures/bad/{}"},
       {"machine", "export groundcontrol fixtures/bad/{}"},
       {"optical", "import optical fixtures/bad/{} --machine fixtures/machines/groundcontrol.json"},
       {"groundcontrol", "import groundcontrol fixtures/bad/{}"}};

@@ -24,6 +24,7 @@
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
+#include "tools/cli/holes_words.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -136,8 +137,34 @@ tl::expected<Diagnosis, std::string> diagnosed(const DiagnoseCommand& command,
   return std::move(*found);
 }
 
+/// Distances tell causes one at a time, in words: the diagnosis file and its page are of points.
+int diagnose_holes(const DiagnoseCommand& command, const grid::MeasuredHoles& set) {
+  const std::string file = files::name_in_messages(command.input.grid);
+  const bool asks_for_files = !command.output.empty() || !command.report.empty() ||
+                              !command.extended_machine.empty() || !command.corrected_grid.empty();
+  if (!set.machine || asks_for_files) {
+    fmt::print(stderr,
+               "{}: {}\n",
+               file,
+               set.machine ? "holes are diagnosed in words alone; leave the output files out"
+                           : "the holes name no machine: give --machine");
+    return set.machine ? kNotSupportedOrOutside : kBadInput;
+  }
+  const auto fit = grid::fit_holes(set);
+  if (!fit) {
+    fmt::print(stderr, "{}: {}\n", file, fit.error().sentence);
+    return kBadInput;
+  }
+  fmt::print("{}", causes_in_words(set, *fit));
+  return kDone;
+}
+
 int run_diagnose(const DiagnoseCommand& command) {
-  grid::MeasuredGrid measured = read_grid_input(command.input);
+  auto input = read_measured_input(command.input, {}, MeasuredUse::fit);
+  if (const auto* holes = std::get_if<grid::MeasuredHoles>(&input)) {
+    return diagnose_holes(command, *holes);
+  }
+  grid::MeasuredGrid measured = std::get<grid::MeasuredGrid>(std::move(input));
   assume_order(command, measured);
   const auto found = diagnosed(command, measured);
   if (!found) {

@@ -9,9 +9,12 @@
 
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "grid/holes/holes_fit.hpp"
 #include "grid/map/fit.hpp"
 #include "tools/cli/grid_input.hpp"
+#include "tools/cli/holes_words.hpp"
 #include "tools/cli/map_words.hpp"
+#include "tools/cli/outside_option.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -19,9 +22,11 @@ namespace {
 
 struct FitCommand {
   GridInput input;
+  TapeInput tape;
   std::string output;
   std::string surface = "residual";
   std::string ends = "not_a_knot";
+  OutsideOption outside;
 };
 
 const std::map<std::string, interp::EndCondition>& end_conditions() {
@@ -33,21 +38,57 @@ const std::map<std::string, interp::EndCondition>& end_conditions() {
   return kByName;
 }
 
+/// The map goes to its file, the words to standard error; a fit that failed is told.
+int finish(const FitCommand& command,
+           const tl::expected<grid::CompensationMap, grid::FitFailure>& map,
+           const std::string& more_words) {
+  if (!map) {
+    fmt::print(stderr,
+               "{}: {}\n",
+               grid::files::name_in_messages(command.input.grid),
+               map.error().sentence);
+    return kBadInput;
+  }
+  grid::files::write_whole_file(command.output, grid::files::write_map(*map));
+  fmt::print(stderr, "{}{}", fit_in_words(*map), more_words);
+  return kDone;
+}
+
+int fit_the_holes(const FitCommand& command, const grid::MeasuredHoles& set) {
+  if (!set.machine) {
+    return finish(command,
+                  tl::unexpected(grid::FitFailure{
+                      grid::FitFailure::Reason::no_machine,
+                      "the holes name no machine; what was commanded becomes chain lengths by its "
+                      "controller: give --machine"}),
+                  "");
+  }
+  if (command.surface == "direct") {
+    return finish(command,
+                  tl::unexpected(grid::FitFailure{
+                      grid::FitFailure::Reason::not_a_grid,
+                      "a direct surface needs chain lengths at known places; holes and a tape tell "
+                      "neither, leave --surface out"}),
+                  "");
+  }
+  const auto fit = grid::fit_holes(set);
+  if (!fit) return finish(command, tl::unexpected(fit.error()), "");
+  return finish(command, grid::map_of(set, *fit), distances_in_words(set, *fit));
+}
+
 int run_fit(const FitCommand& command) {
-  const grid::MeasuredGrid measured = read_grid_input(command.input);
+  const auto input = read_measured_input(command.input, command.tape, MeasuredUse::fit);
+  if (const auto* holes = std::get_if<grid::MeasuredHoles>(&input)) {
+    return fit_the_holes(command, *holes);
+  }
+  const auto& measured = std::get<grid::MeasuredGrid>(input);
   grid::FitOptions options;
   options.surface =
       command.surface == "direct" ? grid::SurfaceKind::direct : grid::SurfaceKind::residual;
   const interp::EndCondition end = end_conditions().at(command.ends);
   options.ends = {{end, end}, {end, end}};
-  const auto map = grid::fit(measured, options);
-  if (!map) {
-    fmt::print(stderr, "{}: {}\n", grid::files::name_in_messages(command.input.grid), map.error().sentence);
-    return kBadInput;
-  }
-  grid::files::write_whole_file(command.output, grid::files::write_map(*map));
-  fmt::print(stderr, "{}", fit_in_words(*map));
-  return kDone;
+  options.outside = rule_of(command.outside, {});
+  return finish(command, grid::fit(measured, options), "");
 }
 
 }  // namespace
@@ -56,6 +97,7 @@ void add_fit(CLI::App& app, Run& run) {
   auto command = std::make_shared<FitCommand>();
   CLI::App* verb = app.add_subcommand("fit", "Measured points become a compensation map");
   add_grid_options(*verb, command->input);
+  add_tape_options(*verb, command->tape);
   verb->add_option("-o,--output", command->output, "The map file; - is standard output")
       ->required();
   verb->add_option("--surface",
@@ -68,10 +110,18 @@ void add_fit(CLI::App& app, Run& run) {
   verb->add_option("--ends", command->ends, "How direct splines end at the edges")
       ->check(CLI::IsMember({"not_a_knot", "natural", "parabolic", "clamped"}))
       ->capture_default_str();
+  add_outside_options(*verb, command->outside, "continued where not said");
   verb->footer(
       "The fit is told on standard error.\n\nExample:\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json");
-  verb->callback([command, &run] { run = [command] { return run_fit(*command); }; });
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
+      "  build/chaintrue fit fixtures/holes/nine_holes.json -o map.json");
+  verb->callback([command, &run] {
+    if (command->surface == "direct" && command->outside.way == "fade") {
+      throw CLI::ValidationError(
+          "fit", "--outside fade leaves the bare machine, which a direct surface does not have");
+    }
+    run = [command] { return run_fit(*command); };
+  });
 }
 
 }  // namespace chaintrue::cli

@@ -6,7 +6,10 @@
 #include <cstdio>
 
 #include "grid/files/grid_file.hpp"
+#include "grid/files/holes_file.hpp"
 #include "grid/files/machine_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "tools/cli/effect_argument.hpp"
 
 namespace chaintrue::cli {
 
@@ -28,12 +31,20 @@ void add_grid_options(CLI::App& verb, GridInput& input) {
                   "How well the noise is known, in degrees of freedom (15 where unsaid)");
 }
 
-grid::MeasuredGrid read_grid_input(const GridInput& input) {
-  namespace files = grid::files;
-  files::GridOptions options;
-  if (!input.machine.empty()) options.machine = files::read_machine(input.machine);
-  files::ReadGrid read = files::read_grid(input.grid, options);
-  for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+namespace {
+
+namespace files = grid::files;
+
+void print_warnings(const std::vector<files::Warning>& warnings) {
+  for (const files::Warning& warning : warnings) fmt::print(stderr, "{}\n", warning.message());
+}
+
+grid::MeasuredGrid grid_of(const std::string& text,
+                           const GridInput& input,
+                           files::GridOptions options) {
+  files::ReadGrid read =
+      files::parse_grid(text, files::name_in_messages(input.grid), std::move(options));
+  print_warnings(read.warnings);
   if (input.length_noise_mm || input.position_noise_mm || input.noise_dof) {
     const grid::StatedNoise own = read.grid.noise.value_or(grid::StatedNoise{});
     read.grid.noise = grid::StatedNoise{input.length_noise_mm.value_or(own.length_mm),
@@ -41,6 +52,60 @@ grid::MeasuredGrid read_grid_input(const GridInput& input) {
                                         input.noise_dof.value_or(own.dof)};
   }
   return std::move(read.grid);
+}
+
+void check_tape(const TapeInput& tape) {
+  OptionProblems problems;
+  if (tape.sigma_mm) problems.require("--tape-sigma-mm", *tape.sigma_mm, 0.001, 100.0);
+  if (tape.hook_offset_mm)
+    problems.require("--hook-offset-mm", *tape.hook_offset_mm, -1000.0, 1000.0);
+  if (tape.hole_sigma_mm) problems.require("--hole-sigma-mm", *tape.hole_sigma_mm, 0.0, 100.0);
+  problems.throw_if_any();
+}
+
+std::optional<model::Machine> machine_of(const GridInput& input) {
+  if (input.machine.empty()) return std::nullopt;
+  return files::read_machine(input.machine);
+}
+
+}  // namespace
+
+void add_tape_options(CLI::App& verb, TapeInput& input) {
+  verb.add_option("--tape-sigma-mm", input.sigma_mm, "Of holes: one sigma of a tape reading");
+  verb.add_option("--hook-offset-mm",
+                  input.hook_offset_mm,
+                  "Of holes: every reading is longer than the distance by this much");
+  verb.add_option("--hole-sigma-mm",
+                  input.hole_sigma_mm,
+                  "Of holes: one sigma of a hole beside where its chains put it, on each axis");
+}
+
+grid::MeasuredGrid read_grid_input(const GridInput& input) {
+  files::GridOptions options;
+  options.machine = machine_of(input);
+  return grid_of(files::read_whole_file(input.grid), input, std::move(options));
+}
+
+std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(const GridInput& input,
+                                                                          const TapeInput& tape,
+                                                                          MeasuredUse use) {
+  const std::string text = files::read_whole_file(input.grid);
+  if (!files::looks_like_holes(text)) {
+    files::GridOptions options;
+    options.machine = machine_of(input);
+    if (use == MeasuredUse::check) options.fewest_points = 1;
+    return grid_of(text, input, std::move(options));
+  }
+  check_tape(tape);
+  files::HolesOptions options;
+  options.machine = machine_of(input);
+  options.tape_sigma_mm = tape.sigma_mm;
+  options.hook_offset_mm = tape.hook_offset_mm;
+  options.hole_sigma_mm = tape.hole_sigma_mm;
+  if (use == MeasuredUse::check) options.fewest_distances = 1;
+  files::ReadHoles read = files::parse_holes(text, files::name_in_messages(input.grid), options);
+  print_warnings(read.warnings);
+  return std::move(read.holes);
 }
 
 }  // namespace chaintrue::cli

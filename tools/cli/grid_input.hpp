@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The grid that a verb works on: its file, and what the command line puts beside it.
+/// The grid, or the holes, that a verb works on: the file, and what the command line puts beside it.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <variant>
 
+#include "grid/holes/measured_holes.hpp"
 #include "grid/measured_grid.hpp"
 
 namespace chaintrue::cli {
@@ -19,10 +21,27 @@ struct GridInput {
   std::optional<double> noise_dof;
 };
 
+/// What a tape's file may leave unsaid.
+struct TapeInput {
+  std::optional<double> sigma_mm;
+  std::optional<double> hook_offset_mm;
+  std::optional<double> hole_sigma_mm;
+};
+
 /// Adds GRID, --machine and the --noise options to a verb.
 void add_grid_options(CLI::App& verb, GridInput& input);
 
 /// Reads it all; warnings go to standard error. \throws files::InputError.
 [[nodiscard]] grid::MeasuredGrid read_grid_input(const GridInput& input);
+
+/// Adds --tape-sigma-mm, --hook-offset-mm and --hole-sigma-mm to a verb.
+void add_tape_options(CLI::App& verb, TapeInput& input);
+
+/// Enough for a fit, or for a check of what a map says.
+enum class MeasuredUse { fit, check };
+
+/// A grid or a set of holes, as the file is. \throws files::InputError.
+[[nodiscard]] std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(
+    const GridInput& input, const TapeInput& tape, MeasuredUse use);
 
 }  // namespace chaintrue::cli

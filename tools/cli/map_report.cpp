@@ -102,8 +102,11 @@ std::vector<report::ReportPoint> points_of(const grid::CompensationMap& map) {
       point.before = tool_vector(from.*before);
       point.after = tool_vector(from.mapped_mm);
     }
-    point.held_out = tool_vector(from.left_out_mm);
-    point.held_out_sigmas = from.distance_sigmas;
+    // Of holes no place is known but through the distances that the fit used.
+    if (!contents.distances) {
+      point.held_out = tool_vector(from.left_out_mm);
+      point.held_out_sigmas = from.distance_sigmas;
+    }
     point.is_bad = from.bad;
     points.push_back(std::move(point));
   }
@@ -154,14 +157,21 @@ std::vector<ErrorStep> steps_of(const grid::CompensationMap& map, double noise_m
         summary_of(contents, &MapPoint::mapped_mm),
         "what the fit leaves; too good to be promised");
   }
-  add(ErrorStep::Kind::after,
-      "map, unseen points",
-      contents.accuracy.leave_one_out.tool,
-      "each point predicted by a map made without it; contains that reading's noise");
-  add(ErrorStep::Kind::after,
-      "map, unseen regions",
-      contents.accuracy.blocked.tool,
-      "a block of the bed predicted by a map made without it");
+  if (contents.distances) {
+    add(ErrorStep::Kind::after,
+        "distances unseen",
+        contents.distances->left_out_good,
+        "each distance predicted by a fit without it, along the tape; contains the tape's noise");
+  } else {
+    add(ErrorStep::Kind::after,
+        "map, unseen points",
+        contents.accuracy.leave_one_out.tool,
+        "each point predicted by a map made without it; contains that reading's noise");
+    add(ErrorStep::Kind::after,
+        "map, unseen regions",
+        contents.accuracy.blocked.tool,
+        "a block of the bed predicted by a map made without it");
+  }
   if (noise_mm > 0.0) {
     steps.push_back(
         {ErrorStep::Kind::reference,
@@ -261,7 +271,8 @@ report::MapReport map_report(const grid::CompensationMap& map, std::string_view 
       "they end when a motor, a chain or the sheet is moved.";
   page.figures = {
       {fmt::format("{:.2f} mm", accuracy.leave_one_out.tool.rms_mm),
-       "rms at points that the map has not seen"},
+       contents.distances ? "rms of distances that the fit has not seen"
+                          : "rms at points that the map has not seen"},
       {fmt::format("{:.2f} mm", accuracy.leave_one_out.tool.maximum_mm), "the worst of them"}};
   if (map.machine() != nullptr) {
     const Residual before =

@@ -103,6 +103,16 @@ std::string fit_sentence(const grid::CompensationMap& map) {
         contents.accuracy.leave_one_out.tool.rms_mm,
         contents.accuracy.leave_one_out.tool.maximum_mm);
   }
+  if (contents.distances) {
+    const grid::DistancesUsed& used = *contents.distances;
+    return fmt::format(
+        "{} distances between {} holes fit the calibrated machine: those that it has not seen come "
+        "out within {:.2f} mm rms{}.",
+        used.used,
+        points,
+        used.left_out_good.rms_mm,
+        used.set_aside == 0 ? "" : fmt::format(" ({} more set aside)", used.set_aside));
+  }
   const bool sheet = contents.settings.size() > std::size(model::kMachineSettings);
   return fmt::format(
       "With the settings as stated{} the tool was {:.2f} mm rms beside its {} points; the map "
@@ -120,9 +130,24 @@ std::string fit_in_words(const grid::CompensationMap& map) {
   const grid::MapContents& contents = map.contents();
   std::string text = fit_sentence(map) + "\n";
   print_settings(text, contents);
-  text += "\nError of points left out, mm       chain rms     max  tool rms     max\n";
   const bool direct = map.machine() == nullptr;
-  if (contents.accuracy.leave_one_out.tool.maximum_mm == 0.0) {
+  if (contents.distances) {
+    const grid::DistancesUsed& used = *contents.distances;
+    fmt::format_to(std::back_inserter(text),
+                   "\nError of distances left out one at a time, mm         rms     max\n"
+                   "  {:<48}{:>8.2f}{:>8.2f}\n  {:<48}{:>8.2f}{:>8.2f}\n",
+                   "all",
+                   used.left_out_all.rms_mm,
+                   used.left_out_all.maximum_mm,
+                   "those that fit",
+                   used.left_out_good.rms_mm,
+                   used.left_out_good.maximum_mm);
+  } else {
+    text += "\nError of points left out, mm       chain rms     max  tool rms     max\n";
+  }
+  if (contents.distances) {
+    // told above
+  } else if (contents.accuracy.leave_one_out.tool.maximum_mm == 0.0) {
     text += "  not tested: no inner row or column could be left out\n";
   } else {
     print_held_out(text,

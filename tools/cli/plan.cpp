@@ -9,7 +9,9 @@
 #include <cstdio>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
@@ -20,6 +22,7 @@
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/follow_up.hpp"
 #include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/plan_holes.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -32,6 +35,8 @@ struct PlanOptions {
   std::string after;
   std::string machine;
   grid::PlanRequest request;
+  HolesPlanOptions holes;
+  std::optional<double> margin_mm;
   std::string output = "-";
   std::string drawing;
 };
@@ -143,10 +148,16 @@ int run_follow_up(const PlanOptions& options) {
   return kDone;
 }
 
-int run_plan(const PlanOptions& options) {
+int run_plan(PlanOptions options) {
   if (!options.after.empty()) return run_follow_up(options);
   const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
   for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+  if (options.holes.request.holes != 0) {
+    options.holes.request.margin_mm =
+        options.margin_mm.value_or(grid::HolesPlanRequest{}.margin_mm);
+    return plan_the_holes(options.holes, read.machine, options.output, options.drawing);
+  }
+  options.request.margin_mm = options.margin_mm.value_or(options.request.margin_mm);
   check_options(options, read.machine.bed);
   const auto plan = grid::plan_measurement(read.machine, options.request);
   if (!plan) {
@@ -178,13 +189,15 @@ void add_plan(CLI::App& app, Run& run) {
                    "A chaintrue_diagnosis of them: what to measure next, and the lines to add to "
                    "the grid's file")
       ->needs(grid);
-  verb->add_option("--points",
-                   options->request.points,
-                   fmt::format("How many, {} to {}", grid::kFewestPlanned, grid::kMostPlanned))
-      ->capture_default_str();
-  verb->add_option(
-          "--margin-mm", options->request.margin_mm, "From the bed's edge to the outermost marks")
-      ->capture_default_str();
+  auto* points =
+      verb->add_option("--points",
+                       options->request.points,
+                       fmt::format("How many, {} to {}", grid::kFewestPlanned, grid::kMostPlanned))
+          ->capture_default_str();
+  verb->add_option("--margin-mm",
+                   options->margin_mm,
+                   "From the bed's edge to the outermost marks; 10 for points, 50 for holes");
+  add_plan_holes_options(*verb, options->holes, points);
   verb->add_option("--length-noise-mm",
                    options->request.noise.length_mm,
                    "Noise of a chain length, one sigma")
@@ -197,15 +210,20 @@ void add_plan(CLI::App& app, Run& run) {
       ->capture_default_str();
   verb->add_option("--svg",
                    options->drawing,
-                   "Draw the points over the expected error of the map into this SVG file");
+                   "Draw the points over the expected error of the map, or the holes and their "
+                   "distances, into this SVG file");
   verb->footer(
       "The list goes row by row from the bottom left, turning round at the end of each row;\n"
-      "chaintrue simulate --marks takes it. The expected error is told on standard error.\n\n"
+      "chaintrue simulate --marks takes it. The expected error is told on standard error.\n"
+      "With --holes the list is a holes file: write the tape's readings into it and hand it to\n"
+      "chaintrue fit with --machine.\n\n"
       "Examples:\n"
       "  build/chaintrue plan --machine fixtures/machines/classic.json --points 28 -o plan.csv "
       "--svg plan.svg\n"
       "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
-      "  build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json");
+      "  build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json\n"
+      "  build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 "
+      "--tape-sigma-mm 0.5 -o holes.csv --gcode holes.nc --svg holes.svg");
   verb->callback([options, &run] {
     if (options->after.empty() && !options->grid.empty()) throw CLI::RequiredError("--after");
     if (options->after.empty() && options->machine.empty()) throw CLI::RequiredError("--machine");

@@ -14,6 +14,7 @@
 #include "grid/files/input_error.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/certificate.hpp"
 #include "tools/cli/diagnosis_page.hpp"
 #include "tools/cli/map_report.hpp"
 #include "tools/cli/verb.hpp"
@@ -27,6 +28,7 @@ namespace files = grid::files;
 struct ReportCommand {
   std::string input;
   std::string output;
+  bool certificate = false;
 };
 
 /// A kind of file that has a page; `called` stands for one that came through a pipe.
@@ -34,12 +36,22 @@ struct Reportable {
   std::string_view file_type;
   std::string_view called;
   report::Page (*page)(const std::string& text, const std::string& file, std::string_view source);
+  /// Null where there is none.
+  report::Page (*certificate)(const std::string& text,
+                              const std::string& file,
+                              std::string_view source);
 };
 
 report::Page page_of_map(const std::string& text,
                          const std::string& file,
                          std::string_view source) {
   return report::page_of(map_report(files::parse_map(text, file), source));
+}
+
+report::Page certificate_of_map(const std::string& text,
+                                const std::string& file,
+                                std::string_view source) {
+  return certificate(files::parse_map(text, file), source);
 }
 
 report::Page page_of_diagnosis(const std::string& text,
@@ -49,8 +61,8 @@ report::Page page_of_diagnosis(const std::string& text,
 }
 
 constexpr std::array kReportables = {
-    Reportable{"chaintrue_map", "a map", page_of_map},
-    Reportable{"chaintrue_diagnosis", "a diagnosis", page_of_diagnosis},
+    Reportable{"chaintrue_map", "a map", page_of_map, certificate_of_map},
+    Reportable{"chaintrue_diagnosis", "a diagnosis", page_of_diagnosis, nullptr},
 };
 
 const Reportable& reportable(const std::string& text, const std::string& file) {
@@ -71,7 +83,14 @@ int run_report(const ReportCommand& command) {
   const std::string source = command.input == "-"
                                  ? std::string(kind.called)
                                  : std::filesystem::path(command.input).filename().string();
-  files::write_whole_file(command.output, report::render(kind.page(text, file, source)));
+  if (command.certificate && kind.certificate == nullptr) {
+    throw files::InputError({{file,
+                              "/file_type",
+                              fmt::format("\"{}\"", kind.file_type),
+                              "\"chaintrue_map\": only a map has a certificate"}});
+  }
+  const auto page = command.certificate ? kind.certificate : kind.page;
+  files::write_whole_file(command.output, report::render(page(text, file, source)));
   if (command.output != "-")
     fmt::print(stderr, "The report is {}: open it in any browser.\n", command.output);
   return kDone;
@@ -89,6 +108,7 @@ void add_report(CLI::App& app, Run& run) {
       ->required();
   verb->add_option("-o,--output", command->output, "The HTML file; - is standard output")
       ->required();
+  verb->add_flag("--certificate", command->certificate, "One page of a map, to print");
   verb->footer(
       "Examples:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"

@@ -19,6 +19,7 @@
 #include "grid/synthetic/generator.hpp"
 #include "model/calibration/setting.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/simulate_holes.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -34,6 +35,7 @@ struct SimulateOptions {
   int random_points = 0;
   std::string marks;
   std::string points;
+  HolesOptions holes;
   std::string model = "elastic";
   std::optional<double> margin_mm;
   bool without_corners = false;
@@ -276,6 +278,28 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
 int run_simulate(const SimulateOptions& options) {
   const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
   for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+  if (options.holes.holes != 0) {
+    synthetic::HolesSpec spec;
+    OptionProblems problems;
+    spec.hidden = parse_effects(options.effects, read.machine, problems);
+    const std::vector<synthetic::SettingOffset> offsets = parse_offsets(options.offsets, problems);
+    for (const synthetic::SettingOffset& offset : offsets) {
+      if (offset.setting < model::Setting::sheet_x_mm) continue;
+      problems.add("--offset",
+                   std::string(model::name(offset.setting)),
+                   "a setting of the machine; holes know their distances, not the sheet");
+    }
+    problems.throw_if_any();
+    spec.draw_settings = options.draw_settings;
+    spec.seed = options.seed;
+    model::Machine truth = synthetic::hidden_truth(read.machine, spec);
+    for (const synthetic::SettingOffset& offset : offsets) {
+      truth = model::with_setting(std::move(truth),
+                                  offset.setting,
+                                  model::stated_value(truth, offset.setting) + offset.offset);
+    }
+    return simulate_the_holes(options.holes, read.machine, truth, spec, options.output);
+  }
   return options.points.empty() ? simulate_session(options, read.machine)
                                 : simulate_places(options, read.machine);
 }
@@ -287,6 +311,8 @@ void add_design_options(CLI::App& verb, SimulateOptions& o) {
   where->add_option("--marks", o.marks, "CSV of marks (x_mm, y_mm), such as a plan's");
   where->add_option(
       "--points", o.points, "CSV of true places: readings there without noise, all digits");
+  where->add_option(
+      "--holes", o.holes.holes, "So many holes, as chaintrue plan --holes sets them, and a tape");
   where->require_option(1);
   verb.add_option("--spacing", o.spacing, "Of --grid: regular or chebyshev (denser at the edges)")
       ->capture_default_str();
@@ -334,6 +360,20 @@ void add_noise_options(CLI::App& verb, SimulateOptions& o) {
   verb.add_option("--bad-size-mm", o.bad.size_mm, "How far off those are")->capture_default_str();
 }
 
+void add_holes_options(CLI::App& verb, HolesOptions& o) {
+  verb.add_option("--distances", o.distances, "Of --holes: how many are measured");
+  verb.add_option("--tape-sigma-mm", o.tape_sigma_mm, "Of --holes: one sigma of a reading")
+      ->capture_default_str();
+  verb.add_option("--hole-sigma-mm",
+                  o.hole_sigma_mm,
+                  "Of --holes: one sigma of a hole beside where its chains put it, on each axis")
+      ->capture_default_str();
+  verb.add_option("--hook-offset-mm", o.hook_offset_mm, "Of --holes: added to every reading")
+      ->capture_default_str();
+  verb.add_option("--tape-rounding-mm", o.rounding_mm, "Of --holes: read to whole multiples")
+      ->capture_default_str();
+}
+
 void add_truth_options(CLI::App& verb, SimulateOptions& o) {
   verb.add_option("--effect",
                   o.effects,
@@ -362,9 +402,12 @@ void add_simulate(CLI::App& app, Run& run) {
       ->required();
   add_design_options(*verb, *options);
   add_noise_options(*verb, *options);
+  add_holes_options(*verb, options->holes);
   add_truth_options(*verb, *options);
   verb->add_option("--name", options->name, "Name of the grid");
-  verb->add_option("-o,--output", options->output, "chaintrue_grid file; - is standard output")
+  verb->add_option("-o,--output",
+                   options->output,
+                   "chaintrue_grid (of --holes: chaintrue_holes) file; - is standard output")
       ->capture_default_str();
   verb->add_option("--answer", options->answer, "Write what was hidden to this file");
   verb->footer(
@@ -376,7 +419,10 @@ void add_simulate(CLI::App& app, Run& run) {
       "answer.json\n"
       "  printf 'x_mm,y_mm\\n0,0\\n' | build/chaintrue simulate --machine "
       "fixtures/machines/classic.json "
-      "--points -");
+      "--points -\n"
+      "  build/chaintrue simulate --machine fixtures/machines/classic.json --holes 9 --distances "
+      "20 "
+      "--tape-sigma-mm 0.5 --draw-settings --seed 1 -o holes.json");
   verb->callback([options, &run] { run = [options] { return run_simulate(*options); }; });
 }
 

@@ -99,30 +99,8 @@ Section steps_section(const MapReport& report) {
 }
 
 Section error_map_section(const MapReport& report) {
-  const ErrorMap& map = *report.error_map;
-  Chart chart{.specification = "error_map",
-              .title = "Expected error over the bed",
-              .caption =
-                  "One sigma at the tool, from the readings' noise carried through the fit. "
-                  "Circles are the points."};
-  DataTable cells{"cells", {"x_mm", "y_mm", "error_mm", "coverage"}, {}};
-  for (const ErrorCell& cell : map.cells)
-    cells.rows.push_back({cell.x_mm, cell.y_mm, cell.error_mm, cell.coverage});
-  if (std::any_of(map.cells.begin(), map.cells.end(), [](const ErrorCell& cell) {
-        return cell.coverage != "inside";
-      })) {
-    chart.caption +=
-        " Cells with a stroke lie at or beyond the edge of the measured points: trust them less.";
-  }
-  DataTable points{"points", {"x_mm", "y_mm"}, {}};
-  for (const ReportPoint& point : report.points) points.rows.push_back({point.x_mm, point.y_mm});
-  chart.data.push_back(std::move(cells));
-  chart.data.push_back(std::move(points));
-  chart.signals = signals_of_bed(report);
-  chart.signals.push_back({"cell_width_mm", map.cell_width_mm});
-  chart.signals.push_back({"cell_height_mm", map.cell_height_mm});
   Section section{"Where to expect which error", {}};
-  section.blocks.push_back(std::move(chart));
+  section.blocks.push_back(error_map_chart(report));
   return section;
 }
 
@@ -247,6 +225,33 @@ Section settings_section(const MapReport& report) {
 }
 
 }  // namespace
+
+Chart error_map_chart(const MapReport& report) {
+  if (!report.error_map) throw std::invalid_argument("no error map to draw");
+  const ErrorMap& map = *report.error_map;
+  Chart chart{.specification = "error_map",
+              .title = "Expected error over the bed",
+              .caption =
+                  "One sigma at the tool, from the readings' noise carried through the fit. "
+                  "Circles are the points."};
+  DataTable cells{"cells", {"x_mm", "y_mm", "error_mm", "coverage"}, {}};
+  for (const ErrorCell& cell : map.cells)
+    cells.rows.push_back({cell.x_mm, cell.y_mm, cell.error_mm, cell.coverage});
+  if (std::any_of(map.cells.begin(), map.cells.end(), [](const ErrorCell& cell) {
+        return cell.coverage != "inside";
+      })) {
+    chart.caption +=
+        " Cells with a stroke lie at or beyond the edge of the measured points: trust them less.";
+  }
+  DataTable points{"points", {"x_mm", "y_mm"}, {}};
+  for (const ReportPoint& point : report.points) points.rows.push_back({point.x_mm, point.y_mm});
+  chart.data.push_back(std::move(cells));
+  chart.data.push_back(std::move(points));
+  chart.signals = signals_of_bed(report);
+  chart.signals.push_back({"cell_width_mm", map.cell_width_mm});
+  chart.signals.push_back({"cell_height_mm", map.cell_height_mm});
+  return chart;
+}
 
 Page page_of(const MapReport& report) {
   Page page{.title = fmt::format("Compensation map: {}", report.name),

@@ -109,6 +109,10 @@ struct MapReport {
   std::string provenance{};
 };
 
+/// The expected error over the bed as a chart. \throws as page_of; std::invalid_argument without an
+/// error map.
+[[nodiscard]] Chart error_map_chart(const MapReport& report);
+
 /// Lays the report out as a page; sections without data are left out.
 /// \throws std::invalid_argument where the sheet has no extent, or a number is not finite.
 [[nodiscard]] Page page_of(const MapReport& report);

@@ -107,6 +107,8 @@ struct Page {
   /// What the verdict does not prove; empty: no such line.
   std::string not_proved{};
   std::vector<Section> sections{};
+  /// Set closely, so that it prints on one sheet of A4.
+  bool is_one_sheet = false;
   /// Where the page came from: inputs, program and version.
   std::string provenance{};
 };

@@ -121,7 +121,9 @@ class Writer {
         "<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n",
         escaped(page.title),
         embedded_text("asset", "page.css"));
-    add("<body>\n<main>\n<header>\n<h1>{}</h1>\n", escaped(page.title));
+    add("<body>\n<main{}>\n<header>\n<h1>{}</h1>\n",
+        page.is_one_sheet ? " class=\"one-sheet\"" : "",
+        escaped(page.title));
     if (!page.subtitle.empty()) add("<p class=\"subtitle\">{}</p>\n", escaped(page.subtitle));
     add("</header>\n");
   }

@@ -43,7 +43,7 @@ struct Sized {
 };
 
 TrueMachine stated_machine(const Recipe& recipe, Dice& dice) {
-  TrueMachine m;
+  TrueMachine m = recipe.machine.value_or(TrueMachine{});
   if (!recipe.other_machines) return m;
   const double half = std::round(dice.uniform(1400.0, 1750.0));
   const double up = std::round(dice.uniform(1000.0, 1350.0));
@@ -338,7 +338,7 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   layout.extent = recipe.extent;
   const auto visits = true_visits(plan_visits(layout, answer.order, order_dice), place_dice);
 
-  const NoiseLevel noise;
+  const NoiseLevel noise = recipe.noise;
   const auto yardstick = Yardstick::make(truth, visits, noise, {});
   if (!yardstick) throw std::runtime_error("draw_set: the machine cannot reach its own bed");
   if (!recipe.exactly.empty()) {
@@ -371,11 +371,10 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   WrittenGrid grid;
   grid.stated = stated;
   grid.stated_noise = noise;
-  if (recipe.kind == Mix::wrong_noise) {
-    answer.noise_ratio = noise_dice.log_uniform(0.7, 1.5);
-    grid.stated_noise = {noise.length_mm * answer.noise_ratio,
-                         noise.position_mm * answer.noise_ratio};
-  }
+  if (recipe.kind == Mix::wrong_noise) answer.noise_ratio = noise_dice.log_uniform(0.7, 1.5);
+  answer.noise_ratio = recipe.noise_ratio.value_or(answer.noise_ratio);
+  grid.stated_noise = {noise.length_mm * answer.noise_ratio,
+                       noise.position_mm * answer.noise_ratio};
   grid.with_order = recipe.kind != Mix::no_order;
   grid.notes = std::move(notes);
   std::string text = grid_text(grid);

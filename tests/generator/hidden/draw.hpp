@@ -61,8 +61,14 @@ struct Recipe {
   std::optional<Order> order;
   /// These as they are, in place of any draw of effects.
   std::vector<Hidden> exactly;
+  /// As stated, in place of the classic one.
+  std::optional<TrueMachine> machine;
   /// Times the usual errors of the settings.
   double settings_off = 1.0;
+  /// The true noise; stated as it is, unless the mix or noise_ratio say otherwise.
+  NoiseLevel noise;
+  /// Stated over true.
+  std::optional<double> noise_ratio;
 };
 
 /// What is in the envelope.

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a check of a map found, as JSON, for scripts. Written only. Same check, same bytes.
+#pragma once
+
+#include <string>
+
+#include "grid/holes/map_check.hpp"
+
+namespace chaintrue::grid::files {
+
+[[nodiscard]] std::string write_check(const MapCheck& check);
+
+}  // namespace chaintrue::grid::files

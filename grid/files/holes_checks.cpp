@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/holes_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "grid/files/number_text.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+std::optional<SheetEdge> edge_of(std::string_view word) {
+  for (const SheetEdge edge : kSheetEdges) {
+    if (word == name(edge)) return edge;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> hole_of(const std::string& word, const std::vector<Hole>& holes) {
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    if (holes[i].name == word) return i;
+  }
+  // A number counts the holes where no hole bears it as a name.
+  const auto number = number_of(word);
+  if (number && *number >= 0.0 && *number < static_cast<double>(holes.size()) &&
+      *number == std::floor(*number)) {
+    return static_cast<std::size_t>(*number);
+  }
+  return std::nullopt;
+}
+
+std::string names_of(const std::vector<Hole>& holes) {
+  std::vector<std::string> names;
+  for (const Hole& hole : holes) names.push_back(hole.name);
+  return joined(names);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// True where inches stand for mm, which is said. A machine cuts true to some per cent: a factor
+/// of five or more is a change of unit.
+bool check_inches(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
+  std::vector<double> ratios;
+  double farthest_mm = 0.0;
+  for (const HoleDistance& distance : set.distances) {
+    if (distance.edge) continue;
+    ratios.push_back(length_of(set, distance) / commanded_mm(set, distance));
+  }
+  for (const Hole& hole : set.holes) {
+    farthest_mm =
+        std::max({farthest_mm, std::abs(hole.commanded.x_mm), std::abs(hole.commanded.y_mm)});
+  }
+  constexpr double kAnotherUnit = 5.0;
+  if (!ratios.empty() && median(ratios) < 1.0 / kAnotherUnit) {
+    problems.add(places.distances,
+                 fmt::format("distances {:.3g} times as long as commanded", median(ratios)),
+                 "about 1; the distances look like inches, the holes' x_mm and y_mm like mm "
+                 "(multiply the distances by 25.4)");
+    return true;
+  }
+  if (!ratios.empty() && median(ratios) > kAnotherUnit) {
+    problems.add(places.holes,
+                 fmt::format("distances {:.3g} times as long as commanded", median(ratios)),
+                 "about 1; the holes' x_mm and y_mm look like inches, the distances like mm "
+                 "(multiply the holes by 25.4)");
+    return true;
+  }
+  constexpr double kFarthestInInches =
+      70.0;  // half a 12-foot bed's width; in mm no set is so small
+  if (set.holes.size() >= 3 && farthest_mm < kFarthestInInches) {
+    problems.add(places.holes,
+                 fmt::format("holes within {:.4g} of the middle", farthest_mm),
+                 "holes spread over the bed, in mm; these and their distances look like inches "
+                 "(multiply by 25.4)");
+    return true;
+  }
+  return false;
+}
+
+/// Two holes so near that the direction from one to the other is not known.
+void check_apart(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
+  constexpr double kLeastMm = 20.0;
+  for (std::size_t i = 0; i < set.distances.size(); ++i) {
+    const HoleDistance& distance = set.distances[i];
+    if (distance.edge || commanded_mm(set, distance) >= kLeastMm) continue;
+    problems.add(places.distance(i, ""),
+                 fmt::format("{}, {:.4g} mm apart as commanded",
+                             words_of(set, distance),
+                             commanded_mm(set, distance)),
+                 fmt::format("two holes at least {:.0f} mm apart", kLeastMm));
+  }
+}
+
+using Pair = std::pair<std::size_t, std::size_t>;
+
+Pair pair_of(const HoleDistance& distance) { return std::minmax(distance.from, distance.to); }
+
+/// Each triangle whose three sides were measured: the longest is no longer than the others
+/// together, but for the tape's error.
+void check_triangles(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
+  std::map<Pair, std::size_t> first;
+  for (std::size_t i = 0; i < set.distances.size(); ++i) {
+    if (!set.distances[i].edge) first.emplace(pair_of(set.distances[i]), i);
+  }
+  for (const auto& [ab, index_ab] : first) {
+    for (std::size_t c = ab.second + 1; c < set.holes.size(); ++c) {
+      const auto ac = first.find({ab.first, c});
+      const auto bc = first.find({ab.second, c});
+      if (ac == first.end() || bc == first.end()) continue;
+      std::array<std::size_t, 3> sides = {index_ab, ac->second, bc->second};
+      std::sort(sides.begin(), sides.end(), [&](std::size_t i, std::size_t j) {
+        return set.distances[i].distance_mm > set.distances[j].distance_mm;
+      });
+      double excess = length_of(set, set.distances[sides[0]]);
+      double variance = std::pow(sigma_of(set, set.distances[sides[0]]), 2);
+      for (const std::size_t side : {sides[1], sides[2]}) {
+        excess -= length_of(set, set.distances[side]);
+        variance += std::pow(sigma_of(set, set.distances[side]), 2);
+      }
+      constexpr double kBeyondChance = 5.0;  // sigmas: one triangle in some million
+      if (excess <= kBeyondChance * std::sqrt(variance)) continue;
+      problems.add(
+          places.distance(sides[0], "distance_mm"),
+          fmt::format("{:g}", set.distances[sides[0]].distance_mm),
+          fmt::format("at most {:.1f} mm: {} cannot be longer than the way over {} ({:g}) and {} "
+                      "({:g}); one of the three was misread",
+                      set.distances[sides[0]].distance_mm - excess,
+                      words_of(set, set.distances[sides[0]]),
+                      words_of(set, set.distances[sides[1]]),
+                      set.distances[sides[1]].distance_mm,
+                      words_of(set, set.distances[sides[2]]),
+                      set.distances[sides[2]].distance_mm));
+    }
+  }
+}
+
+/// The longest pairs that were not measured: what to measure next.
+std::string missing_pairs(const MeasuredHoles& set, std::size_t count) {
+  std::set<Pair> measured;
+  for (const HoleDistance& distance : set.distances) {
+    if (!distance.edge) measured.insert(pair_of(distance));
+  }
+  std::vector<HoleDistance> others;
+  for (std::size_t a = 0; a < set.holes.size(); ++a) {
+    for (std::size_t b = a + 1; b < set.holes.size(); ++b) {
+      if (measured.count({a, b}) == 0) others.push_back({.from = a, .to = b});
+    }
+  }
+  std::stable_sort(others.begin(), others.end(), [&](const auto& a, const auto& b) {
+    return commanded_mm(set, a) > commanded_mm(set, b);
+  });
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < others.size() && i < count; ++i) {
+    words.push_back(words_of(set, others[i]));
+  }
+  return joined(words);
+}
+
+void check_enough(const MeasuredHoles& set,
+                  std::size_t fewest,
+                  const HolesPlaces& places,
+                  Problems& problems) {
+  std::set<Pair> pairs;
+  std::set<std::size_t> used;
+  for (const HoleDistance& distance : set.distances) {
+    if (distance.edge) continue;
+    pairs.insert(pair_of(distance));
+    used.insert({distance.from, distance.to});
+  }
+  // n holes have a shape of 2 n - 3 distances; more than these repeat what is known.
+  const std::size_t shape = used.size() < 2 ? 0 : 2 * used.size() - 3;
+  const std::size_t independent = std::min(pairs.size(), shape);
+  if (independent >= fewest) return;
+  const std::size_t lacking = fewest - independent;
+  std::string expected = fmt::format("at least {} independent distances between holes", fewest);
+  if (fewest == kFewestHoleDistances) {
+    expected +=
+        ", one for each unknown: the motors' spacing, the zero and the scale of either chain";
+  }
+  const std::string more = missing_pairs(set, lacking);
+  const bool holes_suffice =
+      set.holes.size() >= 2 && 2 * set.holes.size() - 3 >= fewest && !more.empty();
+  expected += holes_suffice ? fmt::format("; {} missing, measure {}", lacking, more)
+                            : fmt::format(
+                                  "; cut at least {} holes, of which {} distances are "
+                                  "independent",
+                                  (fewest + 4) / 2,
+                                  2 * ((fewest + 4) / 2) - 3);
+  problems.add(places.distances,
+               fmt::format("{} independent distance{}", independent, independent == 1 ? "" : "s"),
+               expected);
+}
+
+void warn_of_hook(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
+  const auto offset = suspected_hook_offset_mm(set);
+  if (!offset) return;
+  problems.warn(
+      places.distances,
+      fmt::format("the distances are all about {:.1f} mm {} than commanded, the short ones like "
+                  "the long ones. Was the tape's hook offset left out{}? If so, state {:.0f} mm "
+                  "(hook_offset_mm of the tape, or --hook-offset-mm).",
+                  std::abs(*offset),
+                  *offset > 0.0 ? "longer" : "shorter",
+                  set.tape.hook_offset_mm != 0.0 ? ", or taken off twice" : "",
+                  set.tape.hook_offset_mm + std::round(*offset)));
+}
+
+}  // namespace
+
+void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& problems) {
+  std::map<std::string, std::size_t> first;
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    if (holes[i].name.empty()) holes[i].name = fmt::format("{}", i);
+    const std::string& name = holes[i].name;
+    if (edge_of(name)) {
+      problems.add(places.hole(i), name, "a name that is no edge of the sheet");
+    }
+    const auto [other, is_new] = first.emplace(name, i);
+    if (!is_new) {
+      problems.add(places.hole(i),
+                   name,
+                   fmt::format("a name of its own for each hole; {} has the same",
+                               places.hole(other->second)));
+    }
+  }
+}
+
+std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& stated,
+                                             const std::vector<Hole>& holes,
+                                             const HolesPlaces& places,
+                                             Problems& problems) {
+  std::vector<HoleDistance> distances;
+  for (std::size_t i = 0; i < stated.size(); ++i) {
+    const StatedDistance& from = stated[i];
+    HoleDistance distance;
+    distance.distance_mm = from.distance_mm;
+    distance.sigma_mm = from.sigma_mm;
+    if (!from.is_spoilt) {
+      const auto start = hole_of(from.from, holes);
+      const auto end = hole_of(from.to, holes);
+      distance.edge = edge_of(from.to);
+      if (!start) {
+        problems.add(places.distance(i, "from"),
+                     from.from,
+                     fmt::format("a hole that was cut: {}", names_of(holes)));
+      }
+      if (!end && !distance.edge) {
+        problems.add(places.distance(i, "to"),
+                     from.to,
+                     fmt::format("a hole that was cut ({}) or an edge of the sheet (left, right, "
+                                 "top, bottom)",
+                                 names_of(holes)));
+      }
+      if (start && end && *start == *end) {
+        problems.add(places.distance(i, "to"), from.to, "another hole than the distance starts at");
+      }
+      distance.from = start.value_or(0);
+      distance.to = distance.edge ? distance.from : end.value_or(0);
+    }
+    distances.push_back(distance);
+  }
+  return distances;
+}
+
+void check_holes_together(const MeasuredHoles& set,
+                          std::size_t fewest_distances,
+                          const HolesPlaces& places,
+                          Problems& problems) {
+  check_apart(set, places, problems);
+  if (problems.any() || check_inches(set, places, problems)) return;
+  check_triangles(set, places, problems);
+  check_enough(set, fewest_distances, places, problems);
+  warn_of_hook(set, places, problems);
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What holes and distances must be like, whatever file they came from. Private to grid/files.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/files/problems.hpp"
+#include "grid/holes/measured_holes.hpp"
+
+namespace chaintrue::grid::files {
+
+/// A distance as a file states it.
+struct StatedDistance {
+  /// A name, or the hole's number as text.
+  std::string from;
+  std::string to;
+  double distance_mm = 0.0;
+  std::optional<double> sigma_mm;
+  /// A value was wrong and is reported already.
+  bool is_spoilt = false;
+};
+
+/// Where things stand in their file.
+struct HolesPlaces {
+  std::string holes;
+  std::string distances;
+  std::function<std::string(std::size_t index)> hole;
+  std::function<std::string(std::size_t index, std::string_view field)> distance;
+};
+
+/// Names that are missing become the holes' numbers; names that repeat, or are an edge's, are
+/// reported.
+void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& problems);
+/// Ends that are no hole and no edge, or the same hole twice, are reported.
+[[nodiscard]] std::vector<HoleDistance> resolved_distances(
+    const std::vector<StatedDistance>& stated,
+    const std::vector<Hole>& holes,
+    const HolesPlaces& places,
+    Problems& problems);
+/// Units, triangles, and whether there is enough. Call it only when nothing was wrong before.
+void check_holes_together(const MeasuredHoles& set,
+                          std::size_t fewest_distances,
+                          const HolesPlaces& places,
+                          Problems& problems);
+
+}  // namespace chaintrue::grid::files

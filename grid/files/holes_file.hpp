@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue_holes files, JSON or CSV. Unknown keys are errors, except "comment". Same holes, same
+/// bytes.
+///
+///     { "file_type": "chaintrue_holes", "format_version": "1.0", "name": "...",
+///       "machine": { a chaintrue_machine } or "machine_file": "path",
+///       "tape": {"sigma_mm": 0.5, "hook_offset_mm": 40},
+///       "hole_sigma_mm": 0.3, "noise_dof": 15,
+///       "sheet": {"width_mm": 2440, "height_mm": 1220, "size_sigma_mm": 1},
+///       "holes": [ {"name": "A", "x_mm": -900, "y_mm": 400}, ... ],
+///       "distances": [ {"from": "A", "to": "B", "distance_mm": 1840.5, "sigma_mm": 0.5},
+///                      {"from": "A", "to": "top", "distance_mm": 249} ] }
+///
+/// `from` and `to` name holes, or count them from 0; `to` may be an edge of the sheet: left, right,
+/// top, bottom. A hole without a name bears its number. The machine says which controller cut the
+/// holes and with which settings.
+///
+/// A CSV has two tables: lines below `hole,x_mm,y_mm`, and lines below
+/// `from,to,distance_mm,sigma_mm` (the last column may be missing). The rest comes as options.
+///
+/// \code
+///   const ReadHoles read = read_holes("holes.json");
+///   for (const Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+///   const auto fit = fit_holes(read.holes);
+/// \endcode
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/files/input_error.hpp"
+#include "grid/holes/measured_holes.hpp"
+
+namespace chaintrue::grid::files {
+
+/// What a CSV cannot say, or what the command line puts in place of the file's own.
+struct HolesOptions {
+  std::optional<model::Machine> machine;
+  std::optional<double> tape_sigma_mm;
+  std::optional<double> hook_offset_mm;
+  std::optional<double> hole_sigma_mm;
+  /// A handful that only checks a map passes 1.
+  std::size_t fewest_distances = kFewestHoleDistances;
+};
+
+struct ReadHoles {
+  MeasuredHoles holes;
+  std::vector<Warning> warnings;
+};
+
+/// "-" reads standard input. Slips that can be recognised (inches, a triangle that cannot close, a
+/// hook offset that was forgotten) are said in words. \throws InputError with every problem.
+[[nodiscard]] ReadHoles read_holes(const std::filesystem::path& path,
+                                   const HolesOptions& options = {});
+/// `file` is the name used in messages, and its folder is where a "machine_file" is looked for.
+[[nodiscard]] ReadHoles parse_holes(const std::string& text,
+                                    const std::string& file,
+                                    const HolesOptions& options = {});
+/// JSON. \throws std::logic_error where a number is not finite.
+[[nodiscard]] std::string write_holes(const MeasuredHoles& holes);
+/// True for the text of a chaintrue_holes file or of such a CSV, whole or damaged.
+[[nodiscard]] bool looks_like_holes(std::string_view text);
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/holes/seen_effects.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "model/calibration/setting.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+/// cos 5 degrees: patterns nearer than this take hundreds of readings to tell apart.
+constexpr double kAlike = 0.9962;
+
+/// An effect's secant: what it does to the distances at its nominal size.
+struct Secant {
+  const model::effects::Effect* effect = nullptr;
+  model::effects::EffectSide side{};
+  Eigen::VectorXd change_mm;
+};
+
+struct Pattern {
+  SeenEffect seen;
+  Eigen::VectorXd white;
+};
+
+bool is_seen_by_distances(const model::effects::Effect& effect) {
+  return effect.station != model::effects::Station::paper &&
+         !model::effects::depends_on_visit(effect);
+}
+
+/// The set about the machine as stated.
+struct Stated {
+  Eigen::VectorXd residual_mm;
+  Eigen::MatrixXd covariance;  ///< K
+  std::vector<Secant> secants;
+};
+
+std::optional<Stated> stated_of(const MeasuredHoles& set) {
+  if (!set.machine) throw std::invalid_argument("effects on distances need a machine");
+  const auto distances = HoleDistances::of(set);
+  if (!distances) return std::nullopt;
+  const std::vector<model::Setting> settings(model::kMachineSettings.begin(),
+                                             model::kMachineSettings.end());
+  const auto line = distances->linearise(model::ReadingModel(*set.machine), {}, settings);
+  if (!line) return std::nullopt;
+  const auto count = static_cast<Eigen::Index>(settings.size());
+  const Eigen::MatrixXd prior = stated_prior(*set.machine).covariance.topLeftCorner(count, count);
+  Stated stated{
+      line->residual,
+      line->covariance + line->setting_jacobian * prior * line->setting_jacobian.transpose(),
+      {}};
+  for (const model::effects::Effect* effect : model::effects::catalogue()) {
+    if (!is_seen_by_distances(*effect)) continue;
+    for (const model::effects::EffectSide side : effect->sides) {
+      model::Machine machine = *set.machine;
+      machine.effects.push_back(
+          model::effects::applied(*effect, side, model::effects::nominal_values(*effect)));
+      if (!model::effects::problems_of_effects(machine).empty()) continue;
+      const auto with = distances->linearise(model::ReadingModel(machine), {}, {});
+      if (with) stated.secants.push_back({effect, side, line->residual - with->residual});
+    }
+  }
+  return stated;
+}
+
+}  // namespace
+
+std::vector<SeenEffect> seen_effects(const MeasuredHoles& set) {
+  const auto stated = stated_of(set);
+  if (!stated) return {};
+  const Eigen::LLT<Eigen::MatrixXd> factor(stated->covariance);
+  std::vector<Pattern> patterns;
+  for (const Secant& secant : stated->secants) {
+    Pattern pattern;
+    pattern.seen.effect = secant.effect->id;
+    pattern.seen.side = model::effects::name(secant.side);
+    pattern.white = factor.matrixL().solve(secant.change_mm);
+    pattern.seen.sigmas = pattern.white.norm();
+    patterns.push_back(std::move(pattern));
+  }
+  std::stable_sort(patterns.begin(), patterns.end(), [](const Pattern& a, const Pattern& b) {
+    return a.seen.sigmas > b.seen.sigmas;
+  });
+  std::vector<SeenEffect> seen;
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    for (std::size_t j = 0; j < patterns.size(); ++j) {
+      if (i == j) continue;
+      const double together = patterns[i].seen.sigmas * patterns[j].seen.sigmas;
+      if (together > 0.0 && std::abs(patterns[i].white.dot(patterns[j].white)) > kAlike * together)
+        patterns[i].seen.same_as.push_back(j);
+    }
+    seen.push_back(patterns[i].seen);
+  }
+  return seen;
+}
+
+std::vector<ScoredCause> scored_causes(const MeasuredHoles& set, const HolesFit& fit) {
+  const auto stated = stated_of(set);
+  if (!stated) return {};
+  std::vector<Eigen::Index> rows;
+  for (std::size_t k = 0; k < fit.distances.size(); ++k) {
+    if (!fit.distances[k].set_aside) rows.push_back(static_cast<Eigen::Index>(k));
+  }
+  const Eigen::MatrixXd covariance = stated->covariance(rows, rows);
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+  const Eigen::VectorXd residual =
+      factor.matrixL().solve(Eigen::VectorXd(stated->residual_mm(rows)));
+  std::vector<ScoredCause> causes = {{"nothing", "", 0.5, 0.0, "", 0.0, 0.0}};
+  const double share = 0.5 / static_cast<double>(std::max<std::size_t>(1, stated->secants.size()));
+  for (const Secant& secant : stated->secants) {
+    const model::effects::EffectParameter& parameter = secant.effect->parameters.front();
+    const double nominal = parameter.nominal - parameter.null;
+    const double size2 = std::pow(parameter.prior_sigma / nominal, 2);
+    const Eigen::VectorXd g = factor.matrixL().solve(Eigen::VectorXd(secant.change_mm(rows)));
+    // b, in nominal sizes, by one more Gaussian of variance size2.
+    const double precision = g.squaredNorm() + 1.0 / size2;
+    const double b = g.dot(residual) / precision;
+    ScoredCause cause;
+    cause.effect = secant.effect->id;
+    cause.side = model::effects::name(secant.side);
+    cause.log_evidence = 0.5 * b * b * precision - 0.5 * std::log(size2 * precision);
+    cause.probability = share * std::exp(std::min(cause.log_evidence, 600.0));
+    cause.parameter = parameter.name;
+    cause.value = parameter.null + nominal * b;
+    cause.sigma = std::abs(nominal) / std::sqrt(precision);
+    causes.push_back(std::move(cause));
+  }
+  double sum = 0.0;
+  for (const ScoredCause& cause : causes) sum += cause.probability;
+  for (ScoredCause& cause : causes) cause.probability /= sum;
+  std::stable_sort(causes.begin(), causes.end(), [](const ScoredCause& a, const ScoredCause& b) {
+    return a.probability > b.probability;
+  });
+  return causes;
+}
+
+}  // namespace chaintrue::grid

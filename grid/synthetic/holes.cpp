@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/synthetic/holes.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "grid/holes/hole_distances.hpp"
+#include "grid/synthetic/random.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid::synthetic {
+namespace {
+
+// Streams: what one draws does not depend on how much another draws.
+constexpr std::uint64_t kSettingStream = 11;
+constexpr std::uint64_t kHoleStream = 12;
+constexpr std::uint64_t kTapeStream = 13;
+constexpr std::uint64_t kBadStream = 14;
+
+}  // namespace
+
+model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec) {
+  Random random(spec.seed, kSettingStream);
+  model::Machine truth = stated;
+  if (spec.draw_settings) {
+    for (const model::Setting setting : model::kMachineSettings) {
+      truth = model::with_setting(std::move(truth),
+                                  setting,
+                                  model::stated_value(stated, setting) +
+                                      model::stated_sigma(stated, setting) * random.normal());
+    }
+  }
+  if (spec.scale_sigma > 0.0) {
+    for (const char* side : {"left", "right"}) {
+      truth.effects.push_back(
+          {"chain_pitch_error", side, {{"elongation", spec.scale_sigma * random.normal()}}});
+    }
+  }
+  truth.effects.insert(truth.effects.end(), spec.hidden.begin(), spec.hidden.end());
+  return truth;
+}
+
+tl::expected<SyntheticHoles, std::string> simulate_holes(
+    const MeasuredHoles& design,
+    const HolesSpec& spec,
+    const std::optional<model::Machine>& truth) {
+  if (!design.machine) throw std::invalid_argument("holes are cut by a machine; none was given");
+  const auto distances = HoleDistances::of(design);
+  if (!distances) return tl::unexpected(distances.error());
+  SyntheticHoles made{design, truth ? *truth : hidden_truth(*design.machine, spec), {}};
+  const model::ReadingModel model(made.truth);
+  Random hole_noise(spec.seed, kHoleStream);
+  for (std::size_t i = 0; i < design.holes.size(); ++i) {
+    const auto reading = model.find(distances->lengths()[i], design.holes[i].commanded);
+    if (!reading) {
+      return tl::unexpected(fmt::format("hole {} at ({:.1f}, {:.1f}) cannot be cut: {}",
+                                        design.holes[i].name,
+                                        design.holes[i].commanded.x_mm,
+                                        design.holes[i].commanded.y_mm,
+                                        model::explain(reading.error())));
+    }
+    const model::BedPoint at = reading->pose.position;
+    const double dx = design.hole_sigma_mm * hole_noise.normal();
+    const double dy = design.hole_sigma_mm * hole_noise.normal();
+    made.places.push_back({at.x_mm + dx, at.y_mm + dy});
+  }
+  const DistanceGeometry geometry = distance_geometry(design, made.places);
+  Random tape_noise(spec.seed, kTapeStream);
+  for (std::size_t k = 0; k < made.set.distances.size(); ++k) {
+    HoleDistance& distance = made.set.distances[k];
+    double reading = geometry.predicted_mm[static_cast<Eigen::Index>(k)] +
+                     design.tape.hook_offset_mm + sigma_of(design, distance) * tape_noise.normal();
+    if (spec.rounding_mm > 0.0) reading = spec.rounding_mm * std::round(reading / spec.rounding_mm);
+    distance.distance_mm = reading;
+  }
+  Random bad(spec.seed, kBadStream);
+  std::vector<std::size_t> order(made.set.distances.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  bad.shuffle(order);
+  for (std::size_t k = 0; k < order.size() && static_cast<int>(k) < spec.bad_readings; ++k) {
+    made.set.distances[order[k]].distance_mm +=
+        bad.uniform() < 0.5 ? -spec.bad_size_mm : spec.bad_size_mm;
+  }
+  return made;
+}
+
+}  // namespace chaintrue::grid::synthetic

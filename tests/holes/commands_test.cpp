@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The verbs that know holes, as a person runs them: output, exit codes, nothing written for bad
+// input.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace chaintrue {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct Outcome {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+class HolesCommands : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = std::filesystem::temp_directory_path() / "chaintrue-XXXXXX";
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] Outcome run(const std::string& arguments) const {
+    const std::string line =
+        "cd " + folder_.string() + " && " CHAINTRUE_COMMAND " " + arguments + " >out.txt 2>err.txt";
+    const int status = std::system(line.c_str());
+    return {WEXITSTATUS(status), content_of(folder_ / "out.txt"), content_of(folder_ / "err.txt")};
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  [[nodiscard]] bool exists(const std::string& name) const {
+    return std::filesystem::exists(folder_ / name);
+  }
+
+  const std::string fixtures_ = CHAINTRUE_FIXTURES;
+  const std::string classic_ = fixtures_ + "/machines/classic.json";
+  const std::string holes_ = fixtures_ + "/holes/nine_holes.json";
+  std::filesystem::path folder_;
+};
+
+TEST_F(HolesCommands, TheFixtureIsWhatSimulateMakes) {
+  ASSERT_EQ(run("simulate --machine " + classic_ +
+                " --holes 9 --distances 20 --tape-rounding-mm 0.5 --draw-settings --effect "
+                "chain_pitch_error:left:elongation=0.0012 --seed 3 -o made.json")
+                .code,
+            0);
+  EXPECT_EQ(content_of(folder_ / "made.json"), content_of(holes_));
+}
+
+TEST_F(HolesCommands, FitGivesAMapThatQueryAndCheckTake) {
+  const Outcome fit = run("fit " + holes_ + " -o map.json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.err,
+              AllOf(HasSubstr("20 distances between 9 holes fit the calibrated machine"),
+                    HasSubstr("Error of distances left out one at a time"),
+                    HasSubstr("Chain scales: left -0.1")));
+  const Outcome query = run("query map.json 0 0");
+  EXPECT_EQ(query.code, 0);
+  EXPECT_THAT(query.out, HasSubstr("inside"));
+  const Outcome check = run("check map.json " + holes_);
+  EXPECT_EQ(check.code, 0) << check.out;
+  EXPECT_THAT(check.out, StartsWith("The map is still valid"));
+}
+
+TEST_F(HolesCommands, CheckExitsWithOneWhereTheMapNoLongerHolds) {
+  ASSERT_EQ(run("fit " + fixtures_ + "/grids/seven_by_four.json -o map.json").code, 0);
+  write("marks.csv", "x_mm,y_mm\n-1100,500\n1100,500\n0,0\n-1100,-500\n1100,-500\n");
+  ASSERT_EQ(run("simulate --machine " + classic_ +
+                " --marks marks.csv --draw-settings --length-noise-mm 0.2 --position-noise-mm 0.2 "
+                "--offset chain_zero_left_mm=2.5 --seed 1 -o later.json")
+                .code,
+            0);
+  const Outcome check = run("check map.json later.json");
+  EXPECT_EQ(check.code, 1);
+  EXPECT_THAT(check.out, StartsWith("The map is valid after re-zeroing"));
+  const Outcome json = run("check map.json later.json --json");
+  EXPECT_EQ(json.code, 1);
+  EXPECT_THAT(json.out, HasSubstr("\"verdict\": \"valid_after_rezeroing\""));
+}
+
+TEST_F(HolesCommands, ThePlannedProgramDrillsEveryHole) {
+  const Outcome plan =
+      run("plan --machine " + classic_ +
+          " --holes 9 --tape-sigma-mm 0.5 -o list.csv --gcode holes.nc --svg h.svg");
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  EXPECT_THAT(plan.err,
+              AllOf(HasSubstr("9 holes, 20 distances"),
+                    HasSubstr("motor spacing"),
+                    HasSubstr("It tells little of"),
+                    HasSubstr("Not seen")));
+  const Outcome check = run("gcode check holes.nc");
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_THAT(check.out, HasSubstr("9 straight cuts"));
+  EXPECT_THAT(content_of(folder_ / "h.svg"), StartsWith("<svg "));
+  // The list is a holes file already: with the commanded distances in it, it fits at once.
+  EXPECT_EQ(run("fit list.csv --machine " + classic_ + " -o map.json").code, 0);
+}
+
+TEST_F(HolesCommands, PassesStopWhereTheNextWouldNotPay) {
+  const Outcome passes = run("passes --machine " + classic_ + " --passes 4 --seed 2");
+  EXPECT_EQ(passes.code, 0) << passes.err;
+  EXPECT_THAT(passes.out, HasSubstr("Stopped: one more pass would take only"));
+  const Outcome files = run("passes " + holes_ + " " + holes_ + " " + holes_ + " -o map.json");
+  EXPECT_EQ(files.code, 0) << files.err;
+  EXPECT_TRUE(exists("map.json"));
+}
+
+TEST_F(HolesCommands, TheCertificateIsOnePage) {
+  ASSERT_EQ(run("fit " + holes_ + " -o map.json").code, 0);
+  ASSERT_EQ(run("report map.json --certificate -o certificate.html").code, 0);
+  EXPECT_THAT(content_of(folder_ / "certificate.html"),
+              AllOf(HasSubstr("95 % interval"),
+                    HasSubstr("What was measured"),
+                    HasSubstr("What is named"),
+                    HasSubstr("What remains")));
+}
+
+TEST_F(HolesCommands, BadInputExitsWithThreeAndWritesNothing) {
+  write("bad.csv", "hole,x_mm,y_mm\nA,-900,400\nB,900,400\nfrom,to,distance_mm\nA,Q,1800\n");
+  const Outcome bad = run("fit bad.csv --machine " + classic_ + " -o map.json");
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_THAT(bad.err, HasSubstr("a hole that was cut"));
+  EXPECT_FALSE(exists("map.json"));
+  write("list.csv",
+        "hole,x_mm,y_mm\nA,-900,400\nB,900,400\nC,900,-400\nD,-900,-400\nfrom,to,distance_mm\n"
+        "A,B,1801\nB,C,800\nC,D,1799\nD,A,800\nA,C,1970\nB,D,1970\n");
+  const Outcome machineless = run("fit list.csv -o map.json");
+  EXPECT_EQ(machineless.code, 3);
+  EXPECT_THAT(machineless.err, HasSubstr("give --machine"));
+  const Outcome options =
+      run("plan --machine " + classic_ + " --holes 99 --tape-sigma-mm 0 -o list2.csv");
+  EXPECT_EQ(options.code, 3);
+  EXPECT_THAT(options.err, AllOf(HasSubstr("--holes"), HasSubstr("--tape-sigma-mm")));
+  EXPECT_FALSE(exists("list2.csv"));
+}
+
+}  // namespace
+}  // namespace chaintrue

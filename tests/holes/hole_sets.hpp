@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Sets of holes for the tests of this room.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "grid/files/machine_file.hpp"
+#include "grid/holes/holes_plan.hpp"
+#include "grid/synthetic/holes.hpp"
+
+namespace chaintrue::testing_support {
+
+inline model::Machine classic() {
+  return grid::files::read_machine(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
+}
+
+/// Nine holes and twenty distances as chaintrue plan sets them. Made once: the search takes a tenth
+/// of a second.
+inline const grid::MeasuredHoles& nine_holes() {
+  static const grid::MeasuredHoles set =
+      grid::plan_holes(classic(), {.holes = 9, .distances = 20})->set;
+  return set;
+}
+
+/// Motors, zeros and scales off by draws from what is stated.
+inline grid::synthetic::HolesSpec usual_holes(std::uint64_t seed) {
+  grid::synthetic::HolesSpec spec;
+  spec.draw_settings = true;
+  spec.scale_sigma = 0.001;
+  spec.seed = seed;
+  return spec;
+}
+
+}  // namespace chaintrue::testing_support

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Plans of holes: what they promise is what fits reach, they beat a lattice, and passes converge.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "grid/holes/passes.hpp"
+#include "grid/holes/seen_effects.hpp"
+#include "tests/holes/hole_sets.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using testing_support::classic;
+
+TEST(HolesPlan, HasTheHolesAndDistancesAskedForOnTheSheet) {
+  const auto plan = plan_holes(classic(), {.holes = 9, .distances = 20});
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->set.holes.size(), 9u);
+  EXPECT_EQ(plan->set.distances.size(), 20u);
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (const HoleDistance& distance : plan->set.distances) {
+    EXPECT_LT(distance.from, distance.to);
+    EXPECT_TRUE(pairs.insert({distance.from, distance.to}).second) << "twice";
+    EXPECT_DOUBLE_EQ(distance.distance_mm, commanded_mm(plan->set, distance));
+  }
+  for (const Hole& hole : plan->set.holes) {
+    EXPECT_LE(std::abs(hole.commanded.x_mm), 0.5 * classic().bed.width_mm - 50.0);
+    EXPECT_LE(std::abs(hole.commanded.y_mm), 0.5 * classic().bed.height_mm - 50.0);
+  }
+}
+
+TEST(HolesPlan, PromisesWhatAFitReaches) {
+  const auto plan = plan_holes(classic(), {.holes = 9, .distances = 20});
+  const auto made = synthetic::simulate_holes(plan->set, testing_support::usual_holes(2));
+  const auto fit = fit_holes(made->set);
+  ASSERT_TRUE(fit);
+  const double reached = tool_sigma_mm(classic(), fit->posterior.covariance);
+  // The fit is linear about the true machine and weighs by the noise it finds, 15 degrees of
+  // freedom: a fifth either way.
+  EXPECT_NEAR(reached / plan->expected_rms_mm, fit->noise_factor, 0.2);
+}
+
+TEST(HolesPlan, BeatsALatticeOfTheSameSize) {
+  const HolesPlanRequest request{.holes = 9, .distances = 20};
+  const auto plan = plan_holes(classic(), request);
+  MeasuredHoles lattice;
+  lattice.machine = classic();
+  for (const double y : {500.0, 0.0, -500.0}) {
+    for (const double x : {-1100.0, 0.0, 1100.0})
+      lattice.holes.push_back({std::to_string(lattice.holes.size()), {x, y}});
+  }
+  // Neighbours, and the long diagonals.
+  for (std::size_t a = 0; a < 9; ++a) {
+    for (std::size_t b = a + 1; b < 9 && lattice.distances.size() < 20; ++b) {
+      if (b == a + 1 || b == a + 3 || b == a + 4 || a + b == 8) {
+        lattice.distances.push_back({.from = a, .to = b});
+        lattice.distances.back().distance_mm = commanded_mm(lattice, lattice.distances.back());
+      }
+    }
+  }
+  const auto fit = fit_holes(lattice);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(plan->expected_rms_mm,
+            tool_sigma_mm(classic(), fit->posterior.covariance) / fit->noise_factor);
+}
+
+TEST(HolesPlan, MoreDistancesAndABetterTapeTellMore) {
+  const double twelve = plan_holes(classic(), {.holes = 9, .distances = 12})->expected_rms_mm;
+  const double twenty = plan_holes(classic(), {.holes = 9, .distances = 20})->expected_rms_mm;
+  const double fine =
+      plan_holes(classic(), {.holes = 9, .distances = 20, .tape_sigma_mm = 0.2})->expected_rms_mm;
+  EXPECT_LT(twenty, twelve);
+  EXPECT_LT(fine, twenty);
+}
+
+TEST(HolesPlan, SaysWhichEffectsItSees) {
+  const std::vector<SeenEffect> seen = seen_effects(testing_support::nine_holes());
+  const auto find = [&seen](std::string_view effect, std::string_view side) {
+    return std::find_if(seen.begin(), seen.end(), [&](const SeenEffect& one) {
+      return one.effect == effect && one.side == side;
+    });
+  };
+  // 0.1 % of two metres is 2 mm on a tape of half a millimetre.
+  ASSERT_NE(find("chain_pitch_error", "both"), seen.end());
+  EXPECT_GT(find("chain_pitch_error", "both")->sigmas, 3.0);
+  // A tape cannot see what depends on the visit, nor what is written on paper.
+  EXPECT_EQ(find("drift", "left"), seen.end());
+  EXPECT_EQ(find("tape_scale", "both"), seen.end());
+}
+
+TEST(HolesPlan, ACauseAloneIsNamedFromDistances) {
+  int named = 0;
+  constexpr int kSets = 40;
+  for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
+    synthetic::HolesSpec spec;
+    spec.draw_settings = true;
+    spec.seed = seed;
+    const char* side = seed % 2 == 0 ? "left" : "right";
+    spec.hidden = {{"chain_pitch_error", side, {{"elongation", 0.0015}}}};
+    const auto made = synthetic::simulate_holes(testing_support::nine_holes(), spec);
+    const auto fit = fit_holes(made->set);
+    const std::vector<ScoredCause> causes = scored_causes(made->set, *fit);
+    named += causes.front().effect == "chain_pitch_error" && causes.front().side == side;
+  }
+  // 0.15 % of a chain stands some eight sigmas out.
+  EXPECT_GE(named, 36);
+}
+
+TEST(HolesPlan, WhereNothingIsWrongNothingIsNamed) {
+  int nothing = 0;
+  constexpr int kSets = 40;
+  for (std::uint64_t seed = 101; seed <= 100 + kSets; ++seed) {
+    synthetic::HolesSpec spec;
+    spec.draw_settings = true;
+    spec.seed = seed;
+    const auto made = synthetic::simulate_holes(testing_support::nine_holes(), spec);
+    nothing += scored_causes(made->set, *fit_holes(made->set)).front().effect == "nothing";
+  }
+  EXPECT_GE(nothing, 36);
+}
+
+TEST(HolesPlan, NumbersOutOfRangeThrow) {
+  EXPECT_THROW((void)plan_holes(classic(), {.holes = 3}), std::invalid_argument);
+  EXPECT_THROW((void)plan_holes(classic(), {.holes = 9, .margin_mm = 700.0}),
+               std::invalid_argument);
+}
+
+TEST(HolesPasses, ConvergeInAtMostThree) {
+  int converged = 0;
+  double worst_mm = 0.0;
+  constexpr int kMachines = 20;
+  for (std::uint64_t seed = 1; seed <= kMachines; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    SimulatedPassesRequest request;
+    request.most = 4;
+    request.seed = seed;
+    const auto result = simulate_passes(classic(), request);
+    ASSERT_TRUE(result) << result.error();
+    const HolesPass& last = result->passes.back();
+    converged += !last.next_pays && last.number <= 3;
+    worst_mm = std::max(worst_mm, *last.true_mm);
+    for (std::size_t i = 1; i < result->passes.size(); ++i)
+      EXPECT_LT(result->passes[i].expected_mm, result->passes[i - 1].expected_mm);
+    EXPECT_LT(*last.true_mm, 0.5 * result->before_mm + 0.3);
+    // The second pass is cut through the first one's map: holes come out where they were wanted.
+    if (result->passes.size() < 2) continue;
+    EXPECT_LT(result->passes[1].as_cut_rms_mm, 1.5) << "mm of tape and holes, and what is left";
+  }
+  EXPECT_EQ(converged, kMachines);
+  EXPECT_LT(worst_mm, 0.6) << "four times the expected 0.15 mm";
+}
+
+TEST(HolesPasses, ANearerAnswerIsAskedForOnlyWhereItPays) {
+  SimulatedPassesRequest request;
+  request.worthwhile_mm = 1e-6;
+  request.most = 4;
+  const auto result = simulate_passes(classic(), request);
+  EXPECT_EQ(result->passes.size(), 4u);
+  EXPECT_TRUE(result->passes.back().next_pays);
+}
+
+TEST(HolesPasses, AnotherMachineIsRefused) {
+  HolesPasses passes(classic());
+  MeasuredHoles set = testing_support::nine_holes();
+  set.machine->motors.left.x_mm -= 5.0;
+  const auto pass = passes.add(set);
+  ASSERT_FALSE(pass);
+  EXPECT_THAT(pass.error().sentence, testing::HasSubstr("motor_left_x_mm is"));
+}
+
+}  // namespace
+}  // namespace chaintrue::grid

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/certificate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/calibration/setting.hpp"
+#include "tools/cli/map_report.hpp"
+#include "tools/cli/map_words.hpp"
+#include "tools/report/map_report.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::MapContents;
+
+/// Within this many times the root of the summed variances lie 95 % of cuts, where x and y err
+/// alike: sqrt(-2 ln 0.05) / sqrt(2).
+constexpr double k95PerCent = 1.7308;
+
+report::Section measured_section(const grid::CompensationMap& map) {
+  const MapContents& contents = map.contents();
+  report::Table table{.columns = {{"what"}, {"how much, how well"}}, .rows = {}, .caption = {}};
+  const auto row = [&table](std::string what, std::string value) {
+    table.rows.push_back({{std::move(what), std::move(value)}});
+  };
+  const auto bad = std::count_if(
+      contents.points.begin(), contents.points.end(), [](const auto& p) { return p.bad; });
+  if (contents.distances) {
+    const grid::DistancesUsed& used = *contents.distances;
+    row("holes and a tape",
+        fmt::format("{} holes, {} distances, {} of them set aside",
+                    contents.points.size(),
+                    used.used + used.set_aside,
+                    used.set_aside));
+    row("distances that the fit had not seen",
+        fmt::format("within {:.2f} mm rms, {:.2f} mm at most",
+                    used.left_out_good.rms_mm,
+                    used.left_out_good.maximum_mm));
+    row("noise gone by",
+        fmt::format("{:g} mm of tape, {:g} mm of hole; found {:.1f} times as much",
+                    used.tape_sigma_mm,
+                    contents.noise.position_mm,
+                    contents.noise.factor_found));
+  } else {
+    row("points", fmt::format("{}, {} of them set aside", contents.points.size(), bad));
+    row("points that the fit had not seen",
+        fmt::format("within {:.2f} mm rms, {:.2f} mm at most",
+                    contents.accuracy.leave_one_out.tool.rms_mm,
+                    contents.accuracy.leave_one_out.tool.maximum_mm));
+    row("noise gone by",
+        fmt::format(
+            "{:g} mm in a length, {:g} mm in a position ({})",
+            contents.noise.length_mm,
+            contents.noise.position_mm,
+            contents.noise.source == "stated" ? "as stated" : "from " + contents.noise.source));
+  }
+  report::Section section{"What was measured", {}};
+  section.blocks.push_back(std::move(table));
+  return section;
+}
+
+report::Section named_section(const MapContents& contents) {
+  report::Table table{
+      .columns = {{"Setting"}, {"stated", true}, {"found", true}, {"+-", true}, {""}},
+      .rows = {},
+      .caption = {}};
+  for (const grid::SettingResult& result : contents.settings) {
+    const bool is_machine =
+        std::find(model::kMachineSettings.begin(), model::kMachineSettings.end(), result.setting) !=
+        model::kMachineSettings.end();
+    if (!is_machine) continue;
+    table.rows.push_back({{std::string(setting_in_words(result.setting)),
+                           fmt::format("{:.1f}", in_unit(result.setting, result.stated)),
+                           fmt::format("{:.1f}", in_unit(result.setting, result.calibrated)),
+                           fmt::format("{:.1f} mm", in_unit(result.setting, result.sigma)),
+                           result.off ? "off: measure it again" : ""},
+                          result.off});
+  }
+  report::Section section{"What is named", {}};
+  if (table.rows.empty()) {
+    section.blocks.push_back(
+        report::Paragraph{"Nothing: the map joins the readings themselves and knows no machine."});
+  } else {
+    section.blocks.push_back(std::move(table));
+  }
+  if (const auto* surface = std::get_if<grid::ModelSurface>(&contents.surface)) {
+    section.blocks.push_back(report::Paragraph{
+        fmt::format("Chain scales beside nominal: left {:+.3f} %, right {:+.3f} %.",
+                    100.0 * surface->residual.scale.left,
+                    100.0 * surface->residual.scale.right)});
+  }
+  return section;
+}
+
+report::Section remaining_section(const MapContents& contents) {
+  constexpr std::size_t kMostNotes = 3;
+  report::Section section{"What remains", {}};
+  for (std::size_t i = 0; i < contents.notes.size() && i < kMostNotes; ++i) {
+    section.blocks.push_back(report::Paragraph{contents.notes[i]});
+  }
+  if (contents.notes.size() > kMostNotes) {
+    section.blocks.push_back(report::Paragraph{fmt::format(
+        "{} more remarks stand in the full report.", contents.notes.size() - kMostNotes)});
+  }
+  section.blocks.push_back(report::Paragraph{
+      "After the chains were taken off, or a month of work, measure three to five points and ask "
+      "chaintrue check."});
+  return section;
+}
+
+}  // namespace
+
+report::Page certificate(const grid::CompensationMap& map, std::string_view source) {
+  const MapContents& contents = map.contents();
+  const report::MapReport full = map_report(map, source);
+  const grid::ErrorSummary& expected = contents.accuracy.expected_tool;
+  report::Page page;
+  page.title = "Certificate: " + (contents.name.empty() ? std::string("map") : contents.name);
+  page.subtitle = map.machine() != nullptr ? map.machine()->name : "no machine model";
+  page.verdict = fmt::format(
+      "Expect the tool within {:.2f} mm of where it should be, 95 times in 100, over the measured "
+      "part of the bed.",
+      k95PerCent * expected.rms_mm);
+  page.tone = full.tone;
+  page.is_one_sheet = true;
+  page.figures = {
+      {fmt::format("{:.2f} mm", expected.rms_mm), "expected over the bed, rms, one sigma"},
+      {fmt::format("0 to {:.2f} mm", k95PerCent * expected.rms_mm), "95 % interval"},
+      {fmt::format("{:.2f} mm", expected.maximum_mm),
+       fmt::format("at the weakest place, ({:.0f}, {:.0f})",
+                   contents.accuracy.expected_worst_at.x_mm,
+                   contents.accuracy.expected_worst_at.y_mm)}};
+  page.not_proved =
+      "These figures hold for the machine as it was when it was measured, and end when a motor, a "
+      "chain or the sheet is moved.";
+  report::Chart chart = report::error_map_chart(full);
+  chart.caption = "One sigma at the tool.";
+  report::Section error_section{"Where to expect which error", {}};
+  error_section.blocks.push_back(std::move(chart));
+  page.sections.push_back(std::move(error_section));
+  page.sections.push_back(measured_section(map));
+  page.sections.push_back(named_section(contents));
+  page.sections.push_back(remaining_section(contents));
+  page.provenance = full.provenance;
+  return page;
+}
+
+}  // namespace chaintrue::cli

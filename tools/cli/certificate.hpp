@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A map's certificate: one page to print. What error to expect, with its interval; what was
+/// measured; what is named; what remains.
+#pragma once
+
+#include <string_view>
+
+#include "grid/map/compensation_map.hpp"
+#include "tools/report/page.hpp"
+
+namespace chaintrue::cli {
+
+/// `source` is the map's file, for the footer.
+[[nodiscard]] report::Page certificate(const grid::CompensationMap& map, std::string_view source);
+
+}  // namespace chaintrue::cli

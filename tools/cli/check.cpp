@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue check: a few new points tell whether a map still holds.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include "grid/files/check_file.hpp"
+#include "grid/files/map_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "grid/holes/map_check.hpp"
+#include "tools/cli/grid_input.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+struct CheckCommand {
+  std::string map;
+  GridInput input;
+  TapeInput tape;
+  bool json = false;
+  std::string output = "-";
+};
+
+std::string in_words(const grid::MapCheck& check) {
+  std::string text = check.sentence + "\n";
+  if (!check.not_told_apart.empty()) text += check.not_told_apart + "\n";
+  fmt::format_to(std::back_inserter(text),
+                 "\nStill valid {:.1f} %, valid after re-zeroing {:.1f} %, to be measured again "
+                 "{:.1f} %.\n\nMeasured less map                       mm     sigma\n",
+                 100.0 * check.probability[0],
+                 100.0 * check.probability[1],
+                 100.0 * check.probability[2]);
+  for (const grid::CheckResidual& residual : check.residuals) {
+    fmt::format_to(std::back_inserter(text),
+                   "  {:<30}{:>+10.2f}{:>10.2f}\n",
+                   residual.what,
+                   residual.residual_mm,
+                   residual.sigma_mm);
+  }
+  return text;
+}
+
+int run_check(const CheckCommand& command) {
+  const grid::CompensationMap map = grid::files::read_map(command.map);
+  const auto input = read_measured_input(command.input, command.tape, MeasuredUse::check);
+  const auto check =
+      std::visit([&map](const auto& measured) { return grid::check_map(map, measured); }, input);
+  if (!check) {
+    fmt::print(
+        stderr, "{}: {}\n", grid::files::name_in_messages(command.input.grid), check.error());
+    return kBadInput;
+  }
+  grid::files::write_whole_file(command.output,
+                                command.json ? grid::files::write_check(*check) : in_words(*check));
+  return check->is_valid_as_it_is() ? kDone : kCheckFailed;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Run& run) {
+  auto command = std::make_shared<CheckCommand>();
+  CLI::App* verb = app.add_subcommand(
+      "check", "A few new points: is the map still valid, does re-zeroing mend it, or not");
+  verb->add_option("map", command->map, "A chaintrue_map file")->required();
+  add_grid_options(*verb, command->input);
+  add_tape_options(*verb, command->tape);
+  verb->add_flag("--json", command->json, "All numbers, for scripts");
+  verb->add_option("-o,--output", command->output, "- is standard output")->capture_default_str();
+  verb->footer(
+      "Three to five points far from each other will do, or holes and distances between them.\n"
+      "The exit code is 1 where the map is not valid as it is.\n\n"
+      "Example:\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
+      "  build/chaintrue check map.json fixtures/grids/five_new_points.json");
+  verb->callback([command, &run] { run = [command] { return run_check(*command); }; });
+}
+
+}  // namespace chaintrue::cli

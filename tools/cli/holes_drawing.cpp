@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/holes_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace chaintrue::cli {
+namespace {
+
+using model::BedPoint;
+
+// The picture, in its own units.
+constexpr double kBedWide = 900.0, kLeft = 30.0, kTop = 60.0, kBelow = 50.0;
+
+class Sheet {
+ public:
+  explicit Sheet(const model::Bed& bed) : bed_(bed), scale_(kBedWide / bed.width_mm) {}
+  [[nodiscard]] double x(BedPoint at) const {
+    return kLeft + scale_ * (at.x_mm + 0.5 * bed_.width_mm);
+  }
+  [[nodiscard]] double y(BedPoint at) const {
+    return kTop + scale_ * (0.5 * bed_.height_mm - at.y_mm);
+  }
+  [[nodiscard]] double bed_high() const { return scale_ * bed_.height_mm; }
+
+ private:
+  const model::Bed& bed_;
+  double scale_;
+};
+
+}  // namespace
+
+std::string draw_holes_plan(const grid::HolesPlan& plan) {
+  const model::Bed& bed = plan.set.machine->bed;
+  const Sheet sheet(bed);
+  const double wide = kBedWide + 2.0 * kLeft;
+  const double high = kTop + sheet.bed_high() + kBelow;
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 "
+      "0 "
+      "{0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"14\">\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
+      "<text x=\"{2:.0f}\" y=\"32\" font-size=\"18\">{3} holes, {4} distances: {5:.2f} mm expected "
+      "at "
+      "the tool (rms, one sigma)</text>\n"
+      "<rect x=\"{2:.1f}\" y=\"{6:.1f}\" width=\"{7:.1f}\" height=\"{8:.1f}\" fill=\"#fff7ec\" "
+      "stroke=\"#333333\"/>\n",
+      wide,
+      high,
+      kLeft,
+      plan.set.holes.size(),
+      plan.set.distances.size(),
+      plan.expected_rms_mm,
+      kTop,
+      kBedWide,
+      sheet.bed_high());
+  for (const grid::HoleDistance& distance : plan.set.distances) {
+    const BedPoint from = plan.set.holes[distance.from].commanded;
+    const BedPoint to = plan.set.holes[distance.to].commanded;
+    fmt::format_to(std::back_inserter(svg),
+                   "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
+                   "stroke=\"#0072b2\" stroke-opacity=\"0.6\"><title>{}: about {:.0f} "
+                   "mm</title></line>\n",
+                   sheet.x(from),
+                   sheet.y(from),
+                   sheet.x(to),
+                   sheet.y(to),
+                   words_of(plan.set, distance),
+                   distance.distance_mm);
+  }
+  for (const grid::Hole& hole : plan.set.holes) {
+    const double x = sheet.x(hole.commanded);
+    const double y = sheet.y(hole.commanded);
+    const bool right_half = hole.commanded.x_mm > 0.0;
+    fmt::format_to(std::back_inserter(svg),
+                   "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"6\" fill=\"#ffffff\" "
+                   "stroke=\"#d55e00\" stroke-width=\"3\"/>\n"
+                   "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" stroke=\"#fff7ec\" "
+                   "stroke-width=\"4\" paint-order=\"stroke\"><tspan font-weight=\"bold\" "
+                   "font-size=\"18\">{}</tspan> ({:.0f}, {:.0f})</text>\n",
+                   x,
+                   y,
+                   x + (right_half ? -10.0 : 10.0),
+                   y + (hole.commanded.y_mm > 0.0 ? 24.0 : -12.0),
+                   right_half ? "end" : "start",
+                   hole.name,
+                   hole.commanded.x_mm + 0.0,
+                   hole.commanded.y_mm + 0.0);
+  }
+  fmt::format_to(
+      std::back_inserter(svg),
+      "<text x=\"{:.0f}\" y=\"{:.1f}\">Seen from the front; the origin is the middle of "
+      "the bed. Each line is one reading of the tape, centre to centre.</text>\n</svg>\n",
+      kLeft,
+      high - 18.0);
+  return svg;
+}
+
+}  // namespace chaintrue::cli

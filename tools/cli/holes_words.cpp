@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/holes_words.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "grid/holes/seen_effects.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+std::string effect_words(const grid::SeenEffect& effect) {
+  return effect.side.empty() ? effect.effect : fmt::format("{} ({})", effect.effect, effect.side);
+}
+
+/// Patterns fainter than this cannot be told from chance.
+constexpr double kFaintSigmas = 3.0;
+constexpr double kDoubtfulSigmas = 1.0;
+
+std::string listed(const std::vector<std::string>& words) {
+  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+std::string distances_in_words(const grid::MeasuredHoles& set, const grid::HolesFit& fit) {
+  std::string text = "\nDistance                  measured  commanded   left out    sigmas\n";
+  for (std::size_t k = 0; k < fit.distances.size(); ++k) {
+    const grid::FittedDistance& distance = fit.distances[k];
+    fmt::format_to(std::back_inserter(text),
+                   "  {:<22}{:>10.1f}{:>11.1f}{:>+11.2f}{:>+10.1f}{}\n",
+                   words_of(set, set.distances[k]),
+                   distance.measured_mm,
+                   distance.commanded_mm,
+                   distance.left_out_mm,
+                   distance.sigmas(),
+                   distance.set_aside ? "  set aside" : "");
+  }
+  const Eigen::MatrixXd& covariance = fit.posterior.covariance;
+  fmt::format_to(std::back_inserter(text),
+                 "Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % (readings over "
+                 "the model's lengths).\n",
+                 100.0 * fit.posterior.mean[6],
+                 100.0 * std::sqrt(covariance(6, 6)),
+                 100.0 * fit.posterior.mean[7],
+                 100.0 * std::sqrt(covariance(7, 7)));
+  text += "Left out: measured less what a fit without this reading makes of it, mm.\n";
+  return text;
+}
+
+std::string causes_in_words(const grid::MeasuredHoles& set, const grid::HolesFit& fit) {
+  constexpr double kWorthNaming = 0.03;
+  const std::vector<grid::ScoredCause> causes = scored_causes(set, fit);
+  if (causes.empty()) return "No effect of the catalogue can act on this machine.\n";
+  const grid::ScoredCause& first = causes.front();
+  constexpr double kNamed = 0.8;
+  const auto called = [](const grid::ScoredCause& cause) {
+    return cause.side.empty() ? cause.effect : fmt::format("{} ({})", cause.effect, cause.side);
+  };
+  std::string text;
+  if (first.effect == "nothing") {
+    text = fmt::format("Settings alone explain the distances ({:.0f} %).\n",
+                       100.0 * first.probability);
+  } else if (first.probability >= kNamed) {
+    text = fmt::format("{} explains the distances ({:.0f} %): {} = {:.3g} +- {:.2g}.\n",
+                       called(first),
+                       100.0 * first.probability,
+                       first.parameter,
+                       first.value,
+                       first.sigma);
+  } else {
+    text = "These distances do not tell the causes below apart.\n";
+  }
+  text += "\nOne cause at a time               probability   size\n";
+  for (const grid::ScoredCause& cause : causes) {
+    if (cause.probability < kWorthNaming) continue;
+    fmt::format_to(
+        std::back_inserter(text),
+        "  {:<32}{:>9.0f} %   {}\n",
+        called(cause),
+        100.0 * cause.probability,
+        cause.parameter.empty()
+            ? std::string{}
+            : fmt::format("{} {:.3g} +- {:.2g}", cause.parameter, cause.value, cause.sigma));
+  }
+  text += "Not proved: two causes together, and any that moves the whole machine or the sheet.\n";
+  return text;
+}
+
+std::string workshop_list(const grid::HolesPlan& plan) {
+  std::string text = "hole,x_mm,y_mm\n";
+  for (const grid::Hole& hole : plan.set.holes) {
+    fmt::format_to(std::back_inserter(text),
+                   "{},{:.0f},{:.0f}\n",
+                   hole.name,
+                   hole.commanded.x_mm + 0.0,
+                   hole.commanded.y_mm + 0.0);
+  }
+  text +=
+      "# Write what the tape says in the third column; as commanded it would say about so much:\n";
+  text += "from,to,distance_mm\n";
+  for (const grid::HoleDistance& distance : plan.set.distances) {
+    fmt::format_to(std::back_inserter(text),
+                   "{},{},{:.0f}\n",
+                   plan.set.holes[distance.from].name,
+                   plan.set.holes[distance.to].name,
+                   distance.distance_mm);
+  }
+  return text;
+}
+
+std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequest& request) {
+  std::string text = fmt::format(
+      "{} holes, {} distances. With {:g} mm of tape and {:g} mm of hole (one sigma) the tool is "
+      "expected {:.2f} mm beside, rms over the bed, the sheet laid as well as it can be; with "
+      "nothing measured it is {:.2f} mm.\n\nWhat the set tells                 as stated     "
+      "after\n",
+      plan.set.holes.size(),
+      plan.set.distances.size(),
+      request.tape_sigma_mm,
+      request.hole_sigma_mm,
+      plan.expected_rms_mm,
+      plan.expected_before_mm);
+  std::vector<std::string> untold;
+  constexpr double kHardlyBetter = 0.7;
+  for (const grid::PlannedKnowledge& known : plan.knowledge) {
+    fmt::format_to(std::back_inserter(text),
+                   "  {:<30}{:>12.3f}{:>10.3f} {}\n",
+                   known.what,
+                   known.before,
+                   known.after,
+                   known.unit);
+    if (known.after > kHardlyBetter * known.before) untold.push_back(known.what);
+  }
+  fmt::format_to(std::back_inserter(text),
+                 "It tells little of: {}. Where the sheet lies takes distances to its edges.\n",
+                 listed(untold));
+  std::vector<std::string> clear;
+  std::vector<std::string> doubtful;
+  std::vector<std::string> unseen;
+  std::vector<std::string> alike;
+  for (std::size_t i = 0; i < plan.effects.size(); ++i) {
+    const grid::SeenEffect& effect = plan.effects[i];
+    (effect.sigmas >= kFaintSigmas      ? clear
+     : effect.sigmas >= kDoubtfulSigmas ? doubtful
+                                        : unseen)
+        .push_back(effect_words(effect));
+    for (const std::size_t other : effect.same_as) {
+      if (other <= i || effect.sigmas < kDoubtfulSigmas) continue;
+      alike.push_back(
+          fmt::format("{} and {}", effect_words(effect), effect_words(plan.effects[other])));
+    }
+  }
+  fmt::format_to(std::back_inserter(text),
+                 "Causes of usual size that it sees beyond what settings can imitate: {}.\n"
+                 "Doubtful: {}.\nNot seen: {}.\nThe same to it: {}.\n",
+                 listed(clear),
+                 listed(doubtful),
+                 listed(unseen),
+                 listed(alike));
+  return text;
+}
+
+std::string holes_gcode(const grid::HolesPlan& plan, double depth_mm, double clearance_mm) {
+  std::string text = fmt::format(
+      "(chaintrue plan: {} holes, {:g} mm deep)\n(Zero is the middle of the bed. Look whether "
+      "every "
+      "hole lies on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
+      plan.set.holes.size(),
+      depth_mm,
+      clearance_mm);
+  for (const grid::Hole& hole : plan.set.holes) {
+    fmt::format_to(std::back_inserter(text),
+                   "(hole {})\nG0 X{:.0f} Y{:.0f}\nG1 Z{:g} F150\nG0 Z{:g}\n",
+                   hole.name,
+                   hole.commanded.x_mm + 0.0,
+                   hole.commanded.y_mm + 0.0,
+                   -depth_mm,
+                   clearance_mm);
+  }
+  text += "G0 X0 Y0\nM2\n";
+  return text;
+}
+
+}  // namespace chaintrue::cli

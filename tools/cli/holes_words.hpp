@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Holes and distances in words and numbers, for every verb that knows them.
+#pragma once
+
+#include <string>
+
+#include "grid/holes/holes_fit.hpp"
+#include "grid/holes/holes_plan.hpp"
+
+namespace chaintrue::cli {
+
+/// Each distance: measured, commanded, and what the others make of it.
+[[nodiscard]] std::string distances_in_words(const grid::MeasuredHoles& set,
+                                             const grid::HolesFit& fit);
+/// What alone, of the catalogue's effects, would explain the distances, and what the settings do.
+[[nodiscard]] std::string causes_in_words(const grid::MeasuredHoles& set,
+                                          const grid::HolesFit& fit);
+/// The holes and what to measure, as a list for the workshop.
+[[nodiscard]] std::string workshop_list(const grid::HolesPlan& plan);
+/// What the plan's set will tell, and what it cannot tell apart.
+[[nodiscard]] std::string plan_in_words(const grid::HolesPlan& plan,
+                                        const grid::HolesPlanRequest& request);
+/// A program that drills the holes: metric, absolute, a rapid above each, down and up again.
+[[nodiscard]] std::string holes_gcode(const grid::HolesPlan& plan,
+                                      double depth_mm,
+                                      double clearance_mm);
+
+}  // namespace chaintrue::cli

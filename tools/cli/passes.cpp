@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue passes: cut, measure, correct, and again, until the next pass would not pay.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid/files/holes_file.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/map_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "grid/holes/passes.hpp"
+#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+
+struct PassesCommand {
+  std::vector<std::string> sets;
+  std::string machine;
+  grid::SimulatedPassesRequest request;
+  std::string map;
+};
+
+std::string heading(bool is_simulated) {
+  return fmt::format("Pass   as cut   left out   set aside   expected   with one more{}\n",
+                     is_simulated ? "   true error" : "");
+}
+
+std::string line_of(const grid::HolesPass& pass) {
+  std::string text = fmt::format("{:>4}{:>9.2f}{:>11.2f}{:>12}{:>11.2f}{:>16.2f}",
+                                 pass.number,
+                                 pass.as_cut_rms_mm,
+                                 pass.left_out_rms_mm,
+                                 pass.set_aside,
+                                 pass.expected_mm,
+                                 pass.expected_next_mm);
+  if (pass.true_mm) text += fmt::format("{:>13.2f}", *pass.true_mm);
+  return text + "\n";
+}
+
+std::string ending(const grid::HolesPass& last, double worthwhile_mm, std::size_t unused) {
+  std::string text =
+      "mm: distances as cut beside wanted; distances left out; tool expected over the bed, one "
+      "sigma, the sheet laid as well as it can be.\n";
+  const double gain = last.expected_mm - last.expected_next_mm;
+  text += last.next_pays
+              ? fmt::format("One more pass would take {:.2f} mm off the expected error: it pays.\n",
+                            gain)
+              : fmt::format(
+                    "Stopped: one more pass would take only {:.2f} mm off the expected "
+                    "error (less than {:g} mm).\n",
+                    gain,
+                    worthwhile_mm);
+  if (unused > 0) text += fmt::format("{} of the files were not needed.\n", unused);
+  return text;
+}
+
+int simulate(const PassesCommand& command) {
+  const files::ReadMachine read = files::read_machine_with_warnings(command.machine);
+  for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+  const auto result = grid::simulate_passes(read.machine, command.request);
+  if (!result) {
+    fmt::print(stderr, "chaintrue passes: {}\n", result.error());
+    return kNotSupportedOrOutside;
+  }
+  std::string text =
+      fmt::format("Before: the tool errs {:.2f} mm rms over the bed.\n", result->before_mm) +
+      heading(true);
+  for (const grid::HolesPass& pass : result->passes) text += line_of(pass);
+  text += ending(result->passes.back(), command.request.worthwhile_mm, 0);
+  if (!command.map.empty()) {
+    files::write_whole_file(command.map,
+                            files::write_map(grid::map_of(result->last_set, result->fit)));
+  }
+  fmt::print("{}", text);
+  return kDone;
+}
+
+int follow(const PassesCommand& command) {
+  files::HolesOptions options;
+  if (!command.machine.empty()) options.machine = files::read_machine(command.machine);
+  std::vector<grid::MeasuredHoles> sets;
+  for (const std::string& path : command.sets) {
+    files::ReadHoles read = files::read_holes(path, options);
+    for (const files::Warning& warning : read.warnings)
+      fmt::print(stderr, "{}\n", warning.message());
+    sets.push_back(std::move(read.holes));
+  }
+  if (!sets.front().machine) {
+    fmt::print(stderr, "{}: the holes name no machine: give --machine\n", command.sets.front());
+    return kBadInput;
+  }
+  grid::HolesPasses passes(*sets.front().machine, command.request.worthwhile_mm);
+  std::string text = heading(false);
+  grid::HolesPass last;
+  std::size_t used = 0;
+  for (; used < sets.size(); ++used) {
+    const auto pass = passes.add(sets[used]);
+    if (!pass) {
+      fmt::print(stderr, "{}: {}\n", command.sets[used], pass.error().sentence);
+      return kBadInput;
+    }
+    last = *pass;
+    text += line_of(last);
+    if (last.next_pays) continue;
+    ++used;
+    break;
+  }
+  text += ending(last, command.request.worthwhile_mm, sets.size() - used);
+  if (!command.map.empty()) {
+    files::write_whole_file(command.map,
+                            files::write_map(grid::map_of(sets[used - 1], *passes.fit())));
+  }
+  fmt::print("{}", text);
+  return kDone;
+}
+
+int run_passes(const PassesCommand& command) {
+  OptionProblems problems;
+  const grid::SimulatedPassesRequest& request = command.request;
+  problems.require("--passes", request.most, 1.0, 100.0);
+  problems.require("--worthwhile-mm", request.worthwhile_mm, 0.0, 100.0);
+  problems.require(
+      "--holes", request.plan.holes, grid::kFewestPlannedHoles, grid::kMostPlannedHoles);
+  problems.require("--tape-sigma-mm", request.plan.tape_sigma_mm, 0.001, 100.0);
+  problems.require("--hole-sigma-mm", request.plan.hole_sigma_mm, 0.0, 100.0);
+  problems.throw_if_any();
+  return command.sets.empty() ? simulate(command) : follow(command);
+}
+
+}  // namespace
+
+void add_passes(CLI::App& app, Run& run) {
+  auto command = std::make_shared<PassesCommand>();
+  grid::SimulatedPassesRequest& request = command->request;
+  CLI::App* verb = app.add_subcommand(
+      "passes", "Cut, measure, correct, and again, until the next pass would not pay");
+  verb->add_option(
+      "sets", command->sets, "chaintrue_holes files, in the order of the passes; none: simulated");
+  verb->add_option("--machine",
+                   command->machine,
+                   "A chaintrue_machine file: simulated on it, or in place of the sets' own");
+  verb->add_option("--passes", request.most, "Simulated: at most so many")->capture_default_str();
+  verb->add_option("--holes", request.plan.holes, "Simulated: holes of a pass")
+      ->capture_default_str();
+  verb->add_option("--tape-sigma-mm", request.plan.tape_sigma_mm, "Simulated: of a tape reading")
+      ->capture_default_str();
+  verb->add_option("--hole-sigma-mm", request.plan.hole_sigma_mm, "Simulated: of a hole")
+      ->capture_default_str();
+  verb->add_option("--worthwhile-mm",
+                   request.worthwhile_mm,
+                   "A pass that takes less off the expected error is not asked for")
+      ->capture_default_str();
+  verb->add_option("--seed", request.seed, "Simulated: same seed, same bytes")
+      ->capture_default_str();
+  verb->add_option("-o,--output", command->map, "Write the last pass's map to this file");
+  verb->footer(
+      "What one pass learnt of the machine is where the next one begins. Between passes the "
+      "controller's\nsettings may change, the machine as first stated may not.\n\n"
+      "Examples:\n"
+      "  build/chaintrue passes --machine fixtures/machines/classic.json --passes 4 --seed 1\n"
+      "  build/chaintrue passes fixtures/holes/nine_holes.json -o map.json");
+  verb->callback([command, &run] {
+    if (command->sets.empty() && command->machine.empty()) throw CLI::RequiredError("--machine");
+    run = [command] { return run_passes(*command); };
+  });
+}
+
+}  // namespace chaintrue::cli

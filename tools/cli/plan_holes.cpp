@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/plan_holes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "grid/files/whole_file.hpp"
+#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/holes_drawing.hpp"
+#include "tools/cli/holes_words.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+
+void check(const HolesPlanOptions& options, const model::Bed& bed) {
+  OptionProblems problems;
+  const grid::HolesPlanRequest& request = options.request;
+  problems.require("--holes", request.holes, grid::kFewestPlannedHoles, grid::kMostPlannedHoles);
+  if (request.distances != 0) {
+    problems.require("--distances",
+                     request.distances,
+                     static_cast<double>(grid::kFewestHoleDistances),
+                     request.holes * (request.holes - 1) / 2);
+  }
+  problems.require("--tape-sigma-mm", request.tape_sigma_mm, 0.001, 100.0);
+  problems.require("--hole-sigma-mm", request.hole_sigma_mm, 0.0, 100.0);
+  problems.require("--tape-length-mm", request.longest_mm, 500.0, 100000.0);
+  problems.require("--depth-mm", options.depth_mm, 0.1, 100.0);
+  problems.require("--clearance-mm", options.clearance_mm, 0.1, 100.0);
+  const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
+  problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 200.0));
+  problems.throw_if_any();
+}
+
+}  // namespace
+
+void add_plan_holes_options(CLI::App& verb, HolesPlanOptions& options, CLI::Option* points) {
+  grid::HolesPlanRequest& request = options.request;
+  verb.add_option("--holes",
+                  request.holes,
+                  fmt::format("Plan holes and tape distances instead: how many holes, {} to {}",
+                              grid::kFewestPlannedHoles,
+                              grid::kMostPlannedHoles))
+      ->excludes(points);
+  verb.add_option("--distances",
+                  request.distances,
+                  "Of --holes: how many to measure; twice the holes and two more where unsaid");
+  verb.add_option(
+          "--tape-sigma-mm", request.tape_sigma_mm, "Of --holes: one sigma of a tape reading")
+      ->capture_default_str();
+  verb.add_option("--hole-sigma-mm",
+                  request.hole_sigma_mm,
+                  "Of --holes: one sigma of a hole beside where its chains put it, on each axis")
+      ->capture_default_str();
+  verb.add_option("--tape-length-mm", request.longest_mm, "Of --holes: the tape's length")
+      ->capture_default_str();
+  verb.add_option("--gcode", options.gcode, "Of --holes: write a program that drills them");
+  verb.add_option("--depth-mm", options.depth_mm, "Of --gcode: how deep")->capture_default_str();
+  verb.add_option("--clearance-mm", options.clearance_mm, "Of --gcode: how high between holes")
+      ->capture_default_str();
+}
+
+int plan_the_holes(const HolesPlanOptions& options,
+                   const model::Machine& machine,
+                   const std::string& output,
+                   const std::string& drawing) {
+  check(options, machine.bed);
+  const auto plan = grid::plan_holes(machine, options.request);
+  if (!plan) {
+    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence);
+    return kNotSupportedOrOutside;
+  }
+  std::vector<files::OutputFile> outputs;
+  if (!drawing.empty()) outputs.push_back({drawing, draw_holes_plan(*plan)});
+  if (!options.gcode.empty()) {
+    outputs.push_back({options.gcode, holes_gcode(*plan, options.depth_mm, options.clearance_mm)});
+  }
+  outputs.push_back({output, workshop_list(*plan)});
+  files::write_whole_files(outputs);
+  fmt::print(stderr, "{}", plan_in_words(*plan, options.request));
+  return kDone;
+}
+
+}  // namespace chaintrue::cli

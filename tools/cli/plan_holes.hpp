@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The part of chaintrue plan that sets holes and tape distances.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "grid/holes/holes_plan.hpp"
+
+namespace chaintrue::cli {
+
+struct HolesPlanOptions {
+  /// 0 holes: points are planned instead.
+  grid::HolesPlanRequest request{.holes = 0};
+  double depth_mm = 3.0;
+  double clearance_mm = 5.0;
+  std::string gcode;
+};
+
+void add_plan_holes_options(CLI::App& verb, HolesPlanOptions& options, CLI::Option* points);
+
+/// Writes the list, the drawing and the program; returns the exit code. \throws files::InputError
+/// for values out of range.
+[[nodiscard]] int plan_the_holes(const HolesPlanOptions& options,
+                                 const model::Machine& machine,
+                                 const std::string& output,
+                                 const std::string& drawing);
+
+}  // namespace chaintrue::cli
