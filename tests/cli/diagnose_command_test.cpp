@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -221,6 +222,40 @@ TEST_F(DiagnoseCommand, TellsHowWellItForetellsAnotherGrid) {
   EXPECT_THAT(content_of(folder_ / "d.html"), HasSubstr("On other points: later (24)"));
 }
 
+TEST_F(DiagnoseCommand, OfDataThatDoNotDoSaysWhatWouldBeNeeded) {
+  simulate("");
+  const grid::MeasuredGrid sound = grid::files::read_grid(folder_ / "grid.json").grid;
+  const auto refused = [&](const grid::MeasuredGrid& grid) {
+    write("unfit.json", grid::files::write_grid(grid));
+    const Outcome told = run("diagnose unfit.json -o d.json --report d.html");
+    EXPECT_EQ(told.code, 3);
+    EXPECT_EQ(told.out, "");
+    EXPECT_FALSE(exists("d.json") || exists("d.html"));
+    return told.err;
+  };
+  grid::MeasuredGrid few = sound;
+  few.points.resize(5);
+  EXPECT_THAT(refused(few), HasSubstr("at least 8"));
+  grid::MeasuredGrid without_noise = sound;
+  without_noise.noise.reset();
+  // First visits alone: no two marks within 25 mm of each other.
+  std::vector<grid::MeasuredPoint> first_visits;
+  for (const auto& point : sound.points) {
+    if (std::none_of(first_visits.begin(), first_visits.end(), [&](const auto& other) {
+          return std::hypot(other.mark.x_mm - point.mark.x_mm, other.mark.y_mm - point.mark.y_mm) <
+                 30.0;
+        })) {
+      first_visits.push_back(point);
+    }
+  }
+  without_noise.points = first_visits;
+  EXPECT_THAT(refused(without_noise), HasSubstr("measure at least six points twice"));
+  grid::MeasuredGrid contradictory = sound;
+  contradictory.readings = {{"motor_spacing_mm", "", 2900.0, 1.0}};
+  EXPECT_THAT(refused(contradictory),
+              AllOf(HasSubstr("motor_spacing_mm is 2900"), HasSubstr("the machine states 2978.4")));
+}
+
 // plan --after, from a diagnosis whose follow-up is known.
 class PlanAfter : public DiagnoseCommand {
  protected:
@@ -255,11 +290,13 @@ TEST_F(PlanAfter, ListsWhatToMeasureAndTheLinesToAdd) {
             "\"readings\": add, each null filled in\n"
             "  {\"what\": \"link_pitch_mm\", \"side\": \"left\", \"value\": null, \"sigma\": "
             "0.001},\n");
-  EXPECT_THAT(told.err,
-              AllOf(HasSubstr("  1. Measure the length of 100 links"),
-                    HasSubstr("to 0.001 mm. A single right name then has probability 98 %."),
-                    HasSubstr("  3. (1150, 540): Measure a new mark."),
-                    HasSubstr("has probability 99.5 %.")));
+  EXPECT_THAT(
+      told.err,
+      AllOf(HasSubstr("  1. Measure the length of 100 links"),
+            HasSubstr("to 0.1 mm; a 100th of it goes into the file. A single right name then "
+                      "has probability 98 %."),
+            HasSubstr("  3. (1150, 540): Measure a new mark."),
+            HasSubstr("has probability 99.5 %.")));
   const std::string drawing = content_of(folder_ / "next.svg");
   EXPECT_THAT(drawing, AllOf(StartsWith("<svg "), HasSubstr(">2</text>"), HasSubstr(">3</text>")));
 }

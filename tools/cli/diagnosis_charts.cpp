@@ -463,15 +463,13 @@ Chart next_points_chart(const Diagnosis& found) {
     measured.rows.push_back({name_of(point), point.mark.x_mm, point.mark.y_mm});
   DataTable next{"next", {"number", "what", "x_mm", "y_mm", "text"}, {}};
   std::vector<Arrow> marks = arrows_of(found, &PointPicture::before_mm);
-  for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
-    const auto& step = found.next_measurements[i];
-    if (!step.mark) continue;
-    marks.push_back({.x_mm = step.mark->x_mm, .y_mm = step.mark->y_mm});
-    next.rows.push_back({static_cast<double>(i + 1),
-                         step.what,
-                         step.mark->x_mm,
-                         step.mark->y_mm,
-                         percent(step.raises_probability_to)});
+  for (const FollowUpPlace& place : follow_up_places(found)) {
+    marks.push_back({.x_mm = place.mark.x_mm, .y_mm = place.mark.y_mm});
+    next.rows.push_back({place.numbers,
+                         place.what,
+                         place.mark.x_mm,
+                         place.mark.y_mm,
+                         percent(place.raises_probability_to)});
   }
   chart.data = {std::move(measured), std::move(next)};
   chart.signals = report::bed_signals(sheet_of(found), marks);

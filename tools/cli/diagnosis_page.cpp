@@ -244,12 +244,12 @@ Section next_section(const Diagnosis& found) {
   Section section{"What to measure next", {}};
   Table table{{{"no.", true}, {"what"}, {"a single right name then", true}}, {}, ""};
   bool has_places = false;
+  const std::vector<std::string> sentences = follow_ups_in_words(found);
   for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
     const auto& next = found.next_measurements[i];
     has_places = has_places || next.mark.has_value();
     table.rows.push_back(
-        {{fmt::format("{}", i + 1), follow_up_in_words(next), percent(next.raises_probability_to)},
-         false});
+        {{fmt::format("{}", i + 1), sentences[i], percent(next.raises_probability_to)}, false});
   }
   table.caption =
       "In this order; the probability is that of all up to this one done. Points go into the "

@@ -95,12 +95,12 @@ void write_gain(Text& text, const Diagnosis& found) {
 void write_follow_up(Text& text, const Diagnosis& found) {
   if (found.next_measurements.empty()) return;
   text.heading("What to measure next (chaintrue plan GRID --after diagnosis.json)");
-  int number = 0;
-  for (const auto& next : found.next_measurements) {
+  const std::vector<std::string> sentences = follow_ups_in_words(found);
+  for (std::size_t i = 0; i < sentences.size(); ++i) {
     text.line("  {:>2}. {} A single right name then has probability {}.",
-              ++number,
-              follow_up_in_words(next),
-              percent(next.raises_probability_to));
+              i + 1,
+              sentences[i],
+              percent(found.next_measurements[i].raises_probability_to));
   }
 }
 

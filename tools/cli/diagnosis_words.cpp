@@ -27,11 +27,18 @@ constexpr Words kHypotheses[] = {{"nothing", "nothing hidden"},
                                  {"noise", "noise larger than stated"},
                                  {"bad_points", "bad points alone"}};
 
-struct UnitEnding {
-  std::string_view ending;
+/// A reading is of so many of what the file asks for, in this unit.
+struct ReadingUnit {
+  std::string_view what;
+  double count;
   std::string_view unit;
 };
-constexpr UnitEnding kUnitEndings[] = {{"_kg_per_m", "kg/m"}, {"_kg", "kg"}, {"_mm", "mm"}};
+constexpr ReadingUnit kReadings[] = {{"motor_spacing_mm", 1.0, "mm"},
+                                     {"beam_rise_mm", 1.0, "mm"},
+                                     {"ring_radius_mm", 1.0, "mm"},
+                                     {"sled_mass_kg", 1.0, "kg"},
+                                     {"link_pitch_mm", 100.0, "mm"},
+                                     {"chain_mass_kg_per_m", 1.0, "kg"}};
 
 std::string spaced(std::string_view id) {
   std::string text(id);
@@ -41,6 +48,37 @@ std::string spaced(std::string_view id) {
 
 std::string title(std::string_view id, std::string_view side) {
   return side.empty() ? spaced(id) : fmt::format("{}, {}", spaced(id), side);
+}
+
+bool same_place(const model::BedPoint& a, const model::BedPoint& b) {
+  return a.x_mm == b.x_mm && a.y_mm == b.y_mm;
+}
+
+bool same_place(const NextMeasurement& a, const NextMeasurement& b) {
+  return a.mark && b.mark && same_place(*a.mark, *b.mark);
+}
+
+std::string reading_in_words(const NextMeasurement& next) {
+  std::string text =
+      fmt::format("Measure {}", grid::diagnosis::reading_words(next.what, next.side));
+  const auto* known = std::find_if(std::begin(kReadings),
+                                   std::end(kReadings),
+                                   [&](const auto& one) { return one.what == next.what; });
+  if (known == std::end(kReadings)) return text + ".";
+  if (next.sigma > 0.0) text += fmt::format(", to {:g} {}", known->count * next.sigma, known->unit);
+  if (known->count > 1.0) text += fmt::format("; a {:g}th of it goes into the file", known->count);
+  return text + ".";
+}
+
+/// `again`: an earlier one is at the same place.
+std::string follow_up_in_words(const NextMeasurement& next, bool again) {
+  if (next.kind == MeasurementKind::reading) return reading_in_words(next);
+  std::string text = again ? "the same place, the sled set down anew" : next.what;
+  if (text.empty() || text.back() != '.') text += '.';
+  if (!next.mark) return text;
+  const std::string place =
+      fmt::format("({:.0f}, {:.0f})", next.mark->x_mm + 0.0, next.mark->y_mm + 0.0);
+  return text.find(place) != std::string::npos ? text : fmt::format("{}: {}", place, text);
 }
 
 }  // namespace
@@ -102,24 +140,36 @@ std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
   return text;
 }
 
-std::string follow_up_in_words(const NextMeasurement& next) {
-  if (next.kind != MeasurementKind::reading) {
-    std::string text = next.what;
-    if (text.empty() || text.back() != '.') text += '.';
-    if (!next.mark) return text;
-    const std::string place =
-        fmt::format("({:.0f}, {:.0f})", next.mark->x_mm + 0.0, next.mark->y_mm + 0.0);
-    return text.find(place) != std::string::npos ? text : fmt::format("{}: {}", place, text);
+std::vector<std::string> follow_ups_in_words(const grid::diagnosis::Diagnosis& diagnosis) {
+  std::vector<std::string> sentences;
+  const auto& list = diagnosis.next_measurements;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const bool again = std::any_of(
+        list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i), [&](const auto& earlier) {
+          return same_place(earlier, list[i]);
+        });
+    sentences.push_back(follow_up_in_words(list[i], again));
   }
-  std::string text =
-      fmt::format("Measure {}", grid::diagnosis::reading_words(next.what, next.side));
-  const auto* unit =
-      std::find_if(std::begin(kUnitEndings), std::end(kUnitEndings), [&](const auto& known) {
-        return next.what.ends_with(known.ending);
-      });
-  if (next.sigma > 0.0 && unit != std::end(kUnitEndings))
-    text += fmt::format(", to {:g} {}", next.sigma, unit->unit);
-  return text + ".";
+  return sentences;
+}
+
+std::vector<FollowUpPlace> follow_up_places(const grid::diagnosis::Diagnosis& diagnosis) {
+  std::vector<FollowUpPlace> places;
+  const auto& list = diagnosis.next_measurements;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].mark) continue;
+    const auto known = std::find_if(places.begin(), places.end(), [&](const auto& place) {
+      return same_place(place.mark, *list[i].mark);
+    });
+    if (known != places.end()) {
+      known->numbers += fmt::format(", {}", i + 1);
+      known->raises_probability_to = list[i].raises_probability_to;
+    } else {
+      places.push_back(
+          {fmt::format("{}", i + 1), *list[i].mark, list[i].what, list[i].raises_probability_to});
+    }
+  }
+  return places;
 }
 
 std::string percent(double probability) {

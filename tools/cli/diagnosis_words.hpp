@@ -31,8 +31,18 @@ namespace chaintrue::cli {
 [[nodiscard]] bool is_surprising(const grid::diagnosis::LeftOver& left_over);
 /// What is left over once the causes named are in the model, in a sentence.
 [[nodiscard]] std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over);
-/// What to do, where, and how well.
-[[nodiscard]] std::string follow_up_in_words(const grid::diagnosis::NextMeasurement& next);
+/// The next measurements as sentences: what to do, where, and how well.
+[[nodiscard]] std::vector<std::string> follow_ups_in_words(
+    const grid::diagnosis::Diagnosis& diagnosis);
+/// Their places, each once: "3, 6" where the third and the sixth are at one mark.
+struct FollowUpPlace {
+  std::string numbers;
+  model::BedPoint mark;
+  std::string what;
+  double raises_probability_to = 0.0;
+};
+[[nodiscard]] std::vector<FollowUpPlace> follow_up_places(
+    const grid::diagnosis::Diagnosis& diagnosis);
 
 /// 97 %, or "above 99.9 %" and "below 0.1 %": certainty is never claimed.
 [[nodiscard]] std::string percent(double probability);

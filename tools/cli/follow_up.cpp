@@ -37,13 +37,13 @@ std::string follow_up_list(const Diagnosis& found) {
     return "No measurement is proposed: none would change the verdict, or none was worked out.\n";
   }
   std::string text = "Measure, in this order:\n";
-  int number = 0;
-  for (const NextMeasurement& next : found.next_measurements) {
+  const std::vector<std::string> sentences = follow_ups_in_words(found);
+  for (std::size_t i = 0; i < sentences.size(); ++i) {
     fmt::format_to(std::back_inserter(text),
                    "{:>3}. {} A single right name then has probability {}.\n",
-                   ++number,
-                   follow_up_in_words(next),
-                   percent(next.raises_probability_to));
+                   i + 1,
+                   sentences[i],
+                   percent(found.next_measurements[i].raises_probability_to));
   }
   return text;
 }

@@ -18,6 +18,7 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/measurement_plan.hpp"
+#include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/follow_up.hpp"
 #include "tools/cli/plan_drawing.hpp"
@@ -109,11 +110,8 @@ bool is_of(const grid::diagnosis::Diagnosis& found, const grid::MeasuredGrid& me
 std::string draw_next(const grid::diagnosis::Diagnosis& found, const grid::MeasuredGrid& measured) {
   FollowUpDrawing drawing;
   for (const auto& point : measured.points) drawing.measured.push_back(point.mark);
-  int number = 0;
-  for (const auto& next : found.next_measurements) {
-    ++number;
-    if (next.mark) drawing.next.push_back({number, *next.mark});
-  }
+  for (const FollowUpPlace& place : follow_up_places(found))
+    drawing.next.push_back({place.numbers, place.mark});
   return draw_follow_up(drawing, found.extended_machine.bed);
 }
 

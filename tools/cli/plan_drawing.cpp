@@ -213,7 +213,7 @@ std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed
                    picture.x(mark.x_mm),
                    picture.y(mark.y_mm));
   }
-  for (const auto& [number, mark] : drawing.next) {
+  for (const auto& [numbers, mark] : drawing.next) {
     const double x = picture.x(mark.x_mm);
     const double y = picture.y(mark.y_mm);
     constexpr double kArm = 7.0;
@@ -233,7 +233,7 @@ std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed
          x + (right_half ? -10.0 : 10.0),
          y + (mark.y_mm > 0.0 ? 18.0 : -9.0),
          right_half ? "end" : "start",
-         fmt::format("{}", number));
+         numbers);
   }
   return svg + "</svg>\n";
 }

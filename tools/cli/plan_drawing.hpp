@@ -33,7 +33,7 @@ struct ExpectedErrors {
 struct FollowUpDrawing {
   std::vector<model::BedPoint> measured;
   struct Cross {
-    int number = 0;
+    std::string numbers;
     model::BedPoint mark;
   };
   std::vector<Cross> next;
