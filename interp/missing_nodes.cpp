@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interp/missing_nodes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -12,7 +13,9 @@
 namespace chaintrue::interp {
 namespace {
 
+/// What the line through a hole says of it: weights of the line's nodes, zero at its holes.
 struct LineFill {
+  Eigen::VectorXd weights;
   double value;
   std::size_t present;
 };
@@ -21,20 +24,36 @@ std::optional<LineFill> along(const std::vector<double>& nodes,
                               const Eigen::VectorXd& line,
                               double at) {
   std::vector<double> x;
-  std::vector<double> f;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const double value = line(static_cast<Eigen::Index>(i));
-    if (!std::isnan(value)) {
-      x.push_back(nodes[i]);
-      f.push_back(value);
+  std::vector<Eigen::Index> present;
+  for (Eigen::Index i = 0; i < line.size(); ++i) {
+    if (!std::isnan(line(i))) {
+      x.push_back(nodes[static_cast<std::size_t>(i)]);
+      present.push_back(i);
     }
   }
   if (x.size() < 3) {
     return std::nullopt;
   }
-  const SplineAxis axis(x);
-  const Eigen::Map<const Eigen::VectorXd> values(f.data(), static_cast<Eigen::Index>(f.size()));
-  return LineFill{axis.cardinal_weights(at).dot(values), x.size()};
+  LineFill fill{Eigen::VectorXd::Zero(line.size()), 0.0, x.size()};
+  fill.weights(present) = SplineAxis(x).cardinal_weights(at);
+  fill.value = fill.weights(present).dot(line(present));
+  return fill;
+}
+
+/// R C f of (1); nothing where a node that it needs is a hole.
+std::optional<double> across(const Eigen::Ref<const Eigen::MatrixXd>& values,
+                             const LineFill& row,
+                             const LineFill& column) {
+  double sum = 0.0;
+  for (Eigen::Index iy = 0; iy < values.cols(); ++iy) {
+    for (Eigen::Index ix = 0; ix < values.rows(); ++ix) {
+      const double weight = row.weights(ix) * column.weights(iy);
+      if (weight == 0.0) continue;
+      if (std::isnan(values(ix, iy))) return std::nullopt;
+      sum += weight * values(ix, iy);
+    }
+  }
+  return sum;
 }
 
 }  // namespace
@@ -64,10 +83,18 @@ tl::expected<FilledGrid, UnfillableNode> fill_missing(
         return tl::unexpected(UnfillableNode{ix, iy});
       }
       const bool by_row = row && (!column || row->present >= column->present);
-      const double value = by_row ? row->value : column->value;
-      const double doubt = row && column ? std::abs(row->value - column->value) : 0.0;
-      result.values(ix, iy) = value;
-      result.filled.push_back({ix, iy, value, doubt});
+      FilledNode node{ix, iy, by_row ? row->value : column->value, 0.0, 0.0};
+      node.by_line = node.value;
+      if (row && column) {
+        node.doubt = std::abs(row->value - column->value);
+        if (const auto both = across(values, *row, *column)) {
+          node.value = row->value + column->value - *both;
+          node.doubt =
+              std::min(std::abs(row->value - node.value), std::abs(column->value - node.value));
+        }
+      }
+      result.values(ix, iy) = node.value;
+      result.filled.push_back(node);
     }
   }
   return result;

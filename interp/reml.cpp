@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -19,6 +20,9 @@ namespace {
 void check(const PenalisedProblem& problem) {
   const Eigen::Index q = problem.columns();
   const auto fail = [](const std::string& what) { throw std::invalid_argument(what); };
+  if (problem.keeps_rows && problem.design.rows() != problem.rows) {
+    fail(fmt::format("{} of {} rows were kept", problem.design.rows(), problem.rows));
+  }
   if (q == 0 || problem.gram.rows() != q || problem.moment.size() != q) {
     fail(fmt::format(
         "a fit with X'X of {} x {} and X'y of {}", problem.gram.rows(), q, problem.moment.size()));
@@ -176,14 +180,20 @@ class PosteriorGrid {
   std::vector<ThetaNode> nodes_;
 };
 
+struct Averaged {
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd inverse_lambda;
+};
+
 // The posterior covariance of b about the fit with theta averaged over rather than fixed: E[A^-1] +
 // E[(b - fit)(b - fit)']. What each lambda adds to A^-1 is added up; where sigma2 is free each
 // lambda is averaged together with it.
-Eigen::MatrixXd averaged_covariance(const reml::Marginal& marginal,
-                                    const reml::SearchResult& found,
-                                    const Eigen::VectorXd& sigma) {
+Averaged averaged_covariance(const reml::Marginal& marginal,
+                             const reml::SearchResult& found,
+                             const Eigen::VectorXd& sigma) {
   reml::WorkingCovariance sum;
   const Eigen::Index k = marginal.penalties();
+  Eigen::VectorXd inverse_lambda = Eigen::VectorXd::Zero(k);
   const Eigen::VectorXd fit = marginal.add_inverse(
       found.theta, 1.0 - static_cast<double>(marginal.sigma2_free() && k == 0 ? 1 : k), sum);
   std::vector<Eigen::VectorXd> shifts;
@@ -195,7 +205,11 @@ Eigen::MatrixXd averaged_covariance(const reml::Marginal& marginal,
   };
   PosteriorGrid grid(marginal, found, sigma);
   for (Eigen::Index i = 0; i < k; ++i) {
-    add(marginal.sigma2_free() ? grid.over(i, k) : grid.over(i));
+    const std::vector<ThetaNode> nodes = marginal.sigma2_free() ? grid.over(i, k) : grid.over(i);
+    add(nodes);
+    for (const ThetaNode& node : nodes) {
+      inverse_lambda(i) += node.weight * std::exp(-node.theta(i));
+    }
   }
   if (marginal.sigma2_free() && k == 0) {
     add(grid.over(k));
@@ -206,7 +220,20 @@ Eigen::MatrixXd averaged_covariance(const reml::Marginal& marginal,
   }
   // Weights below zero on the plain part may leave a rounding below zero where nothing was added.
   sum.diagonal = sum.diagonal.cwiseMax(0.0);
-  return marginal.structure().covariance_to_columns(sum, shift_columns);
+  return {marginal.structure().covariance_to_columns(sum, shift_columns),
+          std::move(inverse_lambda)};
+}
+
+// What follows from the coefficients and their covariance.
+void fill_residuals(const PenalisedProblem& problem, PenalisedFit& fit) {
+  const Eigen::VectorXd& b = fit.coefficients;
+  fit.residual_square = problem.keeps_rows
+                            ? (problem.response - problem.design * b).squaredNorm()
+                            : std::max(0.0,
+                                       problem.response_square - 2.0 * b.dot(problem.moment) +
+                                           b.dot(problem.gram * b));
+  fit.column_edf = fit.covariance.cwiseProduct(problem.gram).rowwise().sum() / fit.sigma2;
+  fit.edf = fit.column_edf.sum();
 }
 
 PenalisedFit assemble(const PenalisedProblem& problem,
@@ -223,11 +250,7 @@ PenalisedFit assemble(const PenalisedProblem& problem,
   fit.covariance = structure.covariance_to_columns(inverse, Eigen::MatrixXd(problem.columns(), 0));
   fit.lambda = found.theta.head(k).array().exp();
   fit.sigma2 = marginal.sigma2(found.theta);
-  const Eigen::VectorXd& b = fit.coefficients;
-  fit.residual_square = std::max(
-      0.0, problem.response_square - 2.0 * b.dot(problem.moment) + b.dot(problem.gram * b));
-  fit.column_edf = fit.covariance.cwiseProduct(problem.gram).rowwise().sum() / fit.sigma2;
-  fit.edf = fit.column_edf.sum();
+  fill_residuals(problem, fit);
   fit.minus_two_log_reml = state.value;
   fit.iterations = found.iterations;
   fit.ends = found.ends;
@@ -239,9 +262,13 @@ PenalisedFit assemble(const PenalisedProblem& problem,
     }
   }
   fit.log_lambda_sigma = sigma.head(k);
-  fit.corrected_covariance = options.correct_covariance && marginal.unknowns() > 0
-                                 ? averaged_covariance(marginal, found, sigma)
-                                 : fit.covariance;
+  fit.inverse_lambda = fit.lambda.cwiseInverse();
+  fit.corrected_covariance = fit.covariance;
+  if (options.correct_covariance && marginal.unknowns() > 0) {
+    Averaged averaged = averaged_covariance(marginal, found, sigma);
+    fit.corrected_covariance = std::move(averaged.covariance);
+    fit.inverse_lambda = std::move(averaged.inverse_lambda);
+  }
   return fit;
 }
 
@@ -250,28 +277,36 @@ PenalisedFit assemble(const PenalisedProblem& problem,
 PenalisedProblem::PenalisedProblem(Eigen::Index columns)
     : gram(Eigen::MatrixXd::Zero(columns, columns)), moment(Eigen::VectorXd::Zero(columns)) {}
 
-void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& design,
-                                const Eigen::Ref<const Eigen::VectorXd>& response) {
-  if (design.cols() != columns() || design.rows() != response.size()) {
+void PenalisedProblem::add_rows(const Eigen::Ref<const Eigen::MatrixXd>& x,
+                                const Eigen::Ref<const Eigen::VectorXd>& y) {
+  if (x.cols() != columns() || x.rows() != y.size()) {
     throw std::invalid_argument(fmt::format("{} x {} design rows and {} responses for {} columns",
-                                            design.rows(),
-                                            design.cols(),
-                                            response.size(),
+                                            x.rows(),
+                                            x.cols(),
+                                            y.size(),
                                             columns()));
   }
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(design.transpose());
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
   gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-  moment.noalias() += design.transpose() * response;
-  response_square += response.squaredNorm();
-  rows += design.rows();
+  moment.noalias() += x.transpose() * y;
+  response_square += y.squaredNorm();
+  rows += x.rows();
+  if (keeps_rows) {
+    design.conservativeResize(rows, columns());
+    design.bottomRows(x.rows()) = x;
+    response.conservativeResize(rows);
+    response.tail(y.size()) = y;
+  }
 }
 
 void PenalisedProblem::add_sparse_row(const std::vector<Eigen::Index>& indices,
                                       const std::vector<double>& values,
-                                      double response) {
-  if (indices.size() != values.size()) {
-    throw std::invalid_argument(
-        fmt::format("a sparse row of {} columns and {} values", indices.size(), values.size()));
+                                      double y) {
+  if (keeps_rows || indices.size() != values.size()) {
+    throw std::invalid_argument(keeps_rows ? "a problem that keeps its rows takes whole ones"
+                                           : fmt::format("a sparse row of {} columns and {} values",
+                                                         indices.size(),
+                                                         values.size()));
   }
   for (std::size_t a = 0; a < indices.size(); ++a) {
     if (indices[a] < 0 || indices[a] >= columns()) {
@@ -281,9 +316,9 @@ void PenalisedProblem::add_sparse_row(const std::vector<Eigen::Index>& indices,
     for (std::size_t b = 0; b < indices.size(); ++b) {
       column[indices[b]] += values[a] * values[b];
     }
-    moment(indices[a]) += values[a] * response;
+    moment(indices[a]) += values[a] * y;
   }
-  response_square += response * response;
+  response_square += y * y;
   ++rows;
 }
 
@@ -309,26 +344,42 @@ tl::expected<PenalisedFit, FitRefusal> fit_penalised(const PenalisedProblem& pro
 tl::expected<PenalisedFit, FitRefusal> fit_with_smoothing(
     const PenalisedProblem& problem,
     const Eigen::Ref<const Eigen::VectorXd>& lambda,
-    double sigma2,
-    const FitOptions& options) {
+    double sigma2) {
   check(problem);
   if (lambda.size() != static_cast<Eigen::Index>(problem.penalties.size()) ||
       !(lambda.array() > 0.0).all() || !(sigma2 > 0.0)) {
     throw std::invalid_argument(
         "each penalty needs a positive lambda, and sigma2 must be positive");
   }
-  const reml::Marginal marginal(problem, sigma2);
-  reml::SearchResult fixed;
-  fixed.theta = lambda.array().log();
-  fixed.low = fixed.theta;
-  fixed.high = fixed.theta;
-  fixed.ends.assign(problem.penalties.size(), SmoothingEnd::kInside);
-  if (!marginal.positive() || !marginal.evaluate(fixed.theta, reml::Order::kValue)) {
+  // One lambda: A as it is costs less than what makes many of them cheap, where it has the digits.
+  const Eigen::VectorXd theta = lambda.array().log();
+  std::optional<reml::Marginal> marginal;
+  std::optional<reml::State> state;
+  for (const reml::Shape shape : {reml::Shape::kDense, reml::Shape::kAny}) {
+    marginal.emplace(problem, sigma2, SmoothingPrior::kNone, shape);
+    state = marginal->positive() ? marginal->evaluate(theta, reml::Order::kValue) : std::nullopt;
+    if (state) {
+      break;
+    }
+  }
+  if (!state) {
     return rank_deficient();
   }
-  FitOptions plain = options;
-  plain.correct_covariance = false;
-  return assemble(problem, marginal, fixed, plain);
+  const reml::Structure& structure = marginal->structure();
+  PenalisedFit fit;
+  fit.coefficients = structure.to_columns(state->coefficients);
+  reml::WorkingCovariance inverse;
+  marginal->add_inverse(theta, 1.0, inverse);
+  fit.covariance = structure.covariance_to_columns(inverse, Eigen::MatrixXd(problem.columns(), 0));
+  fit.corrected_covariance = fit.covariance;
+  fit.lambda = lambda;
+  fit.inverse_lambda = lambda.cwiseInverse();
+  fit.log_lambda_sigma = Eigen::VectorXd::Zero(lambda.size());
+  fit.ends.assign(problem.penalties.size(), SmoothingEnd::kInside);
+  fit.sigma2 = sigma2;
+  fill_residuals(problem, fit);
+  fit.minus_two_log_reml = state->value;
+  return fit;
 }
 
 tl::expected<double, FitRefusal> minus_two_log_reml(const PenalisedProblem& problem,

@@ -46,6 +46,9 @@ struct Penalty {
   Eigen::Index first_column = 0;
   Eigen::MatrixXd matrix;
   Eigen::Index rank = -1;  ///< of `matrix`; negative: found from its eigenvalues
+  /// The lambda that the search for it is centred on; 0: where the traces of the penalty and of X'X
+  /// are equal.
+  double balance = 0.0;
 };
 
 /// What is known of the noise scale sigma2 beforehand.
@@ -87,6 +90,12 @@ struct PenalisedProblem {
   Eigen::VectorXd prior_mean;       ///< b0; empty: zero
   std::vector<Penalty> penalties;
   NoiseScale noise;
+  /// Set before the first row: add_rows keeps X and y as well. Where one penalty is the identity,
+  /// no prior touches its columns and there are no more rows than such columns, a fit then keeps
+  /// all its digits however small the noise is, which X'X has squared away.
+  bool keeps_rows = false;
+  Eigen::MatrixXd design;
+  Eigen::VectorXd response;
 };
 
 /// Where the search for one lambda ended.
@@ -119,6 +128,7 @@ struct PenalisedFit {
   Eigen::MatrixXd covariance;            ///< A^-1, smoothing and sigma2 taken as known
   Eigen::MatrixXd corrected_covariance;  ///< smoothing and sigma2 averaged over
   Eigen::VectorXd lambda;
+  Eigen::VectorXd inverse_lambda;    ///< averaged as corrected_covariance is: the prior variance
   Eigen::VectorXd log_lambda_sigma;  ///< standard error of log lambda; infinite at a limit
   std::vector<SmoothingEnd> ends;
   double sigma2 = 1.0;
@@ -155,12 +165,11 @@ struct FitOptions {
 [[nodiscard]] tl::expected<PenalisedFit, FitRefusal> fit_penalised(const PenalisedProblem& problem,
                                                                    const FitOptions& options = {});
 
-/// The same with lambda and sigma2 given.
+/// The same with lambda and sigma2 given; log_lambda_sigma is zero. Cost: O(q^3).
 [[nodiscard]] tl::expected<PenalisedFit, FitRefusal> fit_with_smoothing(
     const PenalisedProblem& problem,
     const Eigen::Ref<const Eigen::VectorXd>& lambda,
-    double sigma2,
-    const FitOptions& options = {});
+    double sigma2);
 
 /// V of (3) at given lambda and sigma2, from scratch; for tests and plots.
 [[nodiscard]] tl::expected<double, FitRefusal> minus_two_log_reml(

@@ -25,9 +25,11 @@ Eigen::Index rank_of(const Eigen::MatrixXd& matrix) {
 
 Marginal::Marginal(const PenalisedProblem& problem,
                    std::optional<double> fixed_sigma2,
-                   SmoothingPrior prior)
+                   SmoothingPrior prior,
+                   Shape shape)
     : problem_(problem), prior_kind_(prior) {
-  structure_ = is_arrow(problem) ? make_arrow(problem) : make_dense(problem);
+  structure_ =
+      shape == Shape::kAny && is_arrow(problem) ? make_arrow(problem) : make_dense(problem);
   if (problem.prior_mean.size() > 0 && problem.prior_precision.size() > 0) {
     prior_square_ = problem.prior_mean.dot(problem.prior_precision * problem.prior_mean);
   }
@@ -110,13 +112,18 @@ double Marginal::flat_slope(Eigen::Index i) const {
 }
 
 double Marginal::response_variance() const {
+  // Of responses that are nothing but rounding the sizes mean nothing.
+  constexpr double kLeast = 1e-20;
   return std::max(
       problem_.response_square / static_cast<double>(std::max<Eigen::Index>(problem_.rows, 1)),
-      1e-300);
+      kLeast);
 }
 
 double Marginal::balanced_log_lambda(Eigen::Index k) const {
   const Penalty& penalty = problem_.penalties[static_cast<std::size_t>(k)];
+  if (penalty.balance > 0.0) {
+    return std::log(penalty.balance / sigma2_fixed_);
+  }
   const Eigen::Index m = penalty.matrix.rows();
   const double data =
       problem_.gram.diagonal().segment(penalty.first_column, m).sum() / sigma2_fixed_;
@@ -169,14 +176,13 @@ std::optional<State> Marginal::evaluate(const Eigen::VectorXd& theta, Order orde
     return std::nullopt;
   }
   State state;
-  const Eigen::VectorXd moment = structure_->moment() / s2 + structure_->prior_moment();
-  state.coefficients = factor->solve(moment);
-  // |y - X b|^2 / sigma2 + (b - b0)' S (b - b0) at its minimum over b.
-  const double deviance =
-      problem_.response_square / s2 + prior_square_ - state.coefficients.dot(moment);
+  BestFit best = best_fit(*factor, s2);
+  state.coefficients = std::move(best.coefficients);
+  state.deviance = best.deviance;
   const double log_s2 = std::log(s2);
-  state.value = static_cast<double>(problem_.rows) * log_s2 + deviance + factor->log_determinant() -
-                log_determinant(theta, Order::kValue).value + extra_degrees_ * (log_s2 + 1.0 / s2);
+  state.value = static_cast<double>(problem_.rows) * log_s2 + state.deviance +
+                factor->log_determinant() - log_determinant(theta, Order::kValue).value +
+                extra_degrees_ * (log_s2 + 1.0 / s2);
   if (order == Order::kHessian) {
     add_derivatives(state, *factor, theta);
   }
@@ -195,7 +201,17 @@ Eigen::VectorXd Marginal::add_inverse(const Eigen::VectorXd& theta,
   const double s2 = sigma2(theta);
   const auto factor = structure_->factor(theta.head(penalties()).array().exp(), s2);
   factor->add_inverse(weight, sum);
-  return factor->solve(structure_->moment() / s2 + structure_->prior_moment());
+  return best_fit(*factor, s2).coefficients;
+}
+
+BestFit Marginal::best_fit(const Factor& factor, double s2) const {
+  if (auto best = factor.best()) {
+    return *std::move(best);
+  }
+  const Eigen::VectorXd moment = structure_->moment() / s2 + structure_->prior_moment();
+  BestFit fit{factor.solve(moment), 0.0};
+  fit.deviance = problem_.response_square / s2 + prior_square_ - fit.coefficients.dot(moment);
+  return fit;
 }
 
 // With D_i = dA / dtheta_i and u_i = D_i b - d(A b) / dtheta_i, db / dtheta_i = -A^-1 u_i. For
@@ -223,10 +239,9 @@ void Marginal::add_derivatives(State& state,
     const Eigen::VectorXd prior_force =
         structure_->penalty_times(k, b) - structure_->prior_moment();
     u.col(k) = u.leftCols(k).rowwise().sum() + prior_force;
-    const Eigen::VectorXd moment = structure_->moment() / s2 + structure_->prior_moment();
     const double penalty_square = first.head(k).sum() + b.dot(prior_force) -
                                   b.dot(structure_->prior_moment()) + prior_square_;
-    first(k) = -(problem_.response_square / s2 + prior_square_ - b.dot(moment) - penalty_square);
+    first(k) = -(state.deviance - penalty_square);
     trace(k) = -(static_cast<double>(q) - traces.first.sum());
     second(k, k) = static_cast<double>(q) - 2.0 * traces.first.sum() + traces.second.sum();
     second.col(k).head(k) = -(traces.first.head(k) - traces.second.topRows(k).rowwise().sum());

@@ -13,10 +13,13 @@
 namespace chaintrue::interp::reml {
 
 enum class Order { kValue, kHessian };
+/// How A is worked with: whichever is cheaper for many lambda, or as it is.
+enum class Shape { kAny, kDense };
 
 /// V and what belongs to it at one theta. Coefficients are in working coordinates.
 struct State {
-  double value = 0.0;  ///< V of (3)
+  double value = 0.0;     ///< V of (3)
+  double deviance = 0.0;  ///< |y - X b|^2 / sigma2 + (b - b0)' S (b - b0)
   Eigen::VectorXd coefficients;
   // Filled for Order::kHessian only.
   Eigen::VectorXd gradient;
@@ -29,7 +32,8 @@ class Marginal {
   /// `fixed_sigma2` overrides what the problem says about the noise scale.
   Marginal(const PenalisedProblem& problem,
            std::optional<double> fixed_sigma2,
-           SmoothingPrior prior = SmoothingPrior::kNone);
+           SmoothingPrior prior = SmoothingPrior::kNone,
+           Shape shape = Shape::kAny);
 
   [[nodiscard]] Eigen::Index penalties() const {
     return static_cast<Eigen::Index>(problem_.penalties.size());
@@ -45,7 +49,8 @@ class Marginal {
   [[nodiscard]] SmoothingPrior prior() const { return prior_kind_; }
   [[nodiscard]] bool sigma2_free() const { return sigma2_free_; }
   [[nodiscard]] bool noise_from_repeats() const { return extra_degrees_ > 0.0; }
-  /// Mean square of the responses: no noise is larger.
+  /// Mean square of the responses: no noise is larger. At least 1e-20: rows are whitened, and ten
+  /// digits below what was taken for a sigma is no noise.
   [[nodiscard]] double response_variance() const;
 
   /// False where some columns are free whatever lambda is.
@@ -66,6 +71,7 @@ class Marginal {
     Eigen::VectorXd gradient;
     Eigen::MatrixXd hessian;
   };
+  [[nodiscard]] BestFit best_fit(const Factor& factor, double s2) const;
   [[nodiscard]] LogDeterminant log_determinant(const Eigen::VectorXd& theta, Order order) const;
   void add_derivatives(State& state, const Factor& factor, const Eigen::VectorXd& theta) const;
   void find_ranks();

@@ -171,8 +171,11 @@ tl::expected<SearchResult, FitFailure> search(const Marginal& marginal, int maxi
     }
     settled = fraction <= 1e-6;
     if (!settled) {
+      const double before = state->value;
       result.theta = next;
       state = marginal.evaluate(result.theta, Order::kHessian);
+      // Nothing of V is worth 1e-10 of one; where its gradient is all rounding it never gets small.
+      settled = before - state->value < 1e-10;
     }
   }
   for (Eigen::Index k = 0; k < marginal.penalties(); ++k) {

@@ -11,6 +11,8 @@
 ///           becomes an arrow, and each lambda costs O(q p^2).
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "interp/reml.hpp"
 
@@ -22,16 +24,30 @@ struct Traces {
   Eigen::MatrixXd second;
 };
 
-/// A covariance in working coordinates: diag(diagonal) + dense. An empty part is zero.
+/// A covariance in working coordinates: diag(diagonal) + dense + sum of weight W W' over the roots
+/// W. An empty part is zero; the dense way fills `dense` alone, the arrow the others.
 struct WorkingCovariance {
+  struct Root {
+    double weight;
+    Eigen::MatrixXd columns;
+  };
   Eigen::VectorXd diagonal;
   Eigen::MatrixXd dense;
+  std::vector<Root> roots;
+};
+
+/// The coefficients that minimise |y - X b|^2 / sigma2 + (b - b0)' S (b - b0), and that minimum.
+struct BestFit {
+  Eigen::VectorXd coefficients;
+  double deviance = 0.0;
 };
 
 /// A at one lambda and sigma2.
 class Factor {
  public:
   virtual ~Factor() = default;
+  /// Where it is known to more digits than solve(X'y / sigma2 + S0 b0) has.
+  [[nodiscard]] virtual std::optional<BestFit> best() const { return std::nullopt; }
   [[nodiscard]] virtual double log_determinant() const = 0;
   [[nodiscard]] virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const = 0;
   [[nodiscard]] virtual Traces traces() const = 0;

@@ -181,6 +181,27 @@ std::vector<Refinement> refinements(const Session& session, const Analysis& a) {
   return result;
 }
 
+/// What is fitted is the member that gives its class the name: settings and sizes belong together.
+void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judged) {
+  for (int& k : judged.directions) {
+    const CauseId own = rows.directions[static_cast<std::size_t>(k)].cause;
+    for (const CauseClass& members : judged.classes) {
+      if (members.front() == own ||
+          std::find(members.begin(), members.end(), own) == members.end()) {
+        continue;
+      }
+      const auto alone = std::find_if(
+          contest.models.begin(), contest.models.end(), [&](const Model& model) {
+            return model.directions.size() == 1 &&
+                   rows.directions[static_cast<std::size_t>(model.directions.front())].cause ==
+                       members.front();
+          });
+      if (alone != contest.models.end()) k = alone->directions.front();
+    }
+  }
+  std::sort(judged.directions.begin(), judged.directions.end());
+}
+
 }  // namespace
 
 Judgement decide(const Session& session,
@@ -190,6 +211,7 @@ Judgement decide(const Session& session,
                  bool seen) {
   constexpr double kOverPattern = 2.2;  // strength of the leading cause over what is left
   Judgement judged = judge(rows, contest, excluded, seen);
+  speak_of_leaders(rows, contest, judged);
   if (judged.listed.empty() || judged.pattern <= kPatternPossible || judged.best_pattern < 0) {
     return judged;
   }

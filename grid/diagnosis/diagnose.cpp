@@ -54,7 +54,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
   d.points = pictures(*session, *analysis);
   d.left_over = left_over(*session, *analysis, options.seed);
   if (options.gain) d.gain = measure_gain(*session, *analysis, options);
-  extend(*session, *analysis, d);
+  extend(*session, *analysis, options.accept_class, d);
   if (options.next_measurements) d.next_measurements = next_measurements(*session, *analysis);
   put_into_words(*session, d);
   return d;

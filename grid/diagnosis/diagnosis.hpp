@@ -136,6 +136,10 @@ struct Gain {
   HeldOut extended_and_surface;
   HeldOut surface_only;
   double noise_floor_mm = 0.0;
+  /// By how much the mean square of the tool's error falls between the marks, as the points have it:
+  /// the mean square of what naming moves. Blocks held out say more, since there both models
+  /// extrapolate and the poorer one farther.
+  double drop_mm2 = 0.0;
   /// The same rows where the outermost points were held out and the inner ones fitted.
   struct Border {
     double calibrated_mm = 0.0;
@@ -265,6 +269,8 @@ struct DiagnosisOptions {
   bool gain = true;  ///< held-out errors, naming repeated in each fold
   bool next_measurements = true;
   bool order_assumed = false;  ///< the points' order was assumed by somebody, not measured
+  /// Chain or paper, which no points tell apart: the person has it that it is the chain.
+  bool accept_class = false;
   /// Nothing but this cause is looked for: what somebody who knew it would find.
   std::optional<CauseId> told;
   Steps steps;

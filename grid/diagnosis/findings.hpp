@@ -29,8 +29,12 @@ namespace chaintrue::grid::diagnosis {
                                  const Analysis& analysis,
                                  std::uint64_t seed);
 
-/// Sets the machine and the corrections of the data from the causes.
-void extend(const Session& session, const Analysis& analysis, Diagnosis& diagnosis);
+/// Sets the machine and the corrections of the data from the causes; a class that may lie on the
+/// paper as well only where `accept_class`.
+void extend(const Session& session,
+            const Analysis& analysis,
+            bool accept_class,
+            Diagnosis& diagnosis);
 
 /// verdict, sentence, what_to_do, not_proved and notes from everything else.
 void put_into_words(const Session& session, Diagnosis& diagnosis);

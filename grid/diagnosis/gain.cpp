@@ -160,6 +160,20 @@ double noise_floor(const Session& session,
   return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(points.size()));
 }
 
+/// Mean square of what the named causes move the tool by, each model calibrated on all points. The
+/// causes' estimate is the mean of what the truth may be, so this is the expected drop.
+double drop_by_naming(const Session& session, const Analysis& a) {
+  const Space& space = a.contest.spaces[a.judgement.space];
+  const Estimate plain = estimate(session, a.rows, space, {}, -1);
+  const Estimate named = estimate(session, a.rows, space, a.judgement.directions, -1);
+  const auto moved = chain_residuals(a.rows, Eigen::VectorXd(plain.left - named.left));
+  double sum = 0.0;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    sum += tool_shift(a.rows.points[i], moved[i]).squaredNorm();
+  }
+  return sum / static_cast<double>(moved.size());
+}
+
 /// Tool errors with the settings as stated, and with the sheet alone moved to where it fits.
 struct Delivered {
   std::vector<Eigen::Vector2d> as_stated, placed;
@@ -272,6 +286,7 @@ std::optional<Gain> measure_gain(const Session& session,
   gain.extended_and_surface = summarise(all.extended_and_surface, number, options.seed);
   gain.surface_only = summarise(all.surface_only, number, options.seed);
   gain.noise_floor_mm = noise_floor(session, a, points);
+  gain.drop_mm2 = helps ? drop_by_naming(session, a) : 0.0;
   const auto edge = border(session);
   if (session.points.size() - edge.size() >= kFewestPoints) {
     const Fold outer = folds.hold_out(edge);

@@ -141,7 +141,8 @@ const Record<Gain>& gain_record() {
     Record<Gain> gain("the gain");
     gain.required("scheme", &Gain::scheme, text());
     error_figures(gain, kGainRows);
-    gain.required("border_rms_mm", &Gain::border, object(border_record()))
+    gain.required("drop_mm2", &Gain::drop_mm2, number(kErrorMm))
+        .required("border_rms_mm", &Gain::border, object(border_record()))
         .required("folds", &Gain::folds, integer(0, kMostFolds))
         .required("folds_agree", &Gain::folds_agree, integer(0, kMostFolds))
         .check([](const Cursor& at, Gain& object) {

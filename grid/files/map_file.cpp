@@ -17,6 +17,7 @@ constexpr Range kPlaceMm{"mm", -1e5, 1e5};
 constexpr Range kErrorMm{"mm", -1e5, 1e5};
 constexpr Range kAny{"", -1e12, 1e12};
 constexpr Range kPositive{"", 0.0, 1e12};
+constexpr Range kFadeWidthMm{"mm", 1.0, 1e5};
 
 /// A map as it stands in the file, where that differs from the map in memory.
 struct MapPart {
@@ -26,6 +27,7 @@ struct MapPart {
   std::vector<model::BedPoint> hull;
   double edge_mm = 0.0;
   interp::Rectangle domain;
+  std::optional<OutsideRule> outside;
   MapNoise noise;
   MapAccuracy accuracy;
   std::vector<SettingResult> settings;
@@ -39,6 +41,20 @@ const Record<model::BedPoint>& place_record() {
   static const auto record = Record<model::BedPoint>("a point")
                                  .required("x_mm", &model::BedPoint::x_mm, number(kPlaceMm))
                                  .required("y_mm", &model::BedPoint::y_mm, number(kPlaceMm));
+  return record;
+}
+
+const Record<OutsideRule>& outside_record() {
+  static const auto record =
+      Record<OutsideRule>("what the map does beyond its points")
+          .required("way",
+                    &OutsideRule::way,
+                    choice<Outside>({{"continued", Outside::continued},
+                                     {"refuse", Outside::refuse},
+                                     {"fade", Outside::fade},
+                                     {"linear", Outside::linear},
+                                     {"clamp", Outside::clamp}}))
+          .optional("fade_width_mm", &OutsideRule::fade_width_mm, number(kFadeWidthMm));
   return record;
 }
 
@@ -193,6 +209,10 @@ void check_map(const Cursor& at, MapPart& map) {
   if (map.model.has_value() == map.direct.has_value()) {
     at.expect("either \"on_machine\" or \"direct\", the two kinds of surface, and not both");
   }
+  if (map.direct && map.outside && map.outside->way == Outside::fade) {
+    at.child("outside").child("way").expect(
+        "another way: without a machine nothing is left where a surface fades out");
+  }
   if (!at.clean()) return;
   try {
     const MeasuredArea area(map.hull, map.edge_mm, map.domain);
@@ -210,6 +230,7 @@ const Record<MapPart>& map_record() {
           .required("domain_mm", &MapPart::domain, object(rectangle_record()))
           .required("hull", &MapPart::hull, list(object(place_record()), 3))
           .required("edge_mm", &MapPart::edge_mm, number(kPositive))
+          .optional("outside", &MapPart::outside, object(outside_record()))
           .required("noise", &MapPart::noise, object(noise_record()))
           .required("accuracy", &MapPart::accuracy, object(accuracy_record()))
           .required("settings", &MapPart::settings, list(object(setting_record())))
@@ -228,6 +249,7 @@ MapPart part_of(const MapContents& map) {
                map.hull,
                map.edge_mm,
                map.domain,
+               std::nullopt,
                map.noise,
                map.accuracy,
                map.settings,
@@ -240,6 +262,7 @@ MapPart part_of(const MapContents& map) {
   } else {
     part.direct = files::part_of(std::get<DirectSurface>(map.surface));
   }
+  if (map.outside.way != Outside::continued) part.outside = map.outside;
   return part;
 }
 
@@ -254,6 +277,7 @@ MapContents contents_of(const MapPart& part) {
   map.hull = part.hull;
   map.edge_mm = part.edge_mm;
   map.domain = part.domain;
+  map.outside = part.outside.value_or(OutsideRule{});
   map.noise = part.noise;
   map.accuracy = part.accuracy;
   map.settings = part.settings;

@@ -18,6 +18,7 @@ using model::Model;
 using sweep::EffectsLevel;
 using sweep::GridLevel;
 using sweep::NoiseLevel;
+using sweep::SurfaceLevel;
 using sweep::SweepSpec;
 using sweep::UseLevel;
 using synthetic::DesignKind;
@@ -141,6 +142,7 @@ Record<StatedSweep> make_record() {
   add_to(record, "repetitions", true, &SweepSpec::repetitions, integer(1, 1'000'000));
   add_to(record, "repeats", false, &SweepSpec::repeats, integer(0, 10'000));
   add_to(record, "draw_settings", false, &SweepSpec::draw_settings, boolean());
+  add_to(record, "whole_bed", false, &SweepSpec::whole_bed, boolean());
   const auto raster = grid_size(1);
   record.custom(
       "evaluation",
@@ -170,8 +172,10 @@ Record<StatedSweep> make_record() {
          "surfaces",
          false,
          &SweepSpec::surfaces,
-         list(choice<SurfaceKind>(
-                  {{"residual", SurfaceKind::residual}, {"direct", SurfaceKind::direct}}),
+         list(choice<SurfaceLevel>({{"residual", SurfaceLevel::residual},
+                                    {"direct", SurfaceLevel::direct},
+                                    {"direct_parabolic", SurfaceLevel::direct_parabolic},
+                                    {"direct_natural", SurfaceLevel::direct_natural}}),
               1));
   record.required("machines", &StatedSweep::machines, list(object(stated_machine_record()), 1));
   add_to(record, "effects", false, &SweepSpec::effects, list(object(effects_record()), 1));
@@ -189,7 +193,7 @@ void fill_defaults(SweepSpec& spec) {
   if (spec.spacings.empty()) spec.spacings = {DesignKind::regular};
   if (spec.noises.empty()) spec.noises = {NoiseLevel{}};
   if (spec.jitters_mm.empty()) spec.jitters_mm = {0.0};
-  if (spec.surfaces.empty()) spec.surfaces = {SurfaceKind::residual};
+  if (spec.surfaces.empty()) spec.surfaces = {SurfaceLevel::residual};
   if (spec.effects.empty()) spec.effects = {{"none", {}}};
   if (spec.uses.empty()) spec.uses = {{"the same machine", {}, false}};
 }

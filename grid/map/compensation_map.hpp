@@ -139,6 +139,21 @@ struct DirectSurface {
   double interpolation_sigma_mm = 0.0;
 };
 
+/// What the map's surfaces do beyond the measured points. The calibrated machine and its chains'
+/// scales go on everywhere; sigmas tell what each way is worth.
+enum class Outside {
+  continued,  ///< the surfaces' own smooth continuation, the best guess
+  refuse,     ///< no answer where the status would be extrapolated
+  fade,       ///< the linear continuation, falling to zero over the fade's width beyond the edge
+  linear,     ///< the tangent plane at the nearest measured place
+  clamp,      ///< the value at the nearest measured place
+};
+
+struct OutsideRule {
+  Outside way = Outside::continued;
+  double fade_width_mm = 200.0;  ///< > 0; for `fade`
+};
+
 /// Everything that a map file holds.
 struct MapContents {
   std::string name;
@@ -146,6 +161,7 @@ struct MapContents {
   std::vector<model::BedPoint> hull;
   double edge_mm = 0.0;
   interp::Rectangle domain;
+  OutsideRule outside;
   MapNoise noise;
   MapAccuracy accuracy;
   std::vector<SettingResult> settings;
@@ -177,9 +193,17 @@ struct MapAnswer {
   MapStatus status = MapStatus::inside;
 };
 
+/// Lengths and their derivative by the mark.
+struct MapLengths {
+  model::ChainLengths lengths;
+  Eigen::Matrix2d mark_jacobian;
+};
+
+class MapField;
+
 /// Why there is no answer.
 enum class MapFailure {
-  outside_map,    ///< off the domain
+  outside_map,    ///< off the domain, or refused
   unreachable,    ///< no pose of the machine there
   not_converged,  ///< the inverse did not settle
 };
@@ -188,17 +212,17 @@ enum class MapFailure {
 /// Immutable, thread safe.
 class CompensationMap {
  public:
+  /// \throws std::invalid_argument where a surface without a machine shall fade.
   explicit CompensationMap(MapContents contents);
+  /// The same map, continued in another way.
+  [[nodiscard]] CompensationMap with_outside(OutsideRule rule) const;
   [[nodiscard]] const MapContents& contents() const { return contents_; }
 
   [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::BedPoint point,
                                                           Frame frame = Frame::marks) const;
   /// Lengths and their derivative alone, some ten times faster: what a path needs between its
   /// corners.
-  struct Lengths {
-    model::ChainLengths lengths;
-    Eigen::Matrix2d mark_jacobian;
-  };
+  using Lengths = MapLengths;
   [[nodiscard]] tl::expected<Lengths, MapFailure> lengths(model::BedPoint point,
                                                           Frame frame = Frame::marks) const;
   /// Where the tool is when these lengths are paid out: Newton to 1e-9 mm, at most 30 steps.
@@ -212,15 +236,12 @@ class CompensationMap {
   [[nodiscard]] const model::Machine* machine() const;
 
  private:
-  class Field;
-  class ModelField;
-  class LatticeField;
-  class DirectField;
+  [[nodiscard]] bool answers_at(model::BedPoint mark) const;
   [[nodiscard]] model::BedPoint mark_of(model::BedPoint point, Frame frame) const;
 
   MapContents contents_;
   MeasuredArea area_;
-  std::shared_ptr<const Field> field_;
+  std::shared_ptr<const MapField> field_;
 };
 
 }  // namespace chaintrue::grid

@@ -11,9 +11,11 @@ tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid, const Fi
   if (!corrected) return tl::unexpected(corrected.error());
   auto map = options.surface == SurfaceKind::direct ? fit_direct(corrected->grid, options)
                                                     : fit_residual(corrected->grid);
-  if (!map || corrected->notes.empty()) return map;
+  const bool as_it_is = corrected->notes.empty() && options.outside.way == Outside::continued;
+  if (!map || as_it_is) return map;
   MapContents contents = map->contents();
   contents.notes.insert(contents.notes.begin(), corrected->notes.begin(), corrected->notes.end());
+  contents.outside = options.outside;
   return CompensationMap(std::move(contents));
 }
 

@@ -24,6 +24,8 @@ struct FitOptions {
   SurfaceKind surface = SurfaceKind::residual;
   /// Of the direct surface's edges.
   interp::TensorEnds ends;
+  /// What the map does beyond the points.
+  OutsideRule outside;
 };
 
 struct FitFailure {
@@ -42,6 +44,7 @@ struct FitFailure {
 
 /// The machine's effects of the paper and of the visit (drift, skips, hysteresis) are taken out of
 /// the data first (corrected_data.hpp) and are not in the map; its other effects are.
+/// \throws std::invalid_argument where a direct surface shall fade (see CompensationMap).
 [[nodiscard]] tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid,
                                                             const FitOptions& options = {});
 

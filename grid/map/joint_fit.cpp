@@ -10,14 +10,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/map/fit_unknowns.hpp"
 #include "grid/map/measured_area.hpp"
+#include "grid/map/seen_splines.hpp"
 #include "grid/map/spatial_blocks.hpp"
-#include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
 namespace {
-
-using model::Setting;
 
 constexpr int kMaximumPasses = 25;
 /// A step of this many stated sigmas changes no length by more than some 1e-3 mm.
@@ -29,55 +28,10 @@ constexpr double kHuberDistance = 2.4477;
 /// Passes with soft weights only, so that several bad points cannot hide each other.
 constexpr int kSoftPasses = 4;
 
-/// What is stated without any uncertainty is taken as known this well, in mm or rad.
-constexpr double kKnownSigma = 1e-7;
-
-/// The unknown settings: their sigmas, and the machine and sheet at a theta.
-class Unknowns {
- public:
-  Unknowns(const model::Machine& stated, const std::optional<SheetUncertainty>& sheet)
-      : stated_(stated) {
-    for (Setting setting : model::kMachineSettings) {
-      settings_.push_back(setting);
-      sigmas_.push_back(std::max(model::stated_sigma(stated, setting), kKnownSigma));
-    }
-    if (sheet) {
-      settings_.insert(settings_.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-      const double shift_mm = std::max(sheet->shift_mm, kKnownSigma);
-      const double rotation_rad = std::max(1e-3 * sheet->rotation_mrad, kKnownSigma);
-      sigmas_.insert(sigmas_.end(), {shift_mm, shift_mm, rotation_rad});
-    }
-  }
-  [[nodiscard]] const std::vector<Setting>& settings() const { return settings_; }
-  [[nodiscard]] double sigma(Eigen::Index i) const { return sigmas_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(settings_.size()); }
-
-  [[nodiscard]] model::Machine machine_at(const Eigen::VectorXd& theta) const {
-    model::Machine machine = stated_;
-    for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {
-      machine = model::with_setting(
-          std::move(machine),
-          settings_[i],
-          model::stated_value(stated_, settings_[i]) + theta[static_cast<Eigen::Index>(i)]);
-    }
-    return machine;
-  }
-  [[nodiscard]] model::SheetPlacement sheet_at(const Eigen::VectorXd& theta) const {
-    const auto first = static_cast<Eigen::Index>(model::kMachineSettings.size());
-    if (theta.size() == first) return {};
-    return {theta[first], theta[first + 1], theta[first + 2]};
-  }
-
- private:
-  model::Machine stated_;
-  std::vector<Setting> settings_;
-  std::vector<double> sigmas_;
-};
-
 /// One point, linearised and whitened: rows of the design and the response, and the way back to
 /// millimetres.
 struct WhitePoint {
-  Eigen::MatrixXd design;                                   // 2 x total
+  Eigen::MatrixXd design;                                   // 2 x SeenColumns::total()
   Eigen::Vector2d response;                                 // whitened, for all unknowns
   Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  // W with W C W' = I
 };
@@ -102,10 +56,8 @@ JointFitFailure unreachable(const LengthPoint& point, model::PoseFailure failure
 /// many of them harmless, and beyond some 200 a surface more would only cost time. The smoother
 /// surface is for points that are met closely, and closer ones show.
 interp::BsplineBasis basis_for(const interp::Rectangle& domain,
-                               const std::vector<LengthPoint>& points,
+                               const std::vector<model::BedPoint>& marks,
                                int bending_order) {
-  std::vector<model::BedPoint> marks;
-  for (const LengthPoint& point : points) marks.push_back(point.mark);
   const double widening = bending_order == 2 ? 1.2 : 0.8;
   const double spacing_mm = widening * 2.0 * MeasuredArea(marks, domain).edge_mm();
   const auto intervals = [spacing_mm](double length_mm, int most) {
@@ -114,13 +66,39 @@ interp::BsplineBasis basis_for(const interp::Rectangle& domain,
   return {domain, intervals(domain.width(), 12), intervals(domain.height(), 8)};
 }
 
+std::vector<model::BedPoint> marks_of(const std::vector<LengthPoint>& points) {
+  std::vector<model::BedPoint> marks;
+  for (const LengthPoint& point : points) marks.push_back(point.mark);
+  return marks;
+}
+
+/// The unknowns while fitting, in this order: settings, both chains' scales, polynomials, and bends
+/// as the points see them (seen_splines.hpp).
+struct SeenColumns {
+  Eigen::Index settings = 0;
+  Eigen::Index polynomials = 0;  ///< of one surface
+  Eigen::Index bends = 0;        ///< of one surface
+  [[nodiscard]] Eigen::Index scale(model::Side side) const { return settings + second(side); }
+  [[nodiscard]] Eigen::Index polynomial(model::Side side) const {
+    return settings + 2 + second(side) * polynomials;
+  }
+  [[nodiscard]] Eigen::Index bend(model::Side side) const {
+    return settings + 2 + 2 * polynomials + second(side) * bends;
+  }
+  [[nodiscard]] Eigen::Index total() const { return settings + 2 + 2 * (polynomials + bends); }
+
+ private:
+  static Eigen::Index second(model::Side side) { return side == model::Side::left ? 0 : 1; }
+};
+
 class JointFitter {
  public:
   explicit JointFitter(const JointFitInput& input)
       : input_(input),
         unknowns_(input.machine, input.sheet),
-        basis_(basis_for(input.domain, input.points, input.bending_order)),
-        columns_{unknowns_.size(), basis_.size()},
+        basis_(basis_for(input.domain, marks_of(input.points), input.bending_order)),
+        seen_(basis_, input.bending_order, marks_of(input.points)),
+        columns_{unknowns_.size(), seen_.polynomials(), seen_.bends()},
         theta_(Eigen::VectorXd::Zero(unknowns_.size())),
         weights_(Eigen::VectorXd::Ones(static_cast<Eigen::Index>(input.points.size()))),
         distances_(Eigen::VectorXd::Zero(weights_.size())) {}
@@ -135,16 +113,22 @@ class JointFitter {
   void measure_distances();
   [[nodiscard]] bool update_weights(int pass);
   [[nodiscard]] interp::PenalisedProblem problem() const;
+  [[nodiscard]] Eigen::MatrixXd design_of(Eigen::Index point,
+                                          model::ChainLengths lengths,
+                                          const Eigen::MatrixXd& settings_jacobian) const;
   void add_points(interp::PenalisedProblem& problem) const;
   void add_settings_prior(interp::PenalisedProblem& problem) const;
   void add_surface_prior(interp::PenalisedProblem& problem) const;
   [[nodiscard]] tl::expected<JointFit, JointFitFailure> result(bool settled) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> left_out(const std::vector<std::size_t>& group) const;
+  [[nodiscard]] Eigen::VectorXd spline_coefficients(model::Side side) const;
+  [[nodiscard]] Eigen::MatrixXd covariance_of(const FitColumns& columns) const;
 
   const JointFitInput& input_;
-  Unknowns unknowns_;
+  FitUnknowns unknowns_;
   interp::BsplineBasis basis_;
-  FitColumns columns_;
+  SeenSplines seen_;
+  SeenColumns columns_;
   Eigen::VectorXd theta_;
   Eigen::VectorXd weights_;
   Eigen::VectorXd distances_;
@@ -152,6 +136,23 @@ class JointFitter {
   std::vector<WhiteReading> extra_;
   interp::PenalisedFit fit_;
 };
+
+/// The two rows of the design at a point: d(corrected lengths)/d(unknowns).
+Eigen::MatrixXd JointFitter::design_of(Eigen::Index point,
+                                       model::ChainLengths lengths,
+                                       const Eigen::MatrixXd& settings_jacobian) const {
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, columns_.total());
+  rows.leftCols(columns_.settings) = settings_jacobian;
+  for (const model::Side side : model::kSides) {
+    const Eigen::Index row = side == model::Side::left ? 0 : 1;
+    rows(row, columns_.scale(side)) =
+        side == model::Side::left ? lengths.left_mm : lengths.right_mm;
+    rows.row(row).segment(columns_.polynomial(side), columns_.polynomials) =
+        seen_.polynomial_rows().row(point);
+    rows.row(row).segment(columns_.bend(side), columns_.bends) = seen_.bend_rows().row(point);
+  }
+  return rows;
+}
 
 tl::expected<void, JointFitFailure> JointFitter::linearise() {
   const model::ReadingModel model(unknowns_.machine_at(theta_));
@@ -166,8 +167,9 @@ tl::expected<void, JointFitFailure> JointFitter::linearise() {
     white.whitening = lower.inverse();
     const model::ChainLengths predicted{point.lengths.left_mm - line->residual[0],
                                         point.lengths.right_mm - line->residual[1]};
-    white.design = white.whitening *
-                   design_rows(basis_, columns_, point.mark, predicted, line->setting_jacobian);
+    white.design =
+        white.whitening *
+        design_of(static_cast<Eigen::Index>(white_.size()), predicted, line->setting_jacobian);
     white.response = white.whitening * (line->residual + line->setting_jacobian * theta_);
     white_.push_back(std::move(white));
   }
@@ -216,29 +218,29 @@ void JointFitter::add_settings_prior(interp::PenalisedProblem& problem) const {
 }
 
 void JointFitter::add_surface_prior(interp::PenalisedProblem& problem) const {
-  const Eigen::Index size = basis_.size();
-  const Eigen::MatrixXd free = basis_.polynomial_coefficients(input_.bending_order - 1);
-  const Eigen::MatrixXd to_free = (free.transpose() * free).ldlt().solve(free.transpose());
-  for (model::Side side : model::kSides) {
-    problem.prior_precision(columns_.scale(side), columns_.scale(side)) =
-        1.0 / (kScaleSigma * kScaleSigma);
-    problem.prior_precision.block(columns_.spline(side), columns_.spline(side), size, size) =
-        to_free.transpose() * to_free / (kFreePartSigmaMm * kFreePartSigmaMm);
-  }
+  problem.prior_precision.diagonal()
+      .segment(columns_.settings, 2)
+      .setConstant(1.0 / (kScaleSigma * kScaleSigma));
+  problem.prior_precision.diagonal()
+      .segment(columns_.polynomial(model::Side::left), 2 * columns_.polynomials)
+      .setConstant(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
   // One smoothness for both chains: what bends one surface bends the other.
   interp::Penalty penalty;
-  penalty.first_column = columns_.spline(model::Side::left);
-  penalty.matrix = Eigen::MatrixXd::Zero(2 * size, 2 * size);
-  penalty.matrix.topLeftCorner(size, size) = basis_.bending_penalty(input_.bending_order);
-  penalty.matrix.bottomRightCorner(size, size) = penalty.matrix.topLeftCorner(size, size);
-  penalty.rank = 2 * basis_.bending_rank(input_.bending_order);
+  penalty.first_column = columns_.bend(model::Side::left);
+  penalty.matrix = Eigen::MatrixXd::Identity(2 * columns_.bends, 2 * columns_.bends);
+  penalty.rank = 2 * columns_.bends;
+  // Where the splines' own penalty would weigh as much as the data.
+  for (std::size_t i = 0; i < white_.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    penalty.balance += weights_[at] * seen_.squares()[at] * white_[i].whitening.squaredNorm() /
+                       (2.0 * seen_.penalty_trace());
+  }
   problem.penalties = {std::move(penalty)};
-  problem.prior_rank =
-      columns_.settings + 2 + 2 * (size - basis_.bending_rank(input_.bending_order));
 }
 
 interp::PenalisedProblem JointFitter::problem() const {
   interp::PenalisedProblem problem(columns_.total());
+  problem.keeps_rows = true;
   problem.prior_precision = Eigen::MatrixXd::Zero(columns_.total(), columns_.total());
   problem.prior_mean = Eigen::VectorXd::Zero(columns_.total());
   problem.noise = input_.noise_scale;
@@ -254,7 +256,7 @@ tl::expected<void, JointFitFailure> JointFitter::solve(Smoothing smoothing,
   options.correct_covariance = correct_covariance;
   auto fit = smoothing == Smoothing::choose
                  ? interp::fit_penalised(problem(), options)
-                 : interp::fit_with_smoothing(problem(), fit_.lambda, fit_.sigma2, options);
+                 : interp::fit_with_smoothing(problem(), fit_.lambda, fit_.sigma2);
   if (!fit) {
     const bool rank = fit.error().reason == interp::FitFailure::kRankDeficient;
     return tl::unexpected(JointFitFailure{
@@ -356,6 +358,34 @@ tl::expected<JointFit, JointFitFailure> JointFitter::run() {
   return result(settled);
 }
 
+Eigen::VectorXd JointFitter::spline_coefficients(model::Side side) const {
+  return seen_.polynomial_coefficients() *
+             fit_.coefficients.segment(columns_.polynomial(side), columns_.polynomials) +
+         seen_.bend_coefficients() * fit_.coefficients.segment(columns_.bend(side), columns_.bends);
+}
+
+/// Of the splines' own coefficients: what the points see, and what keeps its prior.
+Eigen::MatrixXd JointFitter::covariance_of(const FitColumns& columns) const {
+  Eigen::MatrixXd to_splines = Eigen::MatrixXd::Zero(columns.total(), columns_.total());
+  const Eigen::Index plain = columns_.settings + 2;
+  to_splines.topLeftCorner(plain, plain).setIdentity();
+  for (const model::Side side : model::kSides) {
+    to_splines.block(
+        columns.spline(side), columns_.polynomial(side), columns.basis, columns_.polynomials) =
+        seen_.polynomial_coefficients();
+    to_splines.block(columns.spline(side), columns_.bend(side), columns.basis, columns_.bends) =
+        seen_.bend_coefficients();
+  }
+  Eigen::MatrixXd covariance = to_splines * fit_.corrected_covariance * to_splines.transpose();
+  const Eigen::MatrixXd unseen = fit_.inverse_lambda[0] * seen_.unseen_coefficients() *
+                                 seen_.unseen_coefficients().transpose();
+  for (const model::Side side : model::kSides) {
+    covariance.block(columns.spline(side), columns.spline(side), columns.basis, columns.basis) +=
+        unseen;
+  }
+  return covariance;
+}
+
 tl::expected<JointFit, JointFitFailure> JointFitter::result(bool settled) const {
   const model::ReadingModel model(unknowns_.machine_at(theta_));
   const model::SheetPlacement sheet = unknowns_.sheet_at(theta_);
@@ -365,19 +395,18 @@ tl::expected<JointFit, JointFitFailure> JointFitter::result(bool settled) const 
     if (!reading) return tl::unexpected(unreachable(point, reading.error()));
     readings.push_back(*reading);
   }
-  const auto part = [&](model::Side side) -> Eigen::VectorXd {
-    return fit_.coefficients.segment(columns_.spline(side), basis_.size());
-  };
-  const ResidualSurface surface{basis_,
-                                {fit_.coefficients[columns_.scale(model::Side::left)],
-                                 fit_.coefficients[columns_.scale(model::Side::right)]},
-                                {part(model::Side::left), part(model::Side::right)}};
+  const ResidualSurface surface{
+      basis_,
+      {fit_.coefficients[columns_.scale(model::Side::left)],
+       fit_.coefficients[columns_.scale(model::Side::right)]},
+      {spline_coefficients(model::Side::left), spline_coefficients(model::Side::right)}};
+  const FitColumns columns{unknowns_.size(), basis_.size()};
   JointFit fit{unknowns_.machine_at(theta_),
                sheet,
                unknowns_.settings(),
-               columns_,
+               columns,
                surface,
-               fit_.corrected_covariance,
+               covariance_of(columns),
                std::sqrt(fit_.sigma2),
                fit_.edf,
                {},

@@ -81,11 +81,16 @@ model::PerSide<Eigen::MatrixXd> left_by_machine(const JointFit& fit, const Place
   return values;
 }
 
-/// What the lines say of a node that is left out, NaN where it cannot be filled.
+/// What the longer line says of a node that is left out, NaN where it cannot be filled: what the
+/// surface's own error between the nodes is measured by.
 double foretold(const Places& places, Eigen::MatrixXd values, Eigen::Index ix, Eigen::Index iy) {
   values(ix, iy) = kEmpty;
   const auto filled = interp::fill_missing(places.x_nodes_mm, places.y_nodes_mm, values);
-  return filled ? filled->values(ix, iy) : kEmpty;
+  if (!filled) return kEmpty;
+  const auto node = std::find_if(filled->filled.begin(),
+                                 filled->filled.end(),
+                                 [&](const auto& one) { return one.ix == ix && one.iy == iy; });
+  return node->by_line;
 }
 
 double rms(const std::vector<Eigen::Vector2d>& residuals) {

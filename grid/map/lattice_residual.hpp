@@ -43,6 +43,9 @@ class LatticeSplines {
   explicit LatticeSplines(const LatticeResidual& residual);
 
   [[nodiscard]] model::PerSide<interp::ValueGradient> at(model::BedPoint mark) const;
+  [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const {
+    return {left_.get(), right_.get()};
+  }
   /// Of both corrections, `node` being that of one measured node. The bicubic's weights stand for
   /// the quintic's. Inside the lattice the interpolation's own error counts in full; beyond it, it
   /// grows with the weights.

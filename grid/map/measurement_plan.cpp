@@ -47,7 +47,7 @@ class Planner {
                                     mark.y_mm,
                                     model::explain(reading.error()))});
       }
-      const model::ChainLengths beside = synthetic::unmodelled(machine_.bed, mark);
+      const model::ChainLengths beside = synthetic::unmodelled(mark);
       grid.points.push_back(
           {mark,
            model::ChainLengths{reading->lengths.left_mm + kDisturbanceMm * beside.left_mm,

@@ -13,6 +13,7 @@
 #include "grid/map/length_points.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/map/noise_from_repeats.hpp"
+#include "grid/map/plain_calibration.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -370,7 +371,11 @@ tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid)
     }
   }
   std::optional<LatticeFit> lattice;
-  if (source == "fit") lattice = fit_lattice(*joint);
+  if (source == "fit") {
+    JointFit plain = with_plain_calibration(input, *joint);
+    lattice = fit_lattice(plain);
+    if (lattice) joint = std::move(plain);
+  }
   if (lattice) tell_residuals(*joint, *lattice);
   if (auto sound = check_enough_good(*joint); !sound) return tl::unexpected(sound.error());
   MapContents contents = contents_of(grid, input, *joint, source);

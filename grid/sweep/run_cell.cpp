@@ -20,12 +20,23 @@ std::uint64_t seed_of(const SweepSpec& spec, std::uint64_t stream, std::uint64_t
   return random.bits();
 }
 
+FitOptions fit_options(SurfaceLevel level) {
+  FitOptions options;
+  options.surface = level == SurfaceLevel::residual ? SurfaceKind::residual : SurfaceKind::direct;
+  interp::EndCondition end = interp::EndCondition::kNotAKnot;
+  if (level == SurfaceLevel::direct_parabolic) end = interp::EndCondition::kParabolic;
+  if (level == SurfaceLevel::direct_natural) end = interp::EndCondition::kNatural;
+  options.ends = {{end, end}, {end, end}};
+  return options;
+}
+
 SyntheticSpec session_spec(const SweepSpec& spec, const Levels& at, std::uint64_t repetition) {
   const MachineLevel& machine = spec.machines[at[0]];
   SyntheticSpec session;
   session.design.kind = spec.spacings[at[4]];
   session.design.columns = spec.grids[at[7]].columns;
   session.design.rows = spec.grids[at[7]].rows;
+  if (spec.whole_bed) session.design.margin_mm = 0.0;
   session.repeats = spec.repeats;
   session.jitter_mm = spec.jitters_mm[at[5]];
   session.noise.length_mm = spec.noises[at[6]].length_mm;
@@ -88,8 +99,9 @@ CellResult hold_against_truth(const SweepSpec& spec,
                               const model::Machine& machine) {
   const MachineLevel& level = spec.machines[at[0]];
   const model::ReadingModel truth(machine, level.model);
-  // The marked part of the bed: whole 100 mm, as the designs have it.
-  const auto span = [](double bed_mm) {
+  // The marked part of the bed, as the designs have it.
+  const auto span = [&spec](double bed_mm) {
+    if (spec.whole_bed) return bed_mm;
     return std::min(bed_mm, std::max(std::floor(bed_mm / 100.0), 1.0) * 100.0);
   };
   const double width = span(machine.bed.width_mm);
@@ -106,7 +118,7 @@ CellResult hold_against_truth(const SweepSpec& spec,
         continue;
       }
       model::ChainLengths disturbed{};
-      if (level.unmodelled_mm != 0.0) disturbed = synthetic::unmodelled(machine.bed, p);
+      if (level.unmodelled_mm != 0.0) disturbed = synthetic::unmodelled(p);
       const Eigen::Vector2d chain{
           told->lengths.left_mm - real->lengths.left_mm - level.unmodelled_mm * disturbed.left_mm,
           told->lengths.right_mm - real->lengths.right_mm -
@@ -131,9 +143,7 @@ CellResult run_cell(const SweepSpec& spec, std::uint64_t cell) {
     return result;
   }
   session->grid.machine = spec.machines[at[0]].stated;
-  FitOptions options;
-  options.surface = spec.surfaces[at[3]];
-  const auto map = fit(session->grid, options);
+  const auto map = fit(session->grid, fit_options(spec.surfaces[at[3]]));
   if (!map) {
     result.status = CellStatus::no_map;
     return result;

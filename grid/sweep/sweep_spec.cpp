@@ -45,7 +45,7 @@ std::string level_name(const SweepSpec& spec, std::size_t factor, std::size_t le
     case 2:
       return spec.uses.at(level).name;
     case 3:
-      return spec.surfaces.at(level) == SurfaceKind::residual ? "residual" : "direct";
+      return std::string(name(spec.surfaces.at(level)));
     case 4:
       return spec.spacings.at(level) == synthetic::DesignKind::chebyshev ? "chebyshev" : "regular";
     case 5:
@@ -56,6 +56,12 @@ std::string level_name(const SweepSpec& spec, std::size_t factor, std::size_t le
     default:
       return fmt::format("{}x{}", spec.grids.at(level).columns, spec.grids.at(level).rows);
   }
+}
+
+std::string_view name(SurfaceLevel level) {
+  constexpr std::array<std::string_view, 4> kNames = {
+      "residual", "direct", "direct_parabolic", "direct_natural"};
+  return kNames[static_cast<std::size_t>(level)];
 }
 
 std::string_view name(CellStatus status) {

@@ -29,6 +29,9 @@ struct NoiseLevel {
   double position_mm = 0.3;
 };
 
+/// The surfaces of grid/map/fit.hpp; direct ones by their ends.
+enum class SurfaceLevel { residual, direct, direct_parabolic, direct_natural };
+
 /// A true machine and what its owner states of it.
 struct MachineLevel {
   std::string name;
@@ -62,11 +65,13 @@ struct SweepSpec {
   int evaluation_rows = 25;
   int repeats = 0;
   bool draw_settings = true;
+  /// Marks and raster reach to the bed's edges, not only to its last whole 100 mm.
+  bool whole_bed = false;
   std::vector<GridLevel> grids;
   std::vector<synthetic::DesignKind> spacings;
   std::vector<NoiseLevel> noises;
   std::vector<double> jitters_mm;
-  std::vector<SurfaceKind> surfaces;
+  std::vector<SurfaceLevel> surfaces;
   std::vector<MachineLevel> machines;
   std::vector<EffectsLevel> effects;
   std::vector<UseLevel> uses;
@@ -84,6 +89,7 @@ using Levels = std::array<std::size_t, kFactors>;
 [[nodiscard]] std::uint64_t combinations(const SweepSpec& spec);
 [[nodiscard]] std::uint64_t cells(const SweepSpec& spec);
 [[nodiscard]] Levels levels_of(const SweepSpec& spec, std::uint64_t combination);
+[[nodiscard]] std::string_view name(SurfaceLevel level);
 /// Words for a level: "7x4", "0.2/0.3", "residual", a machine's name.
 [[nodiscard]] std::string level_name(const SweepSpec& spec, std::size_t factor, std::size_t level);
 

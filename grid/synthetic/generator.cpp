@@ -199,11 +199,9 @@ SyntheticTruth truth_of(const Machine& stated, const SyntheticSpec& spec) {
   return truth;
 }
 
-ChainLengths unmodelled(const model::Bed& bed, BedPoint place) {
-  const double u = std::numbers::pi * place.x_mm / bed.width_mm;
-  const double v = std::numbers::pi * place.y_mm / bed.height_mm;
-  return {std::sin(1.3 * u + 0.4) * std::cos(1.1 * v - 0.3),
-          std::cos(1.2 * u - 0.7) * std::sin(1.4 * v + 0.2)};
+ChainLengths unmodelled(BedPoint place) {
+  return {std::sin(place.x_mm / 500.0 + 0.3) * std::cos(place.y_mm / 400.0),
+          std::cos(place.x_mm / 450.0) * std::sin(place.y_mm / 420.0 + 0.5)};
 }
 
 tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
@@ -238,7 +236,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   }
   answer.lengths = *lengths;
   for (std::size_t i = 0; spec.unmodelled_mm != 0.0 && i < visits.size(); ++i) {
-    const ChainLengths added = unmodelled(stated.bed, visits[i].position);
+    const ChainLengths added = unmodelled(visits[i].position);
     answer.lengths[i].left_mm += spec.unmodelled_mm * added.left_mm;
     answer.lengths[i].right_mm += spec.unmodelled_mm * added.right_mm;
   }

@@ -79,9 +79,10 @@ struct SyntheticSpec {
   std::uint64_t seed = 1;
 };
 
-/// That disturbance for an amplitude of 1 mm: half a wave and a bit along each axis of the bed,
-/// another on either chain.
-[[nodiscard]] model::ChainLengths unmodelled(const model::Bed& bed, model::BedPoint place);
+/// That disturbance for an amplitude of 1 mm: sin(x / 500 + 0.3) cos(y / 400) on the left chain,
+/// cos(x / 450) sin(y / 420 + 0.5) on the right one, x and y in mm: most of a wave along the bed,
+/// half of one up it.
+[[nodiscard]] model::ChainLengths unmodelled(model::BedPoint place);
 
 /// The machine as it truly is: hidden effects appended, settings offset and drawn; and where its
 /// sheet lies.

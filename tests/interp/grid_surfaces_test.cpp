@@ -54,7 +54,25 @@ TEST(QuinticSpline, BeatsTheBicubicOnSmoothDataAsTheStudyFound) {
   EXPECT_NEAR(worst, 0.0558, 0.0005);  // the study's figure, three digits
 }
 
-TEST(MissingNodes, AreFilledFromTheLongerLine) {
+// No cubic at all, but a sum of one function of x and one of y.
+TEST(MissingNodes, OfASumOverTheAxesAreFilledExactly) {
+  const auto x = even(0, 6, 7);
+  const auto y = even(0, 4, 5);
+  const Eigen::MatrixXd whole =
+      sample(x, y, [](double a, double b) { return std::exp(a) + 1.0 / (1.0 + b * b); });
+  for (Eigen::Index ix = 0; ix < 7; ++ix) {
+    for (Eigen::Index iy = 0; iy < 5; ++iy) {
+      Eigen::MatrixXd holed = whole;
+      holed(ix, iy) = NAN;
+      const auto grid = fill_missing(x, y, holed);
+      ASSERT_TRUE(grid);
+      EXPECT_NEAR(grid->filled[0].value, whole(ix, iy), 1e-9);  // rounding of values up to 400
+      EXPECT_GE(grid->filled[0].doubt, 0.0);
+    }
+  }
+}
+
+TEST(MissingNodes, OfACubicAreFilledExactly) {
   const auto x = even(0, 6, 7);
   const auto y = even(0, 4, 5);
   const auto cubic = [](double a, double b) { return 1 + a - 0.1 * a * a * a + b * b * a; };

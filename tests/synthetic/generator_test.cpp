@@ -317,7 +317,7 @@ TEST(Generator, AddsADisturbanceThatNoModelHas) {
     const double added =
         disturbed.grid.points[i].lengths->left_mm - plain.grid.points[i].lengths->left_mm;
     // Rounding of lengths of 3000 mm.
-    EXPECT_NEAR(added, 0.8 * unmodelled(model::Bed{}, plain.answer.places[i]).left_mm, 1e-12);
+    EXPECT_NEAR(added, 0.8 * unmodelled(plain.answer.places[i]).left_mm, 1e-12);
     largest = std::max(largest, std::abs(added));
   }
   EXPECT_GT(largest, 0.4);

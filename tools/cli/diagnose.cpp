@@ -41,6 +41,7 @@ struct DiagnoseCommand {
   std::string corrected_grid;
   std::string held_out;
   std::string assume_order;
+  bool accept_class = false;
   std::uint64_t seed = 1;
   bool json = false;
 };
@@ -109,6 +110,7 @@ tl::expected<Diagnosis, std::string> diagnosed(const DiagnoseCommand& command,
   grid::diagnosis::DiagnosisOptions options;
   options.seed = command.seed;
   options.order_assumed = !command.assume_order.empty();
+  options.accept_class = command.accept_class;
   // Seconds, where there are hundreds of points.
   const bool is_watched = ::isatty(STDERR_FILENO) != 0;
   if (is_watched) fmt::print(stderr, "Diagnosing {} points ...", measured.points.size());
@@ -224,6 +226,10 @@ void add_diagnose(CLI::App& app, Run& run) {
                    "Visiting order of points that bear none, lines from the top left; opens drift, "
                    "skips and hysteresis, and the verdict says that it was assumed")
       ->check(CLI::IsMember({"rows", "columns", "serpentine_rows", "serpentine_columns"}));
+  verb->add_flag("--accept-class",
+                 command->accept_class,
+                 "Where points cannot tell a long chain from a long tape: take it to be the chain, "
+                 "without a reading of its links");
   verb->add_option(
           "--seed", command->seed, "Of the simulated chances; the same seed, the same answer")
       ->capture_default_str();

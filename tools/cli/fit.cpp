@@ -14,6 +14,7 @@
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/map_words.hpp"
+#include "tools/cli/outside_option.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -25,6 +26,7 @@ struct FitCommand {
   std::string output;
   std::string surface = "residual";
   std::string ends = "not_a_knot";
+  OutsideOption outside;
 };
 
 const std::map<std::string, interp::EndCondition>& end_conditions() {
@@ -85,6 +87,7 @@ int run_fit(const FitCommand& command) {
       command.surface == "direct" ? grid::SurfaceKind::direct : grid::SurfaceKind::residual;
   const interp::EndCondition end = end_conditions().at(command.ends);
   options.ends = {{end, end}, {end, end}};
+  options.outside = rule_of(command.outside, {});
   return finish(command, grid::fit(measured, options), "");
 }
 
@@ -107,11 +110,18 @@ void add_fit(CLI::App& app, Run& run) {
   verb->add_option("--ends", command->ends, "How direct splines end at the edges")
       ->check(CLI::IsMember({"not_a_knot", "natural", "parabolic", "clamped"}))
       ->capture_default_str();
+  add_outside_options(*verb, command->outside, "continued where not said");
   verb->footer(
       "The fit is told on standard error.\n\nExample:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue fit fixtures/holes/nine_holes.json -o map.json");
-  verb->callback([command, &run] { run = [command] { return run_fit(*command); }; });
+  verb->callback([command, &run] {
+    if (command->surface == "direct" && command->outside.way == "fade") {
+      throw CLI::ValidationError(
+          "fit", "--outside fade leaves the bare machine, which a direct surface does not have");
+    }
+    run = [command] { return run_fit(*command); };
+  });
 }
 
 }  // namespace chaintrue::cli

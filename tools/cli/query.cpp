@@ -14,6 +14,7 @@
 #include "grid/files/map_file.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/outside_option.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -28,6 +29,7 @@ struct QueryCommand {
   std::vector<double> inverse;
   std::string frame = "marks";
   std::string output = "-";
+  OutsideOption outside;
   bool json = false;
 };
 
@@ -123,7 +125,15 @@ int run_inverse(const grid::CompensationMap& map, const QueryCommand& command) {
 }
 
 int run_query(const QueryCommand& command) {
-  const grid::CompensationMap map = files::read_map(command.map);
+  const grid::CompensationMap stored = files::read_map(command.map);
+  if (command.outside.way == "fade" && stored.machine() == nullptr) {
+    fmt::print(stderr,
+               "{}: without a machine nothing is left where the map's surface fades out\n",
+               command.map);
+    return kNotSupportedOrOutside;
+  }
+  const grid::CompensationMap map =
+      stored.with_outside(rule_of(command.outside, stored.contents().outside));
   if (command.frame == "bed" && map.machine() == nullptr) {
     fmt::print(
         stderr, "{}: a map without a machine knows only the frame of its marks\n", command.map);
@@ -183,6 +193,7 @@ void add_query(CLI::App& app, Run& run) {
       ->check(CLI::IsMember({"marks", "bed"}))
       ->capture_default_str();
   verb->add_option("-o,--output", command->output, "- is standard output")->capture_default_str();
+  add_outside_options(*verb, command->outside, "as the map says where not said");
   verb->add_flag("--json", command->json, "JSON in place of CSV");
   verb->footer(
       "status: inside the measured points, at their edge, extrapolated beyond them, or outside the "

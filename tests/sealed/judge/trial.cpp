@@ -60,6 +60,7 @@ Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
   how.gain = options.gain;
   how.next_measurements = options.follow_up;
   how.steps = options.steps;
+  how.accept_class = true;  // what the oracle is told, the person accepts
 
   const double start = thread_seconds();
   const auto found = grid::diagnosis::diagnose(grid, how);

@@ -86,23 +86,11 @@ std::optional<double> told(const generator::SealedSet& set,
   return tool_rms_mm(fresh, *predicted);
 }
 
-model::AppliedEffect applied(const grid::diagnosis::Cause& cause) {
-  model::AppliedEffect effect{
-      std::string(cause.cause.effect->id), std::string(model::effects::name(cause.cause.side)), {}};
-  for (const auto& p : cause.parameters) effect.parameters[p.parameter] = p.value;
-  return effect;
-}
-
-// The diagnosis's machine with every correction that it makes of the data. A cause that it named
-// but put nowhere, because its class leaves open where it belongs, acts as it was named.
+// The diagnosis's machine with every correction that it makes of the data.
 model::Machine extended(const grid::diagnosis::Diagnosis& found) {
   model::Machine machine = found.extended_machine;
   machine.effects.insert(
       machine.effects.end(), found.data_corrections.begin(), found.data_corrections.end());
-  const bool one = found.verdict == grid::diagnosis::Verdict::named;
-  if (one && machine.effects.empty() && !found.causes.empty()) {
-    machine.effects.push_back(applied(found.causes.front()));
-  }
   std::erase_if(machine.effects,
                 [](const model::AppliedEffect& e) { return e.effect == "link_miscount"; });
   return machine;
@@ -134,10 +122,7 @@ std::optional<TrueErrors> true_errors(const generator::SealedSet& set,
   const auto oracle = told(set, *fresh, set.answer.hidden);
   if (!predicted || !calibrated || !oracle) return std::nullopt;
   TrueErrors errors{*calibrated, tool_rms_mm(*fresh, *predicted), *oracle, 0.0};
-  if (found.gain) {
-    const double before = found.gain->calibrated.rms_mm, after = found.gain->extended.rms_mm;
-    errors.reported_drop = before * before - after * after;
-  }
+  if (found.gain) errors.reported_drop = found.gain->drop_mm2;
   return errors;
 }
 

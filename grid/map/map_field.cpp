@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/map_field.hpp"
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+
+namespace chaintrue::grid {
+namespace {
+
+using model::BedPoint;
+using model::Setting;
+using model::Side;
+
+/// One chain's splines of a ResidualSurface.
+class SplineSurface final : public interp::Surface {
+ public:
+  SplineSurface(const interp::BsplineBasis& basis, Eigen::VectorXd coefficients)
+      : basis_(basis), coefficients_(std::move(coefficients)) {}
+  [[nodiscard]] interp::ValueGradient at(double x, double y) const override {
+    return basis_.evaluate(coefficients_, x, y);
+  }
+  [[nodiscard]] interp::Rectangle domain() const override { return basis_.rectangle(); }
+
+ private:
+  interp::BsplineBasis basis_;
+  Eigen::VectorXd coefficients_;
+};
+
+/// On a calibrated machine.
+class ModelField final : public MapField {
+ public:
+  explicit ModelField(const ModelSurface& surface)
+      : surface_(surface),
+        model_(surface.machine),
+        factor_(surface.covariance_factor.transpose()),
+        left_(surface.residual.basis, surface.residual.coefficients.left),
+        right_(surface.residual.basis, surface.residual.coefficients.right) {
+    surface_.covariance_factor.resize(0, 0);
+  }
+
+  [[nodiscard]] BedPoint to_mark(BedPoint bed) const override {
+    return surface_.sheet.to_mark(bed);
+  }
+  [[nodiscard]] BedPoint to_bed(BedPoint mark) const override {
+    return surface_.sheet.to_bed(mark);
+  }
+
+ private:
+  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(BedPoint mark) const override {
+    const auto reading = model_.at(surface_.sheet.to_bed(mark));
+    if (!reading) return tl::unexpected(MapFailure::unreachable);
+    return corrected(mark, *reading);
+  }
+
+  [[nodiscard]] tl::expected<WithCovariance, MapFailure> continued_with_covariance(
+      BedPoint mark) const override {
+    const auto reading = model_.at(surface_.sheet.to_bed(mark));
+    if (!reading) return tl::unexpected(MapFailure::unreachable);
+    return WithCovariance{corrected(mark, *reading), covariance(mark, *reading)};
+  }
+
+  [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
+    return {&left_, &right_};
+  }
+
+  [[nodiscard]] MapLengths corrected(BedPoint mark, const model::PointReading& reading) const {
+    const auto result = surface_.residual.apply(
+        mark, reading.lengths, reading.position_jacobian * surface_.sheet.rotation());
+    return {result.lengths, result.mark_jacobian};
+  }
+
+  /// G C G' = |F' G'|^2, G being the two rows of the design: few of its entries are not zero.
+  [[nodiscard]] Eigen::Matrix2d covariance(BedPoint mark,
+                                           const model::PointReading& reading) const {
+    const FitColumns& columns = surface_.columns;
+    const Eigen::Matrix<double, 2, 3> by_sheet =
+        reading.position_jacobian * surface_.sheet.sensitivity(mark);
+    Eigen::MatrixX2d spread = Eigen::MatrixX2d::Zero(factor_.rows(), 2);
+    for (std::size_t i = 0; i < surface_.settings.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      const Setting setting = surface_.settings[i];
+      const auto in_sheet =
+          static_cast<Eigen::Index>(setting) - static_cast<Eigen::Index>(Setting::sheet_x_mm);
+      const Eigen::Vector2d slope = in_sheet < 0 ? model_.sensitivity(reading, setting)
+                                                 : Eigen::Vector2d(by_sheet.col(in_sheet));
+      add(column, slope[0], spread.col(0));
+      add(column, slope[1], spread.col(1));
+    }
+    add(columns.scale(Side::left), reading.lengths.left_mm, spread.col(0));
+    add(columns.scale(Side::right), reading.lengths.right_mm, spread.col(1));
+    const interp::BasisSupport support = surface_.residual.basis.at(mark.x_mm, mark.y_mm);
+    for (std::size_t k = 0; k < support.index.size(); ++k) {
+      add(columns.spline(Side::left) + support.index[k], support.value[k], spread.col(0));
+      add(columns.spline(Side::right) + support.index[k], support.value[k], spread.col(1));
+    }
+    return spread.transpose() * spread;
+  }
+
+  /// F is lower triangular: the column of F' ends at the diagonal.
+  void add(Eigen::Index column, double slope, Eigen::Ref<Eigen::VectorXd> sum) const {
+    sum.head(column + 1) += slope * factor_.col(column).head(column + 1);
+  }
+
+  ModelSurface surface_;
+  model::ReadingModel model_;
+  Eigen::MatrixXd factor_;  // F'
+  SplineSurface left_;
+  SplineSurface right_;
+};
+
+/// On a calibrated machine, through readings without noise on a lattice.
+class LatticeField final : public MapField {
+ public:
+  LatticeField(const ModelSurface& surface, const MapNoise& noise)
+      : sheet_(surface.sheet),
+        scale_(surface.residual.scale),
+        model_(surface.machine),
+        splines_(surface.lattice.value()),
+        noise_(noise) {}
+
+  [[nodiscard]] BedPoint to_mark(BedPoint bed) const override { return sheet_.to_mark(bed); }
+  [[nodiscard]] BedPoint to_bed(BedPoint mark) const override { return sheet_.to_bed(mark); }
+
+ private:
+  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(BedPoint mark) const override {
+    const auto reading = model_.at(sheet_.to_bed(mark));
+    if (!reading) return tl::unexpected(MapFailure::unreachable);
+    const auto spline = splines_.at(mark);
+    const Eigen::Vector2d factor(1.0 + scale_.left, 1.0 + scale_.right);
+    MapLengths here;
+    here.lengths = {factor[0] * reading->lengths.left_mm + spline.left.value,
+                    factor[1] * reading->lengths.right_mm + spline.right.value};
+    here.mark_jacobian << spline.left.dx, spline.left.dy, spline.right.dx, spline.right.dy;
+    here.mark_jacobian += factor.asDiagonal() * reading->position_jacobian * sheet_.rotation();
+    return here;
+  }
+
+  [[nodiscard]] tl::expected<WithCovariance, MapFailure> continued_with_covariance(
+      BedPoint mark) const override {
+    const auto here = continued(mark);
+    if (!here) return tl::unexpected(here.error());
+    const Eigen::Matrix2d node = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
+                                 noise_.position_mm * noise_.position_mm * here->mark_jacobian *
+                                     here->mark_jacobian.transpose();
+    return WithCovariance{
+        *here, splines_.covariance(mark, noise_.factor_found * noise_.factor_found * node)};
+  }
+
+  [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
+    return splines_.surfaces();
+  }
+
+  model::SheetPlacement sheet_;
+  model::PerSide<double> scale_;
+  model::ReadingModel model_;
+  LatticeSplines splines_;
+  MapNoise noise_;
+};
+
+/// Splines through the lengths themselves.
+class DirectField final : public MapField {
+ public:
+  DirectField(const DirectSurface& surface, const MapNoise& noise)
+      : axes_(std::make_shared<const interp::TensorAxes>(
+            surface.x_nodes_mm, surface.y_nodes_mm, surface.ends)),
+        left_(axes_,
+              surface.lengths_mm.left,
+              parabola_slopes(surface.x_nodes_mm, surface.y_nodes_mm, surface.lengths_mm.left)),
+        right_(axes_,
+               surface.lengths_mm.right,
+               parabola_slopes(surface.x_nodes_mm, surface.y_nodes_mm, surface.lengths_mm.right)),
+        noise_(noise),
+        interpolation_sigma_mm_(surface.interpolation_sigma_mm) {}
+
+ private:
+  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(BedPoint mark) const override {
+    return lengths(mark);
+  }
+
+  /// Each node errs by the readings' noise, the place's error as its slope carries it into the
+  /// chains; what lies between the nodes by the estimate of the interpolation's own error.
+  [[nodiscard]] tl::expected<WithCovariance, MapFailure> continued_with_covariance(
+      BedPoint mark) const override {
+    const MapLengths here = lengths(mark);
+    const double squares = left_.cardinal_weights(mark.x_mm, mark.y_mm).squaredNorm();
+    const Eigen::Matrix2d node = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
+                                 noise_.position_mm * noise_.position_mm * here.mark_jacobian *
+                                     here.mark_jacobian.transpose();
+    return WithCovariance{here,
+                          squares * node + interpolation_sigma_mm_ * interpolation_sigma_mm_ *
+                                               Eigen::Matrix2d::Identity()};
+  }
+
+  [[nodiscard]] MapLengths lengths(BedPoint mark) const {
+    const auto left = left_.at(mark.x_mm, mark.y_mm);
+    const auto right = right_.at(mark.x_mm, mark.y_mm);
+    MapLengths here;
+    here.lengths = {left.value, right.value};
+    here.mark_jacobian << left.dx, left.dy, right.dx, right.dy;
+    return here;
+  }
+
+  [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const override {
+    return {&left_, &right_};
+  }
+
+  std::shared_ptr<const interp::TensorAxes> axes_;
+  interp::TensorSpline left_;
+  interp::TensorSpline right_;
+  MapNoise noise_;
+  double interpolation_sigma_mm_;
+};
+
+std::shared_ptr<MapField> field_of(const MapContents& contents) {
+  if (const auto* direct = std::get_if<DirectSurface>(&contents.surface))
+    return std::make_shared<DirectField>(*direct, contents.noise);
+  const auto& surface = std::get<ModelSurface>(contents.surface);
+  if (surface.lattice) return std::make_shared<LatticeField>(surface, contents.noise);
+  return std::make_shared<ModelField>(surface);
+}
+
+/// In the order of Outside. Where nothing is answered, the search for the inverse may still step.
+constexpr std::array<interp::OutsidePolicy, 5> kPolicies = {interp::OutsidePolicy::kLinear,
+                                                            interp::OutsidePolicy::kLinear,
+                                                            interp::OutsidePolicy::kFade,
+                                                            interp::OutsidePolicy::kLinear,
+                                                            interp::OutsidePolicy::kClamp};
+
+}  // namespace
+
+std::shared_ptr<const MapField> MapField::make(const MapContents& contents) {
+  std::shared_ptr<MapField> field = field_of(contents);
+  const OutsideRule& rule = contents.outside;
+  if (rule.way == Outside::continued) return field;
+  std::vector<interp::PlanePoint> corners;
+  for (const BedPoint corner : contents.hull) corners.push_back({corner.x_mm, corner.y_mm});
+  field->beyond_.emplace(Beyond{
+      interp::ConvexHull(corners),
+      {kPolicies[static_cast<std::size_t>(rule.way)], contents.edge_mm, rule.fade_width_mm}});
+  return field;
+}
+
+std::optional<MapField::Change> MapField::change(BedPoint mark) const {
+  if (!beyond_ || beyond_->hull.contains(mark.x_mm, mark.y_mm)) return std::nullopt;
+  Change change;
+  const model::PerSide<const interp::Surface*> both = surfaces();
+  for (const Side side : model::kSides) {
+    const Eigen::Index row = side == Side::left ? 0 : 1;
+    const interp::ValueGradient own = both[side]->at(mark.x_mm, mark.y_mm);
+    const interp::ValueGradient told =
+        interp::evaluate(*both[side], beyond_->hull, beyond_->policy, {mark.x_mm, mark.y_mm}).z;
+    change.lengths_mm[row] = told.value - own.value;
+    change.jacobian.row(row) << told.dx - own.dx, told.dy - own.dy;
+  }
+  return change;
+}
+
+tl::expected<MapLengths, MapFailure> MapField::at(BedPoint mark) const {
+  auto here = continued(mark);
+  if (!here) return here;
+  if (const auto by = change(mark)) {
+    here->lengths.left_mm += by->lengths_mm[0];
+    here->lengths.right_mm += by->lengths_mm[1];
+    here->mark_jacobian += by->jacobian;
+  }
+  return here;
+}
+
+tl::expected<MapField::WithCovariance, MapFailure> MapField::with_covariance(BedPoint mark) const {
+  auto answer = continued_with_covariance(mark);
+  if (!answer) return answer;
+  if (const auto by = change(mark)) {
+    answer->here.lengths.left_mm += by->lengths_mm[0];
+    answer->here.lengths.right_mm += by->lengths_mm[1];
+    answer->here.mark_jacobian += by->jacobian;
+    answer->covariance += by->lengths_mm * by->lengths_mm.transpose();
+  }
+  return answer;
+}
+
+}  // namespace chaintrue::grid

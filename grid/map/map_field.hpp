@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What answers at a mark, behind CompensationMap: the machine's part and one surface for each
+/// chain, continued beyond the measured points as the map says. Internal to grid/map.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "grid/map/compensation_map.hpp"
+#include "interp/measured_region.hpp"
+
+namespace chaintrue::grid {
+
+/// Immutable, thread safe. Marks anywhere; whether an answer may be used is the map's to say.
+class MapField {
+ public:
+  struct WithCovariance {
+    MapLengths here;
+    Eigen::Matrix2d covariance;
+  };
+
+  virtual ~MapField() = default;
+  [[nodiscard]] static std::shared_ptr<const MapField> make(const MapContents& contents);
+
+  [[nodiscard]] tl::expected<MapLengths, MapFailure> at(model::BedPoint mark) const;
+  /// Where the map's way of going on beyond the points answers otherwise than the surfaces
+  /// themselves would, the difference counts as an error of one sigma.
+  [[nodiscard]] tl::expected<WithCovariance, MapFailure> with_covariance(
+      model::BedPoint mark) const;
+  [[nodiscard]] virtual model::BedPoint to_mark(model::BedPoint bed) const { return bed; }
+  [[nodiscard]] virtual model::BedPoint to_bed(model::BedPoint mark) const { return mark; }
+
+ protected:
+  /// Lengths and covariance with the surfaces' own continuation.
+  [[nodiscard]] virtual tl::expected<MapLengths, MapFailure> continued(
+      model::BedPoint mark) const = 0;
+  [[nodiscard]] virtual tl::expected<WithCovariance, MapFailure> continued_with_covariance(
+      model::BedPoint mark) const = 0;
+  [[nodiscard]] virtual model::PerSide<const interp::Surface*> surfaces() const = 0;
+
+ private:
+  /// What the map's way adds to the surfaces' own continuation; nothing within the points.
+  struct Change {
+    Eigen::Vector2d lengths_mm = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();
+  };
+  [[nodiscard]] std::optional<Change> change(model::BedPoint mark) const;
+
+  struct Beyond {
+    interp::ConvexHull hull;
+    interp::RegionPolicy policy;
+  };
+  std::optional<Beyond> beyond_;  ///< none: the surfaces' own continuation
+};
+
+}  // namespace chaintrue::grid

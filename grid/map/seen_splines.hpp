@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a set of points sees of a penalised spline surface: as many combinations of its
+/// coefficients as there are points, however fine the splines are.
+///
+///   s(q) = phi(q)' c,   c = F a + B u + B2 u2 (1) u, u2 ~ N(0, I / lambda) (2)
+///
+///   phi  the splines at a mark             P     their bending penalty
+///   F    the polynomials that P leaves free, F' P = 0
+///   B    with B2 beside it, B B' + B2 B2' the pseudo-inverse of P: (2) is the prior
+///        exp(-lambda c' P c / 2) on all that is no polynomial
+///   B2   phi(q)' B2 = 0 at every point: u2 keeps its prior whatever is measured
+///
+/// With n points and more coefficients than that, a fit of (a, u) costs n^3 and is the same as one
+/// of c. Source: C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006),
+/// sections 2.2 and 6.3, for the two views of one prior.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "interp/bspline_basis.hpp"
+#include "model/coordinates.hpp"
+
+namespace chaintrue::grid {
+
+/// Immutable, thread safe.
+class SeenSplines {
+ public:
+  SeenSplines(const interp::BsplineBasis& basis,
+              int bending_order,
+              const std::vector<model::BedPoint>& marks);
+
+  [[nodiscard]] Eigen::Index polynomials() const { return polynomials_.cols(); }
+  [[nodiscard]] Eigen::Index bends() const { return bends_.cols(); }
+  /// phi(q)' F and phi(q)' B, a row a mark.
+  [[nodiscard]] const Eigen::MatrixXd& polynomial_rows() const { return polynomial_rows_; }
+  [[nodiscard]] const Eigen::MatrixXd& bend_rows() const { return bend_rows_; }
+  /// F and B.
+  [[nodiscard]] const Eigen::MatrixXd& polynomial_coefficients() const { return polynomials_; }
+  [[nodiscard]] const Eigen::MatrixXd& bend_coefficients() const { return bends_; }
+  /// B2; no columns where the points see everything.
+  [[nodiscard]] const Eigen::MatrixXd& unseen_coefficients() const { return unseen_; }
+  /// Trace of P.
+  [[nodiscard]] double penalty_trace() const { return penalty_trace_; }
+  /// Sum over the splines of phi(q)^2, a mark each.
+  [[nodiscard]] const Eigen::VectorXd& squares() const { return squares_; }
+
+ private:
+  Eigen::MatrixXd polynomials_;
+  Eigen::MatrixXd bends_;
+  Eigen::MatrixXd unseen_;
+  Eigen::MatrixXd polynomial_rows_;
+  Eigen::MatrixXd bend_rows_;
+  Eigen::VectorXd squares_;
+  double penalty_trace_ = 0.0;
+};
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What maps answer beyond their points, in each of the five ways.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "grid/files/map_file.hpp"
+#include "grid/map/fit.hpp"
+#include "tests/map/synthetic_grid.hpp"
+
+namespace chaintrue {
+namespace {
+
+using grid::CompensationMap;
+using grid::MapStatus;
+using grid::Outside;
+using model::BedPoint;
+
+const std::vector<Outside> kWays = {
+    Outside::continued, Outside::refuse, Outside::fade, Outside::linear, Outside::clamp};
+
+/// Points on the middle of the bed only: 300 mm and more are left beside them.
+grid::MeasuredGrid middle_grid(bool noisy) {
+  auto spec = testing_support::usual_spec(21);
+  if (!noisy) spec.noise = {};
+  if (!noisy) spec.jitter_mm = 0.0;
+  if (!noisy) spec.repeats = 0;
+  auto made = grid::synthetic::generate(model::Machine{}, spec);
+  if (!made) throw std::runtime_error("no session");
+  for (auto& point : made->grid.points) {
+    const double bump = std::cos(point.mark.x_mm / 400.0);
+    if (point.lengths) point.lengths->left_mm += bump;
+  }
+  std::erase_if(made->grid.points,
+                [](const grid::MeasuredPoint& point) { return std::abs(point.mark.x_mm) > 850.0; });
+  return made->grid;
+}
+
+CompensationMap map_of(const grid::MeasuredGrid& grid, Outside way) {
+  grid::FitOptions options;
+  options.outside = {way, 150.0};
+  auto map = grid::fit(grid, options);
+  if (!map) throw std::runtime_error(map.error().sentence);
+  return *std::move(map);
+}
+
+class OutsideTheMap : public testing::TestWithParam<bool> {};
+
+TEST_P(OutsideTheMap, EveryWayIsContinuousItsSlopesTrueAndItsSigmaNoSmaller) {
+  const CompensationMap own = map_of(middle_grid(GetParam()), Outside::continued);
+  for (const Outside way : kWays) {
+    SCOPED_TRACE(static_cast<int>(way));
+    const CompensationMap map = own.with_outside({way, 150.0});
+    constexpr double kStepMm = 0.25;
+    int answered = 0;
+    for (double x = -1210.0; x < 1210.0; x += kStepMm) {
+      const auto here = map.query({x, 120.0});
+      const auto next = map.query({x + kStepMm, 120.0});
+      if (!here || !next) continue;
+      ++answered;
+      // The slope at either end foretells the step to the trapezoidal rule's error, some 1e-6 mm;
+      // a jump, or a slope that belongs elsewhere, shows. Only clamp has a kink, at the hull: half
+      // a step of the slope, the bump's 1 / 400 and a tenth.
+      const double foretold =
+          0.5 * kStepMm * (here->mark_jacobian(0, 0) + next->mark_jacobian(0, 0));
+      const double kink = way == Outside::clamp ? 0.5 * kStepMm * 1.1 / 400.0 : 0.0;
+      ASSERT_NEAR(next->lengths.left_mm - here->lengths.left_mm, foretold, kink + 2e-5) << x;
+      const auto as_it_is = own.query({x, 120.0});
+      ASSERT_GE(here->sigma.left_mm, as_it_is->sigma.left_mm * (1.0 - 1e-12)) << x;
+    }
+    EXPECT_GT(answered, 6000);
+  }
+}
+
+TEST_P(OutsideTheMap, WithinThePointsAllWaysAreOne) {
+  const CompensationMap own = map_of(middle_grid(GetParam()), Outside::continued);
+  for (const Outside way : kWays) {
+    const CompensationMap map = own.with_outside({way, 150.0});
+    for (const BedPoint p : {BedPoint{0.0, 0.0}, {-700.0, 300.0}, {650.0, -500.0}}) {
+      ASSERT_EQ(map.status(p), MapStatus::inside);
+      EXPECT_EQ(map.query(p)->lengths.left_mm, own.query(p)->lengths.left_mm);
+      EXPECT_EQ(map.query(p)->sigma.right_mm, own.query(p)->sigma.right_mm);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(NoisyAndLattice, OutsideTheMap, testing::Bool());
+
+TEST(OutsideTheMapByName, FarOutFadeIsTheBareMachineAndRefuseAnswersNothing) {
+  const grid::MeasuredGrid measured = middle_grid(true);
+  const BedPoint far{1210.0, 0.0};
+  const CompensationMap faded = map_of(measured, Outside::fade);
+  ASSERT_EQ(faded.status(far), MapStatus::extrapolated);
+  const auto& surface = std::get<grid::ModelSurface>(faded.contents().surface);
+  const double bare =
+      (1.0 + surface.residual.scale.left) *
+      model::ReadingModel(surface.machine).at(surface.sheet.to_bed(far))->lengths.left_mm;
+  EXPECT_NEAR(faded.lengths(far)->lengths.left_mm, bare, 1e-9);
+
+  const CompensationMap refusing = map_of(measured, Outside::refuse);
+  EXPECT_EQ(refusing.status(far), MapStatus::outside);
+  EXPECT_EQ(refusing.lengths(far).error(), grid::MapFailure::outside_map);
+  EXPECT_EQ(refusing.query(far).error(), grid::MapFailure::outside_map);
+  EXPECT_EQ(refusing.inverse(faded.lengths(far)->lengths).error(), grid::MapFailure::outside_map);
+}
+
+TEST(OutsideTheMapByName, MapFilesKeepTheWay) {
+  const grid::MeasuredGrid measured = middle_grid(true);
+  for (const Outside way : kWays) {
+    const CompensationMap map = map_of(measured, way);
+    const CompensationMap again = grid::files::parse_map(grid::files::write_map(map), "map.json");
+    EXPECT_EQ(again.contents().outside.way, way);
+    if (way != Outside::continued) {
+      EXPECT_EQ(again.contents().outside.fade_width_mm, 150.0);
+    }
+    EXPECT_EQ(grid::files::write_map(again), grid::files::write_map(map));
+  }
+}
+
+TEST(OutsideTheMapByName, ADirectMapHasNothingToFadeTo) {
+  auto measured = middle_grid(false);
+  grid::FitOptions options;
+  options.surface = grid::SurfaceKind::direct;
+  const auto map = grid::fit(measured, options);
+  ASSERT_TRUE(map) << map.error().sentence;
+  EXPECT_THROW(static_cast<void>(map->with_outside({Outside::fade, 100.0})), std::invalid_argument);
+  EXPECT_EQ(map->with_outside({Outside::clamp, 100.0}).status({0.0, 0.0}), MapStatus::inside);
+}
+
+}  // namespace
+}  // namespace chaintrue

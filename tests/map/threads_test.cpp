@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One map asked by many threads, and many fits at once: the same bits as one after the other.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "grid/files/map_file.hpp"
+#include "grid/map/fit.hpp"
+#include "tests/map/synthetic_grid.hpp"
+
+namespace chaintrue {
+namespace {
+
+constexpr int kThreads = 4;
+
+grid::MeasuredGrid session(std::uint64_t seed) {
+  auto made = grid::synthetic::generate(model::Machine{}, testing_support::usual_spec(seed));
+  if (!made) throw std::runtime_error("no session");
+  return made->grid;
+}
+
+std::vector<double> answers(const grid::CompensationMap& map) {
+  std::vector<double> numbers;
+  for (double x = -1200.0; x <= 1200.0; x += 200.0) {
+    for (double y = -600.0; y <= 600.0; y += 200.0) {
+      const auto answer = map.query({x, y});
+      if (!answer) continue;
+      numbers.insert(numbers.end(), {answer->lengths.left_mm, answer->sigma.right_mm});
+      if (const auto mark = map.inverse(answer->lengths)) numbers.push_back(mark->x_mm);
+    }
+  }
+  return numbers;
+}
+
+TEST(MapInThreads, OneMapGivesEveryThreadTheSameBits) {
+  const auto map = grid::fit(session(3));
+  ASSERT_TRUE(map);
+  const std::vector<double> alone = answers(*map);
+  ASSERT_GT(alone.size(), 200U);
+  std::vector<std::vector<double>> told(kThreads);
+  std::vector<std::thread> threads;
+  for (auto& numbers : told) threads.emplace_back([&] { numbers = answers(*map); });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& numbers : told) EXPECT_EQ(numbers, alone);
+}
+
+TEST(MapInThreads, FitsAtTheSameTimeGiveTheBytesOfFitsInTurn) {
+  std::vector<std::string> alone;
+  for (std::uint64_t seed = 0; seed < kThreads; ++seed) {
+    alone.push_back(grid::files::write_map(grid::fit(session(seed)).value()));
+  }
+  std::vector<std::string> together(kThreads);
+  std::vector<std::thread> threads;
+  for (std::size_t seed = 0; seed < kThreads; ++seed) {
+    threads.emplace_back(
+        [&, seed] { together[seed] = grid::files::write_map(grid::fit(session(seed)).value()); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(together, alone);
+}
+
+}  // namespace
+}  // namespace chaintrue

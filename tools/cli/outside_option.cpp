@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/outside_option.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace chaintrue::cli {
+namespace {
+
+const std::map<std::string, grid::Outside>& ways() {
+  static const std::map<std::string, grid::Outside> kByName = {
+      {"continued", grid::Outside::continued},
+      {"refuse", grid::Outside::refuse},
+      {"fade", grid::Outside::fade},
+      {"linear", grid::Outside::linear},
+      {"clamp", grid::Outside::clamp}};
+  return kByName;
+}
+
+}  // namespace
+
+void add_outside_options(CLI::App& verb, OutsideOption& option, const std::string& usual) {
+  verb.add_option("--outside",
+                  option.way,
+                  "Beyond the measured points: continued (smoothly), refuse, fade (to the bare "
+                  "machine), linear or clamp; " +
+                      usual)
+      ->check(CLI::IsMember({"continued", "refuse", "fade", "linear", "clamp"}));
+  verb.add_option("--fade-mm", option.fade_width_mm, "Over how far --outside fade fades")
+      ->check(CLI::Range(1.0, 1e5))
+      ->capture_default_str();
+}
+
+grid::OutsideRule rule_of(const OutsideOption& option, const grid::OutsideRule& usual) {
+  if (option.way.empty()) return usual;
+  return {ways().at(option.way), option.fade_width_mm};
+}
+
+}  // namespace chaintrue::cli
