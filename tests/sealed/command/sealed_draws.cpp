@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <map>
 #include <thread>
 
 #include "sealed/judge/table.hpp"
@@ -44,14 +45,22 @@ int points_of(const Arguments& arguments, int index) {
   return arguments.points == "mix" ? kMix[index % 3] : std::stoi(arguments.points);
 }
 
-chaintrue::grid::diagnosis::Steps steps_of(const std::string& left_out) {
-  chaintrue::grid::diagnosis::Steps steps;
-  if (left_out == "projection") steps.project_settings = false;
-  if (left_out == "whitening") steps.whiten = false;
-  if (left_out == "anchor") steps.anchor_noise = false;
-  if (left_out == "location") steps.average_location = false;
-  if (left_out == "robust") steps.robust = false;
-  return steps;
+using chaintrue::grid::diagnosis::Steps;
+const std::map<std::string, bool Steps::*> kSteps = {{"projection", &Steps::project_settings},
+                                                     {"whitening", &Steps::whiten},
+                                                     {"anchor", &Steps::anchor_noise},
+                                                     {"location", &Steps::average_location},
+                                                     {"robust", &Steps::robust}};
+const std::map<std::string, chaintrue::generator::Extent> kExtents = {
+    {"whole", chaintrue::generator::Extent::whole},
+    {"without_corners", chaintrue::generator::Extent::without_corners},
+    {"left_side", chaintrue::generator::Extent::left_side}};
+
+std::string known_cause(const std::string& word) {
+  for (const auto& card : chaintrue::generator::cards()) {
+    if (card.id == word) return "";
+  }
+  return "no such effect: " + word;
 }
 
 TrialOptions options_of(const Arguments& arguments) {
@@ -60,14 +69,11 @@ TrialOptions options_of(const Arguments& arguments) {
   options.recipe.kind = *generator::mix_of(arguments.mix);
   if (arguments.delta > 0.0) options.recipe.delta = arguments.delta;
   options.recipe.other_machines = arguments.other_machines;
-  if (arguments.extent == "without_corners") {
-    options.recipe.extent = generator::Extent::without_corners;
-  }
-  if (arguments.extent == "left_side") options.recipe.extent = generator::Extent::left_side;
+  options.recipe.extent = kExtents.at(arguments.extent);
   for (const auto& card : generator::cards()) {
     if (card.id == arguments.cause) options.recipe.cause = card.cause;
   }
-  options.steps = steps_of(arguments.ablation);
+  if (!arguments.ablation.empty()) options.steps.*kSteps.at(arguments.ablation) = false;
   options.gain = arguments.gain;
   options.follow_up = arguments.follow_up;
   return options;
@@ -120,10 +126,10 @@ int main(int argc, char** argv) {
   app.add_option("--jobs", arguments.jobs, "threads")->check(CLI::Range(1, 64));
   app.add_option("--delta", arguments.delta, "one strength in place of 6 to 22");
   app.add_option("--ablation", arguments.ablation, "a step to leave out")
-      ->check(CLI::IsMember({"projection", "whitening", "anchor", "location", "robust"}));
-  app.add_option("--cause", arguments.cause, "this effect in place of a draw");
+      ->check(CLI::IsMember(kSteps));
+  app.add_option("--cause", arguments.cause, "this effect in place of a draw")->check(known_cause);
   app.add_option("--extent", arguments.extent, "whole, without_corners, left_side")
-      ->check(CLI::IsMember({"whole", "without_corners", "left_side"}));
+      ->check(CLI::IsMember(kExtents));
   app.add_flag("--gain", arguments.gain, "held-out errors, reported and true");
   app.add_flag("--follow-up", arguments.follow_up, "measure on where a set is left");
   app.add_flag("--other-machines", arguments.other_machines, "draw the machine as well");
