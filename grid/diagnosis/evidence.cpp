@@ -220,6 +220,11 @@ SetEvidence evidence_at(const Metric& metric,
     const Direction& own = direction(free[static_cast<std::size_t>(i)]);
     const double low = own.lowest * length(i);
     const double high = own.highest * length(i);
+    // Beyond what it may be, and no mere noise about null: the data ask for something else.
+    if (result.delta(i) > high || (low < 0.0 && result.delta(i) < low)) {
+      result.log_evidence = kMinusInfinity;
+      return result;
+    }
     result.log_evidence +=
         log_mass(result.delta(i), s * std::sqrt(result.delta_square(i)), low, high) -
         log_mass(0.0, s * delta_sigma, low, high);

@@ -21,13 +21,13 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 constexpr std::array kUnits = {
     Unit{"scale", 100.0, "{} %"},
-    Unit{"elongation", 100.0, "{} % longer links"},
+    Unit{"elongation", 100.0, "links {} % longer"},
     Unit{"angle_rad", 1000.0, "{} mm a metre"},
-    Unit{"relative_weight", 100.0, "{} % heavier chain"},
+    Unit{"relative_weight", 100.0, "by {} % of its weight"},
     Unit{"compliance_per_n", 1e6, "{} millionths a newton"},
     Unit{"flexibility_mm_per_n", 1.0, "{} mm a newton"},
-    Unit{"force_n", 1.0, "{} N towards the right"},
-    Unit{"offset_mm", 1.0, "{} mm larger radius"},
+    Unit{"force_n", 1.0, "{} N, positive to the right"},
+    Unit{"offset_mm", 1.0, "radius {} mm larger"},
     Unit{"slope_mm_per_rad", 1.0 / kDegrees, "{} mm a degree"},
     Unit{"knee_rad", kDegrees, "sets in at {} degrees below the horizontal"},
     Unit{"phase_rad", kDegrees, "phase {} degrees"},
