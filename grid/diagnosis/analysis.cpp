@@ -190,8 +190,8 @@ void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judge
           std::find(members.begin(), members.end(), own) == members.end()) {
         continue;
       }
-      const auto alone = std::find_if(
-          contest.models.begin(), contest.models.end(), [&](const Model& model) {
+      const auto alone =
+          std::find_if(contest.models.begin(), contest.models.end(), [&](const Model& model) {
             return model.directions.size() == 1 &&
                    rows.directions[static_cast<std::size_t>(model.directions.front())].cause ==
                        members.front();

@@ -220,8 +220,10 @@ SetEvidence evidence_at(const Metric& metric,
     const Direction& own = direction(free[static_cast<std::size_t>(i)]);
     const double low = own.lowest * length(i);
     const double high = own.highest * length(i);
-    // Beyond what it may be, and no mere noise about null: the data ask for something else.
-    if (result.delta(i) > high || (low < 0.0 && result.delta(i) < low)) {
+    // Further beyond what it may be than noise takes it, and not merely about null: the data ask
+    // for something else.
+    const double slack = 2.0 * s * std::sqrt(result.delta_square(i));
+    if (result.delta(i) > high + slack || (low < 0.0 && result.delta(i) < low - slack)) {
       result.log_evidence = kMinusInfinity;
       return result;
     }

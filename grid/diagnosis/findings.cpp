@@ -420,10 +420,7 @@ std::vector<PointPicture> pictures(const Session& session, const Analysis& a) {
   return result;
 }
 
-void extend(const Session& session,
-            const Analysis& a,
-            bool accept_class,
-            Diagnosis& diagnosis) {
+void extend(const Session& session, const Analysis& a, bool accept_class, Diagnosis& diagnosis) {
   const bool pitch_read =
       std::any_of(session.readings.begin(), session.readings.end(), [](const ExtraReading& r) {
         return r.what == "link_pitch_mm";

@@ -14,10 +14,11 @@ using model::BedPoint;
 using model::ChainLengths;
 
 std::string_view explain(MapFailure failure) {
-  constexpr std::array<std::string_view, 3> kSentences = {
+  constexpr std::array<std::string_view, 4> kSentences = {
       "the point is off the bed that was measured",
       "the chains cannot hold the sled there",
       "no point of the bed was found for these chain lengths",
+      "an eccentric sprocket makes a wave along the chain that no table over the bed holds",
   };
   return kSentences[static_cast<std::size_t>(failure)];
 }

@@ -11,6 +11,14 @@ tl::expected<interp::CompiledPair, MapFailure> compile(const CompensationMap& ma
                                                        int columns,
                                                        int rows) {
   const interp::Rectangle& domain = map.contents().domain;
+  const model::Machine* machine = map.machine();
+  const auto is_wave = [](const model::AppliedEffect& e) {
+    return e.effect == "sprocket_eccentricity";
+  };
+  if (machine != nullptr &&
+      std::any_of(machine->effects.begin(), machine->effects.end(), is_wave)) {
+    return tl::unexpected(MapFailure::wave_along_chain);
+  }
   std::optional<MapFailure> failure;
   const auto lengths = [&](double x_mm, double y_mm) {
     // Nodes of the table's edges may miss the domain by a rounding error.

@@ -21,7 +21,9 @@ namespace chaintrue::grid {
 
 /// Over the map's whole domain, in the frame of its marks; left chain first. The lengths of
 /// `columns` x `rows` cells at 256 bytes each; the error is that of lengths in mm. Fails with
-/// MapFailure::unreachable where the chains cannot hold the sled somewhere on the domain.
+/// MapFailure::unreachable where the chains cannot hold the sled somewhere on the domain, and with
+/// wave_along_chain where a sprocket of the map's machine is eccentric: that wave repeats with every
+/// turn, faster than a table follows, and the map itself answers with it.
 /// \throws std::invalid_argument unless both counts are positive.
 [[nodiscard]] tl::expected<interp::CompiledPair, MapFailure> compile(const CompensationMap& map,
                                                                      int columns = 100,

@@ -55,6 +55,18 @@ TEST_P(CompiledMap, KeepsItsBoundAtAnyPoint) {
   }
 }
 
+TEST(CompiledMapOfAnEccentricSprocket, IsNotMade) {
+  model::Machine machine;
+  machine.effects.push_back(
+      {"sprocket_eccentricity", "left", {{"amplitude_mm", 0.3}, {"phase_rad", 1.0}}});
+  const auto map =
+      grid::fit(grid::synthetic::generate(machine, testing_support::usual_spec(12)).value().grid);
+  ASSERT_TRUE(map) << map.error().sentence;
+  const auto table = grid::compile(*map);
+  ASSERT_FALSE(table);
+  EXPECT_EQ(table.error(), grid::MapFailure::wave_along_chain);
+}
+
 TEST_P(CompiledMap, FindsThePointThatTheMapFinds) {
   const CompensationMap map = fitted(GetParam());
   const auto table = grid::compile(map);

@@ -15,6 +15,7 @@ TargetFailure from(grid::MapFailure failure) {
     case grid::MapFailure::unreachable:
       return TargetFailure::unreachable;
     case grid::MapFailure::not_converged:
+    case grid::MapFailure::wave_along_chain:
       break;
   }
   return TargetFailure::not_converged;
