@@ -223,7 +223,9 @@ SetEvidence evidence_at(const Metric& metric,
     // Further beyond what it may be than noise takes it, and not merely about null: the data ask
     // for something else.
     const double slack = 2.0 * s * std::sqrt(result.delta_square(i));
-    if (result.delta(i) > high + slack || (low < 0.0 && result.delta(i) < low - slack)) {
+    const double reach = own.refined ? 1.0 : 2.0;
+    if (result.delta(i) > reach * high + slack ||
+        (low < 0.0 && result.delta(i) < reach * low - slack)) {
       result.log_evidence = kMinusInfinity;
       return result;
     }

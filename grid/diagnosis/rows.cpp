@@ -182,8 +182,11 @@ class Builder {
 
   void add(CauseId cause, const std::vector<Refinement>& refinements) {
     std::vector<double> values = model::effects::nominal_values(*cause.effect);
+    refined_ = false;
     for (const Refinement& r : refinements) {
-      if (r.cause == cause) values.front() = r.values.front();
+      if (!(r.cause == cause)) continue;
+      values.front() = r.values.front();
+      refined_ = true;
     }
     if (size_parameter(*cause.effect).integer) {
       add_links(cause, values);
@@ -221,6 +224,7 @@ class Builder {
     direction.values = values;
     direction.power = power_of(*g, *half);
     direction.log_prior = log_prior;
+    direction.refined = refined_;
     limit(direction);
     columns_.push_back({std::move(direction), std::move(*g)});
   }
@@ -251,6 +255,7 @@ class Builder {
   const State& state_;
   const Rows& rows_;
   std::vector<Column> columns_;
+  bool refined_ = false;
 };
 
 }  // namespace

@@ -33,6 +33,8 @@ struct Direction {
   bool fixed = false;
   /// It acts at one visit alone.
   bool slip = false;
+  /// The secant was taken at a size that was found: its coefficient can be held against its bounds.
+  bool refined = false;
   /// What the coefficient may be.
   double lowest = 0.0;
   double highest = 0.0;
