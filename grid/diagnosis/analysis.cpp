@@ -209,7 +209,10 @@ Judgement decide(const Session& session,
                  const Contest& contest,
                  const std::vector<bool>& excluded,
                  bool seen) {
-  constexpr double kOverPattern = 2.2;  // strength of the leading cause over what is left
+  // Strength of the leading cause over what is left; less where it is beyond doubt.
+  constexpr double kOverPattern = 2.2;
+  constexpr double kOverPatternBeyondDoubt = 1.5;
+  constexpr double kBeyondDoubt = 0.9995;
   Judgement judged = judge(rows, contest, excluded, seen);
   speak_of_leaders(rows, contest, judged);
   if (judged.listed.empty() || judged.pattern <= kPatternPossible || judged.best_pattern < 0) {
@@ -226,7 +229,10 @@ Judgement decide(const Session& session,
                              space.g.col(fitted.directions[k]).norm());
   }
   const Eigen::VectorXd pattern = fitted.left - fitted.left_beside_pattern;
-  if (strongest >= kOverPattern * pattern(space.kept).norm()) return judged;
+  const double needed = judged.marginal.front().probability >= kBeyondDoubt
+                            ? kOverPatternBeyondDoubt
+                            : kOverPattern;
+  if (strongest >= needed * pattern(space.kept).norm()) return judged;
   return judge(rows, contest, excluded, false);
 }
 
