@@ -229,9 +229,8 @@ Judgement decide(const Session& session,
                              space.g.col(fitted.directions[k]).norm());
   }
   const Eigen::VectorXd pattern = fitted.left - fitted.left_beside_pattern;
-  const double needed = judged.marginal.front().probability >= kBeyondDoubt
-                            ? kOverPatternBeyondDoubt
-                            : kOverPattern;
+  const double needed =
+      judged.marginal.front().probability >= kBeyondDoubt ? kOverPatternBeyondDoubt : kOverPattern;
   if (strongest >= needed * pattern(space.kept).norm()) return judged;
   return judge(rows, contest, excluded, false);
 }

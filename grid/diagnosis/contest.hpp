@@ -47,6 +47,9 @@ struct ContestOptions {
                                    const std::vector<bool>& excluded,
                                    const ContestOptions& options);
 
+/// Most causes in one set.
+inline constexpr std::size_t kMostCauses = 4;
+
 /// Prior of a set of directions, of its bad points not.
 [[nodiscard]] double log_prior(const std::vector<Direction>& directions,
                                const std::vector<int>& set,

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/set_search.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
+
+/// What is so far below the best does not count.
+constexpr double kNegligible = 16.0;
+/// Directions with a whole number that are kept for the search of pairs.
+constexpr std::size_t kKeptFixed = 60;
+/// Pairs and triples from which larger sets are searched.
+constexpr std::size_t kBeam = 24;
+/// Sets that are also tried beside an unknown pattern.
+constexpr std::size_t kBesidePattern = 24;
+
+/// May two directions act together: one cause acts at one place, and an effect that acts on both
+/// chains alike not also on one of them.
+bool compatible(const Direction& a, const Direction& b) {
+  if (a.cause.effect != b.cause.effect) return true;
+  using model::effects::EffectSide;
+  const auto joint = [](EffectSide s) { return s == EffectSide::both || s == EffectSide::none; };
+  return a.cause.side != b.cause.side && !joint(a.cause.side) && !joint(b.cause.side);
+}
+
+}  // namespace
+
+class SetSearch::Search {
+ public:
+  Search(const Session& session,
+         const Rows& rows,
+         Space& space,
+         std::size_t number,
+         const ContestOptions& options)
+      : session_(session),
+        rows_(rows),
+        space_(space),
+        number_(number),
+        options_(options),
+        noise_(options.steps.anchor_noise ? session.noise_dof : 1e-3,
+               static_cast<Eigen::Index>(space.kept.size())) {}
+
+  std::vector<Model> run() {
+    metric_ = plain_metric(space_, columns());
+    consider({}, -1, metric_, 0.0);
+    singles();
+    if (!options_.told) {
+      pairs();
+      grow();
+    }
+    return std::move(models_);
+  }
+
+  /// The best sets once more, with a pattern that nobody knows beside them.
+  std::vector<Model> run_beside_patterns() {
+    models_.clear();
+    beside_patterns();
+    return std::move(models_);
+  }
+
+  [[nodiscard]] double best() const { return best_; }
+
+ private:
+  /// Directions worth their place: those of no whole number, and of the others the best, alone or
+  /// once one of the leading directions has taken its share.
+  [[nodiscard]] std::vector<int> columns() const {
+    std::vector<int> kept;
+    std::vector<int> fixed;
+    const auto count = static_cast<int>(rows_.directions.size());
+    const Eigen::VectorXd c = space_.g.transpose() * space_.e;
+    const Eigen::VectorXd square = space_.g.colwise().squaredNorm();
+    for (int k = 0; k < count; ++k) {
+      const Direction& d = rows_.directions[static_cast<std::size_t>(k)];
+      if (options_.told && !(d.cause == *options_.told)) continue;
+      if (!(square(k) > kLeastSquare)) continue;
+      (d.fixed ? fixed : kept).push_back(k);
+    }
+    if (fixed.size() <= kKeptFixed) {
+      kept.insert(kept.end(), fixed.begin(), fixed.end());
+      return kept;
+    }
+    std::vector<int> leading = kept;
+    std::stable_sort(leading.begin(), leading.end(), [&](int a, int b) {
+      return c(a) * c(a) / square(a) > c(b) * c(b) / square(b);
+    });
+    leading.resize(std::min<std::size_t>(leading.size(), 8));
+    const Eigen::MatrixXd cross =
+        space_.g(Eigen::all, fixed).transpose() * space_.g(Eigen::all, leading);
+    std::vector<std::pair<double, int>> gains;
+    for (std::size_t f = 0; f < fixed.size(); ++f) {
+      const int k = fixed[f];
+      double best = 2.0 * c(k) - square(k);
+      for (std::size_t l = 0; l < leading.size(); ++l) {
+        const double ll = square(leading[l]);
+        const double x = cross(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(l));
+        best = std::max(best, 2.0 * (c(k) - x * c(leading[l]) / ll) - (square(k) - x * x / ll));
+      }
+      gains.emplace_back(-best, k);
+    }
+    std::sort(gains.begin(), gains.end());
+    for (std::size_t i = 0; i < kKeptFixed; ++i) kept.push_back(gains[i].second);
+    return kept;
+  }
+
+  /// Weighs a set (positions in the metric) and keeps it where it matters.
+  double consider(const std::vector<Eigen::Index>& set,
+                  int pattern,
+                  const Metric& metric,
+                  double log_pattern) {
+    std::vector<int> chosen;
+    for (const Eigen::Index i : set) chosen.push_back(metric.columns[static_cast<std::size_t>(i)]);
+    const SetEvidence evidence = set_evidence(metric, rows_.directions, set, noise_);
+    if (!std::isfinite(evidence.log_evidence)) return kMinusInfinity;
+    Model model;
+    model.directions = chosen;
+    std::sort(model.directions.begin(), model.directions.end());
+    model.pattern = pattern;
+    model.space = number_;
+    model.log_weight =
+        evidence.log_evidence + space_.log_bad + log_pattern + prior(chosen, pattern >= 0);
+    model.larger_noise = noise_.larger_share(evidence.quadratic);
+    model.quadratic = evidence.quadratic;
+    best_ = std::max(best_, model.log_weight);
+    if (model.log_weight > best_ - kNegligible || set.size() <= 1) models_.push_back(model);
+    return model.log_weight;
+  }
+
+  [[nodiscard]] double prior(const std::vector<int>& set, bool pattern) const {
+    double value = log_prior(rows_.directions, set, pattern);
+    if (!options_.steps.average_location) {
+      for (const int k : set) value -= rows_.directions[static_cast<std::size_t>(k)].log_prior;
+    }
+    return value;
+  }
+
+  void singles() {
+    for (std::size_t k = 0; k < metric_.columns.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      const double weight = consider({at}, -1, metric_, 0.0);
+      scored_.push_back({weight, {at}});
+    }
+  }
+
+  /// Upper bound of a pair's weight but for what bounds and larger noise add.
+  [[nodiscard]] double quick_weight(Eigen::Index i, Eigen::Index j) const {
+    const Direction& a = direction(i);
+    const Direction& b = direction(j);
+    const double aa = metric_.gg(i, i);
+    const double bb = metric_.gg(j, j);
+    double q = metric_.ee;
+    double ca = metric_.ge(i);
+    double cb = metric_.ge(j);
+    const double ab = metric_.gg(i, j);
+    double occam = 0.0;
+    constexpr double kPrecision = 1.0 / (kWideDelta * kWideDelta);
+    if (a.fixed && b.fixed) {
+      q += aa + bb + 2.0 * (ab - ca - cb);
+    } else if (a.fixed || b.fixed) {
+      const double ff = a.fixed ? aa : bb;
+      const double cf = a.fixed ? ca : cb;
+      const double oo = a.fixed ? bb : aa;
+      const double co = (a.fixed ? cb : ca) - ab;
+      q += ff - 2.0 * cf - co * co / (oo * (1.0 + kPrecision));
+      occam = std::log(kUsualDelta);
+    } else {
+      ca /= std::sqrt(aa);
+      cb /= std::sqrt(bb);
+      const double rho = ab / std::sqrt(aa * bb);
+      const double one = 1.0 + kPrecision;
+      const double det = one * one - rho * rho;
+      q -= (one * (ca * ca + cb * cb) - 2.0 * rho * ca * cb) / det;
+      occam = 2.0 * std::log(kUsualDelta) + 0.5 * std::log(det);
+    }
+    const auto n = static_cast<double>(space_.kept.size());
+    return -0.5 * (n + session_.noise_dof) * std::log(session_.noise_dof + std::max(q, 0.0)) -
+           occam + a.log_prior + b.log_prior;
+  }
+
+  void pairs() {
+    const auto count = static_cast<Eigen::Index>(metric_.columns.size());
+    std::vector<std::pair<double, std::pair<Eigen::Index, Eigen::Index>>> quick;
+    double best = kMinusInfinity;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      for (Eigen::Index j = 0; j < i; ++j) {
+        if (!compatible(direction(i), direction(j))) continue;
+        const double weight = quick_weight(i, j);
+        if (weight < best - kPairsWithin) continue;
+        best = std::max(best, weight);
+        quick.push_back({weight, {j, i}});
+      }
+    }
+    std::stable_sort(
+        quick.begin(), quick.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (std::size_t k = 0; k < quick.size(); ++k) {
+      if (quick[k].first < best - kPairsWithin || k > kMostPairs) break;
+      const std::vector<Eigen::Index> set = {quick[k].second.first, quick[k].second.second};
+      scored_.push_back({consider(set, -1, metric_, 0.0), set});
+    }
+  }
+
+  void grow() {
+    for (std::size_t size = 3; size <= kMostCauses; ++size) {
+      std::vector<Scored> parents;
+      for (const Scored& s : scored_) {
+        if (s.set.size() == size - 1 && std::isfinite(s.weight)) parents.push_back(s);
+      }
+      std::stable_sort(parents.begin(), parents.end(), heavier);
+      if (parents.empty() || parents.front().weight < best_ - kGrowWithin) return;
+      if (parents.size() > kBeam) parents.resize(kBeam);
+      std::set<std::vector<Eigen::Index>> seen;
+      for (const Scored& parent : parents) extend(parent.set, seen);
+    }
+  }
+
+  void extend(const std::vector<Eigen::Index>& parent, std::set<std::vector<Eigen::Index>>& seen) {
+    // What the parent leaves, and of each direction: a score for the cost of one inner product.
+    const Eigen::MatrixXd own = metric_.gg(parent, parent);
+    const Eigen::LDLT<Eigen::MatrixXd> ldlt(own);
+    const Eigen::VectorXd left =
+        metric_.ge - metric_.gg(Eigen::all, parent) * ldlt.solve(metric_.ge(parent));
+    std::vector<std::pair<double, Eigen::Index>> order;
+    for (Eigen::Index i = 0; i < left.size(); ++i) {
+      bool fits = true;
+      for (const Eigen::Index p : parent) fits = fits && compatible(direction(i), direction(p));
+      if (!fits) continue;
+      const Eigen::VectorXd x = metric_.gg(parent, i);
+      const double square = metric_.gg(i, i) - x.dot(ldlt.solve(x));
+      if (!(square > 1e-6 * metric_.gg(i, i))) continue;
+      const double gain = direction(i).fixed ? 2.0 * left(i) - square : left(i) * left(i) / square;
+      order.emplace_back(-gain - 2.0 * direction(i).log_prior, i);
+    }
+    std::sort(order.begin(), order.end());
+    for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), kChildren); ++k) {
+      std::vector<Eigen::Index> set = parent;
+      set.push_back(order[k].second);
+      std::sort(set.begin(), set.end());
+      if (!seen.insert(set).second) continue;
+      scored_.push_back({consider(set, -1, metric_, 0.0), set});
+    }
+  }
+
+  void beside_patterns() {
+    std::stable_sort(scored_.begin(), scored_.end(), heavier);
+    std::vector<std::vector<Eigen::Index>> sets = {{}};
+    std::vector<int> used;
+    std::array<std::size_t, kMostCauses + 1> taken{};
+    std::vector<CauseId> alone;
+    for (const Scored& s : scored_) {
+      const bool single = s.set.size() == 1;
+      const CauseId cause = direction(s.set.front()).cause;
+      // Every cause alone at its best places, and the best of the others.
+      const auto times = std::count(alone.begin(), alone.end(), cause);
+      if (single ? times >= 2 : taken[s.set.size()] >= kBesidePattern / 2) continue;
+      if (single) alone.push_back(cause);
+      ++taken[s.set.size()];
+      sets.push_back(s.set);
+      for (const Eigen::Index i : s.set) {
+        used.push_back(metric_.columns[static_cast<std::size_t>(i)]);
+      }
+    }
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    const std::vector<Metric> metrics = pattern_metrics(rows_, session_, space_, used);
+    const double share = -std::log(static_cast<double>(kPatterns));
+    for (int pattern = 0; pattern < kPatterns; ++pattern) {
+      const Metric& metric = metrics[static_cast<std::size_t>(pattern)];
+      for (const auto& set : sets) {
+        std::vector<Eigen::Index> there;
+        for (const Eigen::Index i : set) {
+          there.push_back(metric.position(metric_.columns[static_cast<std::size_t>(i)]));
+        }
+        consider(there, pattern, metric, share);
+      }
+    }
+  }
+
+  struct Scored {
+    double weight;
+    std::vector<Eigen::Index> set;
+  };
+  static bool heavier(const Scored& a, const Scored& b) { return a.weight > b.weight; }
+
+  [[nodiscard]] const Direction& direction(Eigen::Index i) const {
+    return rows_.directions[static_cast<std::size_t>(metric_.columns[static_cast<std::size_t>(i)])];
+  }
+
+  static constexpr double kLeastSquare = 1e-8;
+  static constexpr double kPairsWithin = 12.0;
+  static constexpr std::size_t kMostPairs = 3000;
+  static constexpr double kGrowWithin = 12.0;
+  static constexpr std::size_t kChildren = 24;
+
+  const Session& session_;
+  const Rows& rows_;
+  Space& space_;
+  std::size_t number_;
+  const ContestOptions& options_;
+  NoiseDensity noise_;
+  Metric metric_;
+  std::vector<Model> models_;
+  std::vector<Scored> scored_;
+  double best_ = kMinusInfinity;
+};
+
+SetSearch::SetSearch(const Session& session,
+                     const Rows& rows,
+                     Space& space,
+                     std::size_t number,
+                     const ContestOptions& options)
+    : search_(std::make_unique<Search>(session, rows, space, number, options)) {}
+SetSearch::~SetSearch() = default;
+SetSearch::SetSearch(SetSearch&&) noexcept = default;
+SetSearch& SetSearch::operator=(SetSearch&&) noexcept = default;
+std::vector<Model> SetSearch::run() { return search_->run(); }
+std::vector<Model> SetSearch::run_beside_patterns() { return search_->run_beside_patterns(); }
+double SetSearch::best() const { return search_->best(); }
+
+}  // namespace chaintrue::grid::diagnosis

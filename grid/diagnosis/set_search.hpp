@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The sets of causes that matter in one space: one and two at a time all of them, three and four
+/// at a time grown from the best, and the leading ones once more beside an unknown pattern.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "grid/diagnosis/contest.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+class SetSearch {
+ public:
+  /// `number` is the space's in its contest; all references must outlive the search.
+  SetSearch(const Session& session,
+            const Rows& rows,
+            Space& space,
+            std::size_t number,
+            const ContestOptions& options);
+  ~SetSearch();
+  SetSearch(SetSearch&&) noexcept;
+  SetSearch& operator=(SetSearch&&) noexcept;
+
+  [[nodiscard]] std::vector<Model> run();
+  /// After run().
+  [[nodiscard]] std::vector<Model> run_beside_patterns();
+  /// Largest weight so far.
+  [[nodiscard]] double best() const;
+
+ private:
+  class Search;
+  std::unique_ptr<Search> search_;
+};
+
+}  // namespace chaintrue::grid::diagnosis
