@@ -435,8 +435,8 @@ void extend(const Session& session, const Analysis& a, bool accept_class, Diagno
   std::vector<int> taken;
   for (const Cause& cause : used) {
     const int column = best_direction(a, cause.cause);
-    // A slip is none of the machine's: its reading is mended whatever it gains.
-    if (worse && !direction(a, column).slip) continue;
+    // Links miscounted or skipped are none of the machine's: readings are mended whatever it gains.
+    if (worse && !direction(a, column).fixed) continue;
     model::AppliedEffect applied{std::string(cause.cause.effect->id),
                                  std::string(model::effects::name(cause.cause.side)),
                                  {}};
