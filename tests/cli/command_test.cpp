@@ -2,7 +2,6 @@
 // Exit codes, streams and files of fit and query, as scripts rely on them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <array>
 #include <cstdio>
@@ -12,47 +11,20 @@
 #include <iterator>
 #include <string>
 
+#include "tests/cli/command_fixture.hpp"
+
 namespace chaintrue {
 namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
 
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string err;
-};
+using testing_support::content_of;
+using testing_support::Outcome;
 
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class Command : public testing::Test {
+class Command : public testing_support::CommandFixture {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "chaintrue-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] Outcome run(const std::string& arguments) const {
-    const std::string line =
-        "cd " + folder_.string() + " && " CHAINTRUE_COMMAND " " + arguments + " >out.txt 2>err.txt";
-    const int status = std::system(line.c_str());
-    return {WEXITSTATUS(status), content_of(folder_ / "out.txt"), content_of(folder_ / "err.txt")};
-  }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
-  [[nodiscard]] bool exists(const std::string& name) const {
-    return std::filesystem::exists(folder_ / name);
-  }
-
   const std::string grid_ = std::string(CHAINTRUE_FIXTURES) + "/grids/seven_by_four.json";
-  std::filesystem::path folder_;
 };
 
 TEST_F(Command, FitWritesTheSameMapTwice) {

@@ -2,7 +2,6 @@
 // chaintrue diagnose, plan --after and the files they leave: exit codes, streams, all or nothing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,7 @@
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
+#include "tests/cli/command_fixture.hpp"
 #include "tests/grid_files/sample_diagnosis.hpp"
 
 namespace chaintrue {
@@ -28,32 +28,11 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string err;
-};
+using testing_support::content_of;
+using testing_support::Outcome;
 
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class DiagnoseCommand : public testing::Test {
+class DiagnoseCommand : public testing_support::CommandFixture {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "chaintrue-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] Outcome run(const std::string& arguments) const {
-    const std::string line =
-        "cd " + folder_.string() + " && " CHAINTRUE_COMMAND " " + arguments + " >out.txt 2>err.txt";
-    const int status = std::system(line.c_str());
-    return {WEXITSTATUS(status), content_of(folder_ / "out.txt"), content_of(folder_ / "err.txt")};
-  }
   /// 7 x 5 marks, row by row, with these effects hidden.
   void simulate(const std::string& effects, const std::string& more = "") const {
     const Outcome made =
@@ -66,15 +45,8 @@ class DiagnoseCommand : public testing::Test {
   [[nodiscard]] Diagnosis diagnosis() const {
     return grid::files::read_diagnosis(folder_ / "d.json");
   }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
-  [[nodiscard]] bool exists(const std::string& name) const {
-    return std::filesystem::exists(folder_ / name);
-  }
 
   const std::string machine_ = std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json";
-  std::filesystem::path folder_;
 };
 
 TEST_F(DiagnoseCommand, NamesAStrongCauseAndWritesEveryFile) {
