@@ -3,12 +3,13 @@
 // input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+
+#include "tests/cli/command_fixture.hpp"
 
 namespace chaintrue {
 namespace {
@@ -17,43 +18,14 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using testing_support::content_of;
+using testing_support::Outcome;
 
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string err;
-};
-
-class HolesCommands : public testing::Test {
+class HolesCommands : public testing_support::CommandFixture {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "chaintrue-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] Outcome run(const std::string& arguments) const {
-    const std::string line =
-        "cd " + folder_.string() + " && " CHAINTRUE_COMMAND " " + arguments + " >out.txt 2>err.txt";
-    const int status = std::system(line.c_str());
-    return {WEXITSTATUS(status), content_of(folder_ / "out.txt"), content_of(folder_ / "err.txt")};
-  }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
-  [[nodiscard]] bool exists(const std::string& name) const {
-    return std::filesystem::exists(folder_ / name);
-  }
-
   const std::string fixtures_ = CHAINTRUE_FIXTURES;
   const std::string classic_ = fixtures_ + "/machines/classic.json";
   const std::string holes_ = fixtures_ + "/holes/nine_holes.json";
-  std::filesystem::path folder_;
 };
 
 TEST_F(HolesCommands, TheFixtureIsWhatSimulateMakes) {
