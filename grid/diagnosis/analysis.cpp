@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/bad_points.hpp"
+#include "grid/diagnosis/link_priors.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -128,8 +129,7 @@ bool has_continuous_place(const Direction& direction) {
 constexpr double kLeastReach = 4.0;
 
 /// Takes effects out that could not show at any size that they may have.
-void drop_invisible(const Session& session, const Steps& steps, Analysis& a) {
-  const Space space = make_space(a.rows, std::vector<bool>(session.points.size(), false), steps);
+void drop_invisible(const Space& space, Analysis& a) {
   const auto reach = [&](const CauseId& cause) {
     double most = 0.0;
     for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
@@ -278,7 +278,10 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     if (!rows) return tl::unexpected(unreachable(session, rows.error()));
     a.rows = std::move(*rows);
     add_directions(session, a.state, a.candidates.testable, known, a.rows);
-    if (pass == 0) drop_invisible(session, options.steps, a);
+    const std::vector<bool> none(session.points.size(), false);
+    const Space space = make_space(a.rows, none, options.steps);
+    share_out_links(space, a.rows);
+    if (pass == 0) drop_invisible(space, a);
     contest_and_judge(session, contest, true, a);
     if (pass + 1 == kPasses || a.judgement.directions.empty()) break;
     known = refinements(session, a);
