@@ -196,12 +196,10 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     if (pass == 0) drop_invisible(space, a);
     contest_and_judge(session, contest, true, a);
     if (pass + 1 == kPasses || a.judgement.directions.empty()) break;
-    Polished polished = polish(session,
-                               a.state,
-                               a.rows,
-                               a.contest.spaces[a.judgement.space],
-                               a.judgement.directions,
-                               options.steps);
+    const Judgement& judged = a.judgement;
+    const Leaders leaders{judged.directions, judged.pattern_left ? judged.best_pattern : -1};
+    Polished polished = polish(
+        session, a.state, a.rows, a.contest.spaces[judged.space], leaders, options.steps);
     known = std::move(polished.refinements);
     a.state = std::move(polished.state);
   }

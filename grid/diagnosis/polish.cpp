@@ -43,11 +43,11 @@ Reach reach(const Rows& rows, const Direction& own) {
 
 class Round {
  public:
-  Round(const Session& session, const State& state, const Rows& rows, Space space)
+  Round(const Session& session, const State& state, const Rows& rows, Space space, int pattern)
       : session_(session), state_(state), rows_(rows), space_(std::move(space)) {
     std::vector<int> all;
     for (std::size_t k = 0; k < rows.directions.size(); ++k) all.push_back(static_cast<int>(k));
-    estimate_ = diagnosis::estimate(session, rows, space_, all, -1);
+    estimate_ = diagnosis::estimate(session, rows, space_, all, pattern);
   }
   [[nodiscard]] const Estimate& estimate() const { return estimate_; }
 
@@ -165,11 +165,11 @@ Polished polish(const Session& session,
                 const State& state,
                 const Rows& rows,
                 const Space& space,
-                const std::vector<int>& directions,
+                const Leaders& leaders,
                 const Steps& steps) {
   std::vector<Direction> own;
   std::vector<Reach> reaches;
-  for (const int k : directions) {
+  for (const int k : leaders.directions) {
     own.push_back(rows.directions[static_cast<std::size_t>(k)]);
     reaches.push_back(reach(rows, own.back()));
   }
@@ -177,7 +177,9 @@ Polished polish(const Session& session,
   for (int round = 0; round < kRounds; ++round) {
     auto about = base_rows(session, result.state, steps);
     if (!about || !renew_directions(session, result.state, own, *about)) break;
-    const Round here(session, result.state, *about, make_space(*about, space.bad, steps));
+    Space there = make_space(*about, space.bad, steps);
+    there.pattern_trace = space.pattern_trace;  // the pattern stays as strong as it was found
+    const Round here(session, result.state, *about, std::move(there), leaders.pattern);
     bool settled = here.estimate().setting_change.cwiseAbs().maxCoeff() < kSettled_mm;
     std::vector<Direction> moved = own;
     for (std::size_t k = 0; k < own.size(); ++k) {
@@ -185,7 +187,8 @@ Polished polish(const Session& session,
       moved[k].values.front() = here.size(k);
       settled = settled && std::abs(moved[k].values.front() - own[k].values.front()) <
                                kSettled * std::abs(own[k].values.front());
-      if (has_continuous_place(own[k])) moved[k].values.back() = here.place(k, reaches[k]);
+      // Beside a pattern the best of the places tried has to do: e has the pattern in it.
+      if (has_continuous_place(own[k]) && leaders.pattern < 0) moved[k].values.back() = here.place(k, reaches[k]);
     }
     State next = with_settings(
         session, result.state, about->setting + here.estimate().setting_change);
@@ -195,7 +198,7 @@ Polished polish(const Session& session,
     if (settled) break;
   }
   for (std::size_t k = 0; k < own.size(); ++k) {
-    const double first = rows.directions[static_cast<std::size_t>(directions[k])].values.front();
+    const double first = rows.directions[static_cast<std::size_t>(leaders.directions[k])].values.front();
     // A secant over next to nothing has no direction.
     if (own[k].fixed || !(std::abs(own[k].values.front()) > kSettled * std::abs(first))) continue;
     result.refinements.push_back({own[k].cause, own[k].values, own[k].log_prior});

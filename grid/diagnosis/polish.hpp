@@ -18,12 +18,18 @@ struct Polished {
   std::vector<Refinement> refinements;  ///< of the causes whose size is no whole number
 };
 
-/// `directions` of `rows` and the points that `space` sets aside, from the state of the rows.
+/// What leads: directions of the rows, beside an unknown pattern or none (-1).
+struct Leaders {
+  std::vector<int> directions;
+  int pattern = -1;
+};
+
+/// From the state of the rows, with the points set aside that `space` sets aside.
 [[nodiscard]] Polished polish(const Session& session,
                               const State& state,
                               const Rows& rows,
                               const Space& space,
-                              const std::vector<int>& directions,
+                              const Leaders& leaders,
                               const Steps& steps);
 
 }  // namespace chaintrue::grid::diagnosis
