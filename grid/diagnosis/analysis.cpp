@@ -121,7 +121,7 @@ void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judge
 }  // namespace
 
 /// Share of what noise does not explain that causes named beside an unknown pattern must explain.
-constexpr double kExplained = 0.95;
+constexpr double kExplained = 0.93;
 
 Judgement decide(const Session& session,
                  const Rows& rows,
