@@ -122,6 +122,8 @@ void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judge
 
 /// Share of what noise does not explain that causes named beside an unknown pattern must explain.
 constexpr double kExplained = 0.93;
+/// From this probability of a pattern on; below it what noise leaves would decide.
+constexpr double kPatternLikely = 0.5;
 
 Judgement decide(const Session& session,
                  const Rows& rows,
@@ -130,7 +132,7 @@ Judgement decide(const Session& session,
                  bool seen) {
   Judgement judged = judge(rows, contest, excluded, seen);
   speak_of_leaders(rows, contest, judged);
-  if (judged.listed.empty() || judged.pattern <= kPatternPossible || judged.best_pattern < 0) {
+  if (judged.listed.empty() || judged.pattern <= kPatternLikely || judged.best_pattern < 0) {
     return judged;
   }
   // A pattern that nobody knows looks somewhat like this cause or that: what is named must explain

@@ -140,6 +140,8 @@ struct Gain {
   /// it: the mean square of what naming moves. Blocks held out say more, since there both models
   /// extrapolate and the poorer one farther.
   double drop_mm2 = 0.0;
+  /// That drop over the mean square before it, the noise of the readings in neither.
+  double drop_share = 0.0;
   /// The same rows where the outermost points were held out and the inner ones fitted.
   struct Border {
     double calibrated_mm = 0.0;

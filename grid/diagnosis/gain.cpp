@@ -197,6 +197,27 @@ double drop_by_naming(const Session& session, const Analysis& a) {
   return sum / static_cast<double>(moved.size());
 }
 
+/// Mean square of the tool's error that the doubt about settings and sizes leaves, with the causes
+/// in the model.
+double doubt_left(const Session& session, const Analysis& a) {
+  const Space& space = a.contest.spaces[a.judgement.space];
+  const Estimate named = estimate(session, a.rows, space, a.judgement.directions, -1);
+  Eigen::MatrixXd design(a.rows.by_setting.rows(), named.covariance.rows());
+  design.leftCols(a.rows.by_setting.cols()) = a.rows.by_setting;
+  for (std::size_t k = 0; k < named.free.size(); ++k) {
+    design.col(a.rows.by_setting.cols() + static_cast<Eigen::Index>(k)) =
+        a.rows.g.col(named.directions[named.free[k]]);
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.rows.points.size(); ++i) {
+    const PointState& point = a.rows.points[i];
+    const Eigen::MatrixXd by_unknown = point.by_mark.inverse() * point.whitening.inverse() *
+                                       design.middleRows<2>(2 * static_cast<Eigen::Index>(i));
+    sum += (by_unknown * named.covariance * by_unknown.transpose()).trace();
+  }
+  return sum / static_cast<double>(a.rows.points.size());
+}
+
 /// Tool errors with the settings as stated, and with the sheet alone moved to where it fits.
 struct Delivered {
   std::vector<Eigen::Vector2d> as_stated, placed;
@@ -339,7 +360,10 @@ std::optional<Gain> measure_gain(const Session& session,
   gain.extended = summarise(*extension.machine, number, options.seed);
   gain.extended_and_surface = summarise(*extension.and_surface, number, options.seed);
   gain.noise_floor_mm = noise_floor(session, a, points);
-  gain.drop_mm2 = extension.helps ? drop_by_naming(session, a) : 0.0;
+  if (extension.helps) {
+    gain.drop_mm2 = drop_by_naming(session, a);
+    gain.drop_share = gain.drop_mm2 / (gain.drop_mm2 + doubt_left(session, a));
+  }
   const auto edge = border(session);
   if (session.points.size() - edge.size() >= kFewestPoints) {
     const Errors outer = folds.hold_out(edge).errors;

@@ -121,8 +121,11 @@ std::optional<TrueErrors> true_errors(const generator::SealedSet& set,
   const auto calibrated = told(set, *fresh, {});
   const auto oracle = told(set, *fresh, set.answer.hidden);
   if (!predicted || !calibrated || !oracle) return std::nullopt;
-  TrueErrors errors{*calibrated, tool_rms_mm(*fresh, *predicted), *oracle, 0.0};
-  if (found.gain) errors.reported_drop = found.gain->drop_mm2;
+  TrueErrors errors{*calibrated, tool_rms_mm(*fresh, *predicted), *oracle};
+  if (found.gain) {
+    errors.reported_drop = found.gain->drop_mm2;
+    errors.reported_share = found.gain->drop_share;
+  }
   return errors;
 }
 
