@@ -200,8 +200,8 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     if (pass + 1 == kPasses || a.judgement.directions.empty()) break;
     const Judgement& judged = a.judgement;
     const Leaders leaders{judged.directions, judged.pattern_left ? judged.best_pattern : -1};
-    Polished polished = polish(
-        session, a.state, a.rows, a.contest.spaces[judged.space], leaders, options.steps);
+    Polished polished =
+        polish(session, a.state, a.rows, a.contest.spaces[judged.space], leaders, options.steps);
     known = std::move(polished.refinements);
     a.state = std::move(polished.state);
   }

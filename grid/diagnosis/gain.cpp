@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "grid/diagnosis/expected_gain.hpp"
 #include "grid/map/spatial_blocks.hpp"
 #include "grid/synthetic/random.hpp"
 
@@ -55,7 +56,9 @@ class Folds {
       if (!bad_in_all(i)) fold.points.push_back(i);
     }
     for (const std::size_t index : judged.listed) fold.named.push_back(judged.classes[index]);
-    fold.errors.calibrated = errors(fit(space, {}).left, fold.points);
+    const Space plain =
+        without_slips(session_, a_.rows, space, a_.judgement.directions, options_.steps);
+    fold.errors.calibrated = errors(fit(plain, {}).left, fold.points);
     fold.errors.surface_only = beside_pattern(contest, judged.space, {}, fold.points);
     fold.errors.extended = errors(fit(space, judged.directions).left, fold.points);
     fold.errors.extended_and_surface =
@@ -181,41 +184,6 @@ double noise_floor(const Session& session,
            (inverse * inverse.transpose()).trace() * std::pow(session.noise.length_mm, 2);
   }
   return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(points.size()));
-}
-
-/// Mean square of what the named causes move the tool by, each model calibrated on all points. The
-/// causes' estimate is the mean of what the truth may be, so this is the expected drop.
-double drop_by_naming(const Session& session, const Analysis& a) {
-  const Space& space = a.contest.spaces[a.judgement.space];
-  const Estimate plain = estimate(session, a.rows, space, {}, -1);
-  const Estimate named = estimate(session, a.rows, space, a.judgement.directions, -1);
-  const auto moved = chain_residuals(a.rows, Eigen::VectorXd(plain.left - named.left));
-  double sum = 0.0;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    sum += tool_shift(a.rows.points[i], moved[i]).squaredNorm();
-  }
-  return sum / static_cast<double>(moved.size());
-}
-
-/// Mean square of the tool's error that the doubt about settings and sizes leaves, with the causes
-/// in the model.
-double doubt_left(const Session& session, const Analysis& a) {
-  const Space& space = a.contest.spaces[a.judgement.space];
-  const Estimate named = estimate(session, a.rows, space, a.judgement.directions, -1);
-  Eigen::MatrixXd design(a.rows.by_setting.rows(), named.covariance.rows());
-  design.leftCols(a.rows.by_setting.cols()) = a.rows.by_setting;
-  for (std::size_t k = 0; k < named.free.size(); ++k) {
-    design.col(a.rows.by_setting.cols() + static_cast<Eigen::Index>(k)) =
-        a.rows.g.col(named.directions[named.free[k]]);
-  }
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.rows.points.size(); ++i) {
-    const PointState& point = a.rows.points[i];
-    const Eigen::MatrixXd by_unknown = point.by_mark.inverse() * point.whitening.inverse() *
-                                       design.middleRows<2>(2 * static_cast<Eigen::Index>(i));
-    sum += (by_unknown * named.covariance * by_unknown.transpose()).trace();
-  }
-  return sum / static_cast<double>(a.rows.points.size());
 }
 
 /// Tool errors with the settings as stated, and with the sheet alone moved to where it fits.
@@ -361,8 +329,9 @@ std::optional<Gain> measure_gain(const Session& session,
   gain.extended_and_surface = summarise(*extension.and_surface, number, options.seed);
   gain.noise_floor_mm = noise_floor(session, a, points);
   if (extension.helps) {
-    gain.drop_mm2 = drop_by_naming(session, a);
-    gain.drop_share = gain.drop_mm2 / (gain.drop_mm2 + doubt_left(session, a));
+    const ExpectedGain expected = expected_gain(session, a, options.steps);
+    gain.drop_mm2 = expected.drop_mm2;
+    gain.drop_share = expected.share;
   }
   const auto edge = border(session);
   if (session.points.size() - edge.size() >= kFewestPoints) {

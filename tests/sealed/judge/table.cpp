@@ -142,6 +142,12 @@ void about_bad_points(const std::vector<Trial>& trials, Rows& rows) {
            }));
 }
 
+bool only_miscounts(const generator::Answer& answer) {
+  return std::all_of(answer.hidden.begin(), answer.hidden.end(), [](const generator::Hidden& h) {
+    return h.cause == generator::Cause::link_miscount;
+  });
+}
+
 void about_errors(const std::vector<Trial>& trials, Rows& rows) {
   double calibrated = 0.0, extended = 0.0, oracle = 0.0;
   int count = 0;
@@ -156,7 +162,8 @@ void about_errors(const std::vector<Trial>& trials, Rows& rows) {
     oracle += e.oracle * e.oracle;
     ++count;
     worse.push_back(e.extended / e.calibrated);
-    if (names_something(t)) {
+    // Naming a reading that was written down wrong changes next to nothing elsewhere.
+    if (names_something(t) && !only_miscounts(t.answer)) {
       const double drop = e.calibrated * e.calibrated - e.extended * e.extended;
       honest.count(std::abs(e.reported_drop - drop) <= 0.15 * std::abs(drop));
       const double share = drop / (e.calibrated * e.calibrated);
