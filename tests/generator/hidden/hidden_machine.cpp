@@ -52,6 +52,15 @@ std::optional<HiddenMachine::Reading> HiddenMachine::read(std::string_view what,
   if (what == "ring_radius_mm") return noisy(with.ring_radius_mm, 0.3);
   if (what == "sled_mass_kg") return noisy(with.sled_mass_kg, 0.1);
   if (what == "chain_mass_kg_per_m") return noisy(with.chain_mass_kg_per_m, 0.002);
+  if (what == "tape_error_mm_per_m") {
+    double scale = 0.0;
+    for (const Hidden& e : hidden_) {
+      const bool other =
+          (e.where == Where::x && side == "y") || (e.where == Where::y && side == "x");
+      if (e.cause == Cause::tape_scale && !other) scale += e.size;
+    }
+    return noisy(1000.0 * scale, 0.15);
+  }
   if (what == "link_pitch_mm") {
     const std::size_t chain = side == "right" ? 1 : 0;
     double elongation = 0.0;
