@@ -8,6 +8,7 @@
 #include "grid/diagnosis/gain.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/diagnosis/slips.hpp"
+#include "grid/diagnosis/stability.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -56,6 +57,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
   if (options.gain) d.gain = measure_gain(*session, *analysis, options);
   extend(*session, *analysis, options.accept_class, d);
   if (options.next_measurements) d.next_measurements = next_measurements(*session, *analysis);
+  if (options.stability) d.stability = examine_stability(*session, *analysis, options);
   put_into_words(*session, d);
   return d;
 }
