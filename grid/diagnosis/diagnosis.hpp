@@ -245,6 +245,16 @@ struct Stability {
   std::vector<Removal> removals;  ///< points by index, then columns and rows by place
 };
 
+/// What is left at the good points, whitened and in units of its own rms, against what normal noise
+/// would leave: a value a chain and point, ascending, all lists of one length.
+struct NormalPlot {
+  std::vector<double> values;
+  std::vector<double> expected;  ///< mean of the draws at that rank
+  std::vector<double> low;       ///< band that holds 95 of 100 sessions of noise whole
+  std::vector<double> high;
+  double p_value = 1.0;  ///< chance of noise to leave the band as far
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::nothing_found;
   std::string sentence;
@@ -276,6 +286,7 @@ struct Diagnosis {
   std::optional<StatedNoise> stated_noise;
   /// Empty where no cause is named or too few points would be left.
   std::optional<Stability> stability;
+  std::optional<NormalPlot> normal_plot;
   /// Another grid foretold; empty where none was asked for.
   std::optional<Transfer> transferred;
 };

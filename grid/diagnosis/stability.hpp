@@ -10,6 +10,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
@@ -36,5 +37,12 @@ struct LeftOut {
 [[nodiscard]] std::optional<Stability> examine_stability(const Session& session,
                                                          const Analysis& analysis,
                                                          const DiagnosisOptions& options);
+
+/// What was left out and what became of the name, in a sentence or two. Precondition: the diagnosis
+/// has a stability.
+[[nodiscard]] std::string stability_in_words(const Diagnosis& diagnosis);
+/// What the name rests on: " The name rests on point 17: without it ...", or nothing where it
+/// stands.
+[[nodiscard]] std::string rests_on(const Diagnosis& diagnosis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -141,6 +141,7 @@ Record<Diagnosis> make_diagnosis_record() {
       .required("grid_name", &Diagnosis::grid_name, text())
       .optional("stated_noise", &Diagnosis::stated_noise, object(noise_record()))
       .optional("stability", &Diagnosis::stability, object(stability_record()))
+      .optional("normal_plot", &Diagnosis::normal_plot, object(normal_plot_record()))
       .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()))
       .check(check_diagnosis);
   return record;

@@ -19,6 +19,7 @@ namespace chaintrue::grid::files {
 [[nodiscard]] const Record<diagnosis::Separation>& separation_record();
 /// diagnosis_stability_record.cpp.
 [[nodiscard]] const Record<diagnosis::Stability>& stability_record();
+[[nodiscard]] const Record<diagnosis::NormalPlot>& normal_plot_record();
 /// Places on the bed; diagnosis_point_record.cpp.
 [[nodiscard]] const Record<diagnosis::NextMeasurement>& next_measurement_record();
 [[nodiscard]] const Record<diagnosis::PointPicture>& point_picture_record();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a diagnosis would say without some of its points, in a chaintrue_diagnosis file.
+// What a diagnosis rests on, in a chaintrue_diagnosis file: what it would say without some of its
+// points, and whether what is left has the shape of noise.
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 
 namespace chaintrue::grid::files {
 
+using diagnosis::NormalPlot;
 using diagnosis::Removal;
 using diagnosis::Stability;
 using diagnosis::Verdict;
@@ -107,6 +109,29 @@ const Record<Stability>& stability_record() {
       Record<Stability>("whether the name stands")
           .required("probability", &Stability::probability, number(kShare))
           .required("removals", &Stability::removals, list(object(removal_record())));
+  return record;
+}
+
+const Record<NormalPlot>& normal_plot_record() {
+  static const auto record = [] {
+    Record<NormalPlot> plot("a normal plot");
+    const Value<std::vector<double>> values = list(number(kAny));
+    plot.required("values", &NormalPlot::values, values)
+        .required("expected", &NormalPlot::expected, values)
+        .required("low", &NormalPlot::low, values)
+        .required("high", &NormalPlot::high, values)
+        .required("p_value", &NormalPlot::p_value, number(kShare))
+        .check([](const Cursor& at, NormalPlot& object) {
+          for (const auto& [key, list] : {std::pair("expected", &object.expected),
+                                          std::pair("low", &object.low),
+                                          std::pair("high", &object.high)}) {
+            if (at.clean() && list->size() != object.values.size()) {
+              at.child(key).expect("as many numbers as there are values");
+            }
+          }
+        });
+    return plot;
+  }();
   return record;
 }
 
