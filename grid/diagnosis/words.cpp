@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/stability.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -233,6 +234,7 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
         "This does not prove the machine perfect: causes smaller than their bounds below would "
         "not have shown.";
   }
+  text += rests_on(d);
   if (!session.ordered) {
     text += " The order of the visits is not known: drift, skipped teeth and play cannot be seen.";
   }
@@ -248,6 +250,7 @@ void put_into_words(const Session& session, Diagnosis& d) {
         session.noise.length_mm,
         session.noise.position_mm));
   }
+  if (d.stability) d.notes.push_back(stability_in_words(d));
   d.sentence = sentence(session, d);
   d.not_proved = not_proved(session, d);
   say_what_to_do(d);
