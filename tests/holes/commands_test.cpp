@@ -70,6 +70,29 @@ TEST_F(HolesCommands, CheckExitsWithOneWhereTheMapNoLongerHolds) {
   EXPECT_THAT(json.out, HasSubstr("\"verdict\": \"valid_after_rezeroing\""));
 }
 
+TEST_F(HolesCommands, PlanSetsThePointsOfACheck) {
+  ASSERT_EQ(run("fit " + fixtures_ + "/grids/seven_by_four.json -o map.json").code, 0);
+  const Outcome plan = run("plan --check map.json -o five.csv --svg five.svg");
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  EXPECT_THAT(plan.err, HasSubstr("5 points for chaintrue check"));
+  EXPECT_THAT(content_of(folder_ / "five.csv"), StartsWith("number,x_mm,y_mm\n1,"));
+  EXPECT_THAT(content_of(folder_ / "five.svg"), StartsWith("<svg "));
+  ASSERT_EQ(run("simulate --machine " + classic_ +
+                " --marks five.csv --draw-settings --length-noise-mm 0.3 --position-noise-mm 0 "
+                "--effect chain_pitch_error:left:elongation=0.001 --seed 1 -o later.json")
+                .code,
+            0);
+  const Outcome check = run("check map.json later.json");
+  EXPECT_EQ(check.code, 1);
+  EXPECT_THAT(check.out,
+              AllOf(StartsWith("The map is to be measured again"),
+                    HasSubstr("the links of the left chain have grown")));
+  const Outcome bad = run("plan --check map.json --points 99 --length-noise-mm 0 -o none.csv");
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_THAT(bad.err, AllOf(HasSubstr("--points"), HasSubstr("--length-noise-mm")));
+  EXPECT_FALSE(exists("none.csv"));
+}
+
 TEST_F(HolesCommands, ThePlannedProgramDrillsEveryHole) {
   const Outcome plan =
       run("plan --machine " + classic_ +
