@@ -54,6 +54,23 @@ TEST_F(HolesCommands, FitGivesAMapThatQueryAndCheckTake) {
   EXPECT_THAT(check.out, StartsWith("The map is still valid"));
 }
 
+TEST_F(HolesCommands, FitTakesSeveralSetsOfOneMachine) {
+  const std::string simulate = "simulate --machine " + classic_ + " --holes 9 --draw-settings ";
+  ASSERT_EQ(run(simulate + "--seed 3 -o first.json").code, 0);
+  ASSERT_EQ(run(simulate + "--seed 4 -o second.json").code, 0);
+  const Outcome fit = run("fit first.json --with second.json --hook-sigma-mm 0.5 -o map.json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.err, AllOf(HasSubstr("40 distances between 18 holes"), HasSubstr("A (2)-")));
+  const Outcome grid =
+      run("fit first.json --with " + fixtures_ + "/grids/seven_by_four.json -o none.json");
+  EXPECT_EQ(grid.code, 3);
+  EXPECT_THAT(grid.err, HasSubstr("--with takes sets of holes"));
+  const Outcome other =
+      run("fit " + fixtures_ + "/grids/seven_by_four.json --with first.json " + "-o none.json");
+  EXPECT_EQ(other.code, 3);
+  EXPECT_FALSE(exists("none.json"));
+}
+
 TEST_F(HolesCommands, CheckExitsWithOneWhereTheMapNoLongerHolds) {
   ASSERT_EQ(run("fit " + fixtures_ + "/grids/seven_by_four.json -o map.json").code, 0);
   write("marks.csv", "x_mm,y_mm\n-1100,500\n1100,500\n0,0\n-1100,-500\n1100,-500\n");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fit to distances: derivatives against differences, left-out predictions against real refits,
 // truth found again without noise, intervals that cover as they say, bad readings named.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -220,6 +221,12 @@ TEST(HolesFit, NineHolesAndTwentyDistancesTellSpacingAndScales) {
   EXPECT_LT(std::sqrt(usual.spacing2 / kSets), 1.15) << "mm, with 0.3 mm of hole";
   EXPECT_LT(std::sqrt(usual.scale2 / (2 * kSets)), 0.0005);
   for (const Tally& one : {exact, usual}) {
+    fmt::print("spacing {:.3f} mm, scales {:.5f}, covered {} and {} of {}\n",
+               std::sqrt(one.spacing2 / kSets),
+               std::sqrt(one.scale2 / (2 * kSets)),
+               one.covered_spacing,
+               one.covered_scale,
+               kSets);
     EXPECT_GE(one.covered_spacing, 0.92 * kSets);
     EXPECT_LE(one.covered_spacing, 0.98 * kSets);
     EXPECT_GE(one.covered_scale, 0.92 * 2 * kSets);
