@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "grid/diagnosis/bad_points.hpp"
+#include "grid/diagnosis/link_priors.hpp"
+#include "grid/diagnosis/polish.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -55,81 +57,12 @@ tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const St
   return state;
 }
 
-/// The place of a cause at which it explains most, beside the others of its set.
-double refined_place(const Session& session,
-                     const Analysis& a,
-                     const Space& space,
-                     std::size_t which) {
-  const Direction& own = a.rows.directions[static_cast<std::size_t>(a.estimate.directions[which])];
-  Eigen::MatrixXd others(space.e.size(), 0);
-  for (std::size_t k = 0; k < a.estimate.directions.size(); ++k) {
-    if (k == which) continue;
-    others.conservativeResize(Eigen::NoChange, others.cols() + 1);
-    others.rightCols<1>() = space.g.col(a.estimate.directions[k]);
-  }
-  const Eigen::MatrixXd gram = others.transpose() * others;
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(gram);
-  const auto without = [&](Eigen::VectorXd v) {
-    if (others.cols() > 0) v -= others * ldlt.solve(others.transpose() * v);
-    return v;
-  };
-  const Eigen::VectorXd e = without(space.e);
-  const auto gain = [&](double place) {
-    std::vector<double> values = own.values;
-    values.back() = place;
-    const auto g = signature(session, a.state, a.rows, own.cause, values);
-    if (!g) return 0.0;
-    const Eigen::VectorXd left = without(reduced(space, *g));
-    const double square = left.squaredNorm();
-    const double c = left.dot(e);
-    return square > 1e-12 && c * a.estimate.coefficient(static_cast<Eigen::Index>(which)) > 0.0
-               ? c * c / square
-               : 0.0;
-  };
-  // The neighbouring places of the grid bracket the best.
-  double low = own.values.back();
-  double high = low;
-  for (const Direction& d : a.rows.directions) {
-    if (!(d.cause == own.cause)) continue;
-    const double step = d.values.back() - own.values.back();
-    if (step < 0.0 && (low == own.values.back() || d.values.back() > low)) low = d.values.back();
-    if (step > 0.0 && (high == own.values.back() || d.values.back() < high)) high = d.values.back();
-  }
-  constexpr double kGolden = 0.381966011250105;
-  double x1 = low + kGolden * (high - low);
-  double x2 = high - kGolden * (high - low);
-  double f1 = gain(x1);
-  double f2 = gain(x2);
-  for (int step = 0; step < 18; ++step) {
-    if (f1 > f2) {
-      high = x2;
-      x2 = x1;
-      f2 = f1;
-      x1 = low + kGolden * (high - low);
-      f1 = gain(x1);
-    } else {
-      low = x1;
-      x1 = x2;
-      f1 = f2;
-      x2 = high - kGolden * (high - low);
-      f2 = gain(x2);
-    }
-  }
-  return 0.5 * (low + high);
-}
-
-bool has_continuous_place(const Direction& direction) {
-  const auto& parameters = direction.cause.effect->parameters;
-  return parameters.size() > 1 && !parameters.back().integer;
-}
-
 /// Strength below which no point plan names a cause: what cannot get there is left out of the
 /// contest, where it would only take probability from the others.
 constexpr double kLeastReach = 4.0;
 
 /// Takes effects out that could not show at any size that they may have.
-void drop_invisible(const Session& session, const Steps& steps, Analysis& a) {
-  const Space space = make_space(a.rows, std::vector<bool>(session.points.size(), false), steps);
+void drop_invisible(const Space& space, Analysis& a) {
   const auto reach = [&](const CauseId& cause) {
     double most = 0.0;
     for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
@@ -164,23 +97,6 @@ void drop_invisible(const Session& session, const Steps& steps, Analysis& a) {
   a.candidates.testable = std::move(visible);
 }
 
-/// Sizes and places found, for secants that are exact there.
-std::vector<Refinement> refinements(const Session& session, const Analysis& a) {
-  std::vector<Refinement> result;
-  const Space& space = a.contest.spaces[a.judgement.space];
-  for (std::size_t k = 0; k < a.estimate.directions.size(); ++k) {
-    const Direction& d = a.rows.directions[static_cast<std::size_t>(a.estimate.directions[k])];
-    if (d.fixed) continue;
-    const double size = size_at(d, a.estimate.coefficient(static_cast<Eigen::Index>(k)));
-    if (!(std::abs(size) > 1e-3 * std::abs(d.values.front()))) continue;
-    Refinement refinement{d.cause, d.values, d.log_prior};
-    refinement.values.front() = size;
-    if (has_continuous_place(d)) refinement.values.back() = refined_place(session, a, space, k);
-    result.push_back(std::move(refinement));
-  }
-  return result;
-}
-
 /// What is fitted is the member that gives its class the name: settings and sizes belong together.
 void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judged) {
   for (int& k : judged.directions) {
@@ -204,34 +120,32 @@ void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judge
 
 }  // namespace
 
+/// Share of what noise does not explain that causes named beside an unknown pattern must explain.
+constexpr double kExplained = 0.93;
+/// From this probability of a pattern on; below it what noise leaves would decide.
+constexpr double kPatternLikely = 0.5;
+
 Judgement decide(const Session& session,
                  const Rows& rows,
                  const Contest& contest,
                  const std::vector<bool>& excluded,
                  bool seen) {
-  // Strength of the leading cause over what is left; less where it is beyond doubt.
-  constexpr double kOverPattern = 2.2;
-  constexpr double kOverPatternBeyondDoubt = 1.5;
-  constexpr double kBeyondDoubt = 0.9995;
   Judgement judged = judge(rows, contest, excluded, seen);
   speak_of_leaders(rows, contest, judged);
-  if (judged.listed.empty() || judged.pattern <= kPatternPossible || judged.best_pattern < 0) {
+  if (judged.listed.empty() || judged.pattern <= kPatternLikely || judged.best_pattern < 0) {
     return judged;
   }
-  // A pattern that nobody knows may lend a name its strength: the leading cause must stand above
-  // it.
+  // A pattern that nobody knows looks somewhat like this cause or that: what is named must explain
+  // nearly all that noise does not.
   const Space& space = contest.spaces[judged.space];
-  const Estimate fitted = estimate(session, rows, space, judged.directions, judged.best_pattern);
-  double strongest = 0.0;
-  for (std::size_t k = 0; k < fitted.directions.size(); ++k) {
-    strongest = std::max(strongest,
-                         std::abs(fitted.coefficient(static_cast<Eigen::Index>(k))) *
-                             space.g.col(fitted.directions[k]).norm());
-  }
-  const Eigen::VectorXd pattern = fitted.left - fitted.left_beside_pattern;
-  const double needed =
-      judged.marginal.front().probability >= kBeyondDoubt ? kOverPatternBeyondDoubt : kOverPattern;
-  if (strongest >= needed * pattern(space.kept).norm()) return judged;
+  const auto unexplained = [&](const std::vector<int>& directions) {
+    const Estimate fitted = estimate(session, rows, space, directions, -1);
+    const double quadratic = Eigen::VectorXd(fitted.left(space.kept)).squaredNorm();
+    return quadratic - static_cast<double>(space.kept.size());
+  };
+  const double before = unexplained({});
+  const double after = unexplained(judged.directions);
+  if (after <= (1.0 - kExplained) * before) return judged;
   return judge(rows, contest, excluded, false);
 }
 
@@ -278,11 +192,18 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     if (!rows) return tl::unexpected(unreachable(session, rows.error()));
     a.rows = std::move(*rows);
     add_directions(session, a.state, a.candidates.testable, known, a.rows);
-    if (pass == 0) drop_invisible(session, options.steps, a);
+    const std::vector<bool> none(session.points.size(), false);
+    const Space space = make_space(a.rows, none, options.steps);
+    share_out_links(space, a.rows);
+    if (pass == 0) drop_invisible(space, a);
     contest_and_judge(session, contest, true, a);
     if (pass + 1 == kPasses || a.judgement.directions.empty()) break;
-    known = refinements(session, a);
-    a.state = with_settings(session, a.state, a.rows.setting + a.estimate.setting_change);
+    const Judgement& judged = a.judgement;
+    const Leaders leaders{judged.directions, judged.pattern_left ? judged.best_pattern : -1};
+    Polished polished =
+        polish(session, a.state, a.rows, a.contest.spaces[judged.space], leaders, options.steps);
+    known = std::move(polished.refinements);
+    a.state = std::move(polished.state);
   }
   test_significance(session, options, a);
   if (a.family_wise_p >= kFalseAlarm && !options.told) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/findings.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "grid/diagnosis/leading.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -17,39 +17,9 @@ constexpr double kQuantile95 = 1.645;  // one-sided 95 %
 constexpr double kAbsorbed = 1e-3;     // of a signature left by the settings: nothing to see
 constexpr double kSettingOff = 3.0;    // sigmas: 1 in 370 for each setting
 
-const Direction& direction(const Analysis& a, int k) {
-  return a.rows.directions[static_cast<std::size_t>(k)];
-}
-
-const Space& space_of(const Analysis& a) { return a.contest.spaces[a.judgement.space]; }
-
 /// Length of a column before the settings take their share.
 double raw_length(const Analysis& a, int column) {
   return a.rows.g(space_of(a).kept, column).norm();
-}
-
-/// The most probable direction of a cause over the models of the contest, or its best score.
-int best_direction(const Analysis& a, const CauseId& cause) {
-  for (const int k : a.judgement.directions) {
-    if (direction(a, k).cause == cause) return k;
-  }
-  for (const Model& model : a.contest.models) {
-    if (model.directions.size() != 1) continue;
-    if (direction(a, model.directions.front()).cause == cause) return model.directions.front();
-  }
-  const Space& space = space_of(a);
-  int best = -1;
-  double most = -1.0;
-  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
-    if (!(a.rows.directions[k].cause == cause)) continue;
-    const auto g = space.g.col(static_cast<Eigen::Index>(k));
-    const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(space.e)) / g.norm() : 0.0;
-    if (score > most) {
-      most = score;
-      best = static_cast<int>(k);
-    }
-  }
-  return best;
 }
 
 double circular(double difference, const EffectParameter& p) {
@@ -92,16 +62,6 @@ std::vector<ParameterEstimate> parameters(const Analysis& a,
   return result;
 }
 
-/// Estimate with one direction in place of the cause at `position` of the judgement, or alone.
-Estimate estimate_with(const Session& session, const Analysis& a, std::vector<int> directions) {
-  std::sort(directions.begin(), directions.end());
-  return estimate(session,
-                  a.rows,
-                  space_of(a),
-                  directions,
-                  a.judgement.pattern_left ? a.judgement.best_pattern : -1);
-}
-
 Eigen::Index position_of(const Estimate& e, int column) {
   const auto found = std::find(e.directions.begin(), e.directions.end(), column);
   return static_cast<Eigen::Index>(found - e.directions.begin());
@@ -112,16 +72,6 @@ double marginal(const Analysis& a, std::size_t index) {
     if (one.index == index) return one.probability;
   }
   return 0.0;
-}
-
-bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
-  for (const CauseClass& members : a.judgement.classes) {
-    const auto in = [&](const CauseId& c) {
-      return std::find(members.begin(), members.end(), c) != members.end();
-    };
-    if (in(x)) return in(y);
-  }
-  return x == y;
 }
 
 void find_rival(const Analysis& a, int column, Cause& cause) {
@@ -272,8 +222,7 @@ std::vector<Bound> bounds(const Session& session,
     if (std::find(set.begin(), set.end(), column) == set.end()) set.push_back(column);
     const Estimate fitted = estimate_with(session, a, set);
     const Eigen::Index at = position_of(fitted, column);
-    const double s = fitted.coefficient_sigma(at) > 0.0 ? fitted.coefficient_sigma(at)
-                                                        : std::sqrt(fitted.noise_square) / left;
+    const double s = fitted.coefficient_sigma(at);
     const double most = std::max(std::abs(fitted.coefficient(at) + kQuantile95 * s),
                                  std::abs(fitted.coefficient(at) - kQuantile95 * s));
     const double upper = std::abs(size_at(direction(a, column), most));
@@ -353,112 +302,6 @@ std::vector<Separation> separations(const Analysis& a) {
     }
   }
   return result;
-}
-
-std::vector<PointPicture> pictures(const Session& session, const Analysis& a) {
-  const Space& space = space_of(a);
-  const Estimate before = estimate(session, a.rows, space, {}, -1);
-  const auto chain_before = chain_residuals(a.rows, before.left);
-  const auto chain_after = chain_residuals(a.rows, a.estimate.left);
-  std::vector<int> best = a.judgement.directions;
-  std::vector<int> rival;
-  if (best.empty() && !a.judgement.marginal.empty()) {
-    best = {best_direction(a, a.judgement.classes[a.judgement.marginal.front().index].front())};
-  }
-  for (const ClassProbability& one : a.judgement.marginal) {
-    const int column = best_direction(a, a.judgement.classes[one.index].front());
-    const bool new_one = std::none_of(best.begin(), best.end(), [&](int k) {
-      return same_class(a, direction(a, k).cause, direction(a, column).cause);
-    });
-    if (column >= 0 && new_one) {
-      rival = {column};
-      break;
-    }
-  }
-  const auto explained = [&](const std::vector<int>& set) {
-    const Estimate fitted = estimate(session, a.rows, space, set, -1);
-    return chain_residuals(a.rows, Eigen::VectorXd(before.left - fitted.left));
-  };
-  const auto by_best = explained(best);
-  const auto by_rival = explained(rival);
-  std::vector<PointPicture> result;
-  for (std::size_t i = 0; i < session.points.size(); ++i) {
-    const PointState& state = a.rows.points[i];
-    PointPicture p;
-    p.index = session.points[i].index;
-    p.mark = session.points[i].mark;
-    if (session.ordered) p.order = session.points[i].order;
-    p.bad = space.bad[i];
-    p.chain_before_mm = chain_before[i];
-    p.chain_after_mm = chain_after[i];
-    p.before_mm = tool_shift(state, chain_before[i]);
-    p.after_mm = tool_shift(state, chain_after[i]);
-    const Eigen::Matrix2d inverse = state.by_mark.inverse();
-    const Eigen::Matrix2d covariance =
-        inverse * inverse.transpose() * std::pow(session.noise.length_mm, 2) +
-        Eigen::Matrix2d::Identity() * std::pow(session.noise.position_mm, 2);
-    p.noise_sigma_mm = covariance.diagonal().cwiseSqrt();
-    p.best_mm = by_best[i];
-    p.rival_mm = by_rival[i];
-    p.lengths = session.points[i].lengths;
-    const model::Pose& pose = state.reading.pose;
-    p.angle_left_rad = pose.chains.left.angle_rad;
-    p.angle_right_rad = pose.chains.right.angle_rad;
-    p.tension_left_n = pose.chains.left.tension_at_sprocket_n;
-    p.tension_right_n = pose.chains.right.tension_at_sprocket_n;
-    if (session.ordered) {
-      const auto direction_of = [&](double now, double then) { return now < then ? -1 : 1; };
-      const auto& last = i > 0 ? a.rows.points[i - 1].reading.pose.lengths : pose.lengths;
-      p.direction_left = i == 0 ? 1 : direction_of(pose.lengths.left_mm, last.left_mm);
-      p.direction_right = i == 0 ? 1 : direction_of(pose.lengths.right_mm, last.right_mm);
-    }
-    result.push_back(std::move(p));
-  }
-  std::sort(result.begin(), result.end(), [](const PointPicture& x, const PointPicture& y) {
-    return x.index < y.index;
-  });
-  return result;
-}
-
-void extend(const Session& session, const Analysis& a, bool accept_class, Diagnosis& diagnosis) {
-  const bool pitch_read =
-      std::any_of(session.readings.begin(), session.readings.end(), [](const ExtraReading& r) {
-        return r.what == "link_pitch_mm";
-      });
-  // Of a set the most probable goes in: on these points its rivals would do the same.
-  std::vector<Cause> used = diagnosis.causes;
-  if (diagnosis.verdict == Verdict::named_set) used.resize(1);
-  // An extension that does not help on points it has not seen is not made.
-  const bool worse =
-      diagnosis.gain && diagnosis.gain->extended.rms_mm >= diagnosis.gain->calibrated.rms_mm;
-  std::vector<model::AppliedEffect> into_machine;
-  std::vector<int> taken;
-  for (const Cause& cause : used) {
-    const int column = best_direction(a, cause.cause);
-    // Links miscounted or skipped are none of the machine's: readings are mended whatever it gains.
-    if (worse && !direction(a, column).fixed) continue;
-    model::AppliedEffect applied{std::string(cause.cause.effect->id),
-                                 std::string(model::effects::name(cause.cause.side)),
-                                 {}};
-    for (const ParameterEstimate& p : cause.parameters) applied.parameters[p.parameter] = p.value;
-    const bool paper_too =
-        std::any_of(cause.same_as.begin(), cause.same_as.end(), [](const auto& s) {
-          return s.cause.effect->station == model::effects::Station::paper;
-        });
-    // Chain or paper: neither is touched before somebody has read the chain.
-    if (paper_too && !pitch_read && !accept_class) continue;
-    const bool in_machine = !model::effects::depends_on_visit(*cause.cause.effect) &&
-                            cause.cause.effect->station != model::effects::Station::paper;
-    (in_machine ? into_machine : diagnosis.data_corrections).push_back(std::move(applied));
-    taken.push_back(column);
-  }
-  // The settings that belong to what is taken, and to nothing else.
-  const Estimate fitted = estimate_with(session, a, taken);
-  const Eigen::VectorXd values = a.rows.setting + fitted.setting_change;
-  diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine;
-  for (model::AppliedEffect& applied : into_machine) {
-    diagnosis.extended_machine.effects.push_back(std::move(applied));
-  }
 }
 
 }  // namespace chaintrue::grid::diagnosis

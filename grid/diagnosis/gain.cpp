@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "grid/diagnosis/expected_gain.hpp"
 #include "grid/map/spatial_blocks.hpp"
 #include "grid/synthetic/random.hpp"
 
@@ -17,10 +18,19 @@ namespace {
 
 constexpr double kBorderShare = 0.9;  // of the half width of the points: beyond is the border
 
-/// Tool errors of the held-out points of one fold, for every way of modelling.
+/// Tool errors for every way of modelling.
+struct Errors {
+  std::vector<Eigen::Vector2d> calibrated, surface_only;
+  /// With the causes that the fold itself names.
+  std::vector<Eigen::Vector2d> extended, extended_and_surface;
+  /// With the causes that all points name, their sizes fitted without the fold.
+  std::vector<Eigen::Vector2d> held_fast, held_fast_and_surface;
+};
+
+/// Held-out points of one fold.
 struct Fold {
   std::vector<std::size_t> points;
-  std::vector<Eigen::Vector2d> calibrated, extended, extended_and_surface, surface_only;
+  Errors errors;
   std::vector<CauseClass> named;
 };
 
@@ -46,17 +56,16 @@ class Folds {
       if (!bad_in_all(i)) fold.points.push_back(i);
     }
     for (const std::size_t index : judged.listed) fold.named.push_back(judged.classes[index]);
-    const Estimate plain = estimate(session_, a_.rows, space, {}, -1);
-    const Estimate caused = estimate(session_, a_.rows, space, judged.directions, -1);
-    const int pattern = preferred_pattern(contest, judged.directions);
-    const int alone = preferred_pattern(contest, {});
-    fold.calibrated = errors(plain.left, fold.points);
-    fold.extended = errors(caused.left, fold.points);
-    fold.extended_and_surface =
-        errors(estimate(session_, a_.rows, space, judged.directions, pattern).left_beside_pattern,
-               fold.points);
-    fold.surface_only =
-        errors(estimate(session_, a_.rows, space, {}, alone).left_beside_pattern, fold.points);
+    const Space plain =
+        without_slips(session_, a_.rows, space, a_.judgement.directions, options_.steps);
+    fold.errors.calibrated = errors(fit(plain, {}).left, fold.points);
+    fold.errors.surface_only = beside_pattern(contest, judged.space, {}, fold.points);
+    fold.errors.extended = errors(fit(space, judged.directions).left, fold.points);
+    fold.errors.extended_and_surface =
+        beside_pattern(contest, judged.space, judged.directions, fold.points);
+    const std::vector<int>& all = a_.judgement.directions;
+    fold.errors.held_fast = errors(fit(space, all).left, fold.points);
+    fold.errors.held_fast_and_surface = beside_pattern(contest, judged.space, all, fold.points);
     return fold;
   }
 
@@ -71,11 +80,28 @@ class Folds {
     return false;
   }
 
+  [[nodiscard]] Estimate fit(const Space& space,
+                             const std::vector<int>& directions,
+                             int pattern = -1) const {
+    return estimate(session_, a_.rows, space, directions, pattern);
+  }
+
+  [[nodiscard]] std::vector<Eigen::Vector2d> beside_pattern(
+      const Contest& contest,
+      std::size_t space,
+      const std::vector<int>& directions,
+      const std::vector<std::size_t>& points) const {
+    const int pattern = preferred_pattern(contest, space, directions);
+    return errors(fit(contest.spaces[space], directions, pattern).left_beside_pattern, points);
+  }
+
   /// The pattern that the points prefer beside these causes; none where they would rather have
   /// none.
-  static int preferred_pattern(const Contest& contest, const std::vector<int>& directions) {
+  static int preferred_pattern(const Contest& contest,
+                               std::size_t space,
+                               const std::vector<int>& directions) {
     for (const Model& model : contest.models) {
-      if (model.directions == directions) return model.pattern;
+      if (model.directions == directions && model.space == space) return model.pattern;
     }
     return -1;
   }
@@ -160,20 +186,6 @@ double noise_floor(const Session& session,
   return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(points.size()));
 }
 
-/// Mean square of what the named causes move the tool by, each model calibrated on all points. The
-/// causes' estimate is the mean of what the truth may be, so this is the expected drop.
-double drop_by_naming(const Session& session, const Analysis& a) {
-  const Space& space = a.contest.spaces[a.judgement.space];
-  const Estimate plain = estimate(session, a.rows, space, {}, -1);
-  const Estimate named = estimate(session, a.rows, space, a.judgement.directions, -1);
-  const auto moved = chain_residuals(a.rows, Eigen::VectorXd(plain.left - named.left));
-  double sum = 0.0;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    sum += tool_shift(a.rows.points[i], moved[i]).squaredNorm();
-  }
-  return sum / static_cast<double>(moved.size());
-}
-
 /// Tool errors with the settings as stated, and with the sheet alone moved to where it fits.
 struct Delivered {
   std::vector<Eigen::Vector2d> as_stated, placed;
@@ -206,6 +218,39 @@ Delivered delivered(const Session& session,
     if (sheet > 0) result.placed.push_back(tool_shift(stated->points[i], chain_placed[i]));
   }
   return result;
+}
+
+void append(const Errors& fold, Errors& all) {
+  const auto join = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  join(all.calibrated, fold.calibrated);
+  join(all.surface_only, fold.surface_only);
+  join(all.extended, fold.extended);
+  join(all.extended_and_surface, fold.extended_and_surface);
+  join(all.held_fast, fold.held_fast);
+  join(all.held_fast_and_surface, fold.held_fast_and_surface);
+}
+
+/// Which errors speak of the extension: an extension that does not help on points it has not seen
+/// is not made.
+struct Extension {
+  const std::vector<Eigen::Vector2d>* machine = nullptr;
+  const std::vector<Eigen::Vector2d>* and_surface = nullptr;
+  bool helps = false;
+  bool naming_repeated = true;
+};
+
+Extension extension_of(const Analysis& a, const Errors& errors) {
+  if (!a.judgement.listed.empty() && rms(errors.extended) < rms(errors.calibrated)) {
+    return {&errors.extended, &errors.extended_and_surface, true, true};
+  }
+  // A block without which these points leave two names, the wrong one first, says little against
+  // the name that all points give.
+  if (!a.judgement.listed.empty() && rms(errors.held_fast) < rms(errors.calibrated)) {
+    return {&errors.held_fast, &errors.held_fast_and_surface, true, false};
+  }
+  return {&errors.calibrated, &errors.surface_only, false, true};
 }
 
 }  // namespace
@@ -258,38 +303,39 @@ std::optional<Gain> measure_gain(const Session& session,
   Gain gain;
   std::vector<std::size_t> points;
   std::vector<std::size_t> number;
-  Fold all;
+  Errors all;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Fold fold = folds.hold_out(blocks[b]);
     gain.folds += 1;
     gain.folds_agree += names_agree(fold, a) ? 1 : 0;
     points.insert(points.end(), fold.points.begin(), fold.points.end());
     number.insert(number.end(), fold.points.size(), b);
-    const auto append = [](auto& to, const auto& from) {
-      to.insert(to.end(), from.begin(), from.end());
-    };
-    append(all.calibrated, fold.calibrated);
-    append(all.extended, fold.extended);
-    append(all.extended_and_surface, fold.extended_and_surface);
-    append(all.surface_only, fold.surface_only);
+    append(fold.errors, all);
   }
   if (points.empty()) return std::nullopt;
   const Delivered before = delivered(session, a, points);
-  gain.scheme = fmt::format(
-      "{} blocks of the bed, each held out in turn, the naming repeated without it", blocks.size());
   gain.as_delivered = summarise(before.as_stated, number, options.seed);
   if (!before.placed.empty()) gain.placed = summarise(before.placed, number, options.seed);
   gain.calibrated = summarise(all.calibrated, number, options.seed);
-  // What would not help on points it has not seen is not made.
-  const bool helps = rms(all.extended) < rms(all.calibrated);
-  gain.extended = summarise(helps ? all.extended : all.calibrated, number, options.seed);
-  gain.extended_and_surface = summarise(all.extended_and_surface, number, options.seed);
   gain.surface_only = summarise(all.surface_only, number, options.seed);
+  const Extension extension = extension_of(a, all);
+  gain.scheme = fmt::format("{} blocks of the bed, each held out in turn, {}",
+                            blocks.size(),
+                            extension.naming_repeated
+                                ? "the naming repeated without it"
+                                : "the causes that all points name fitted without it, since not "
+                                  "every block left out leaves the same name");
+  gain.extended = summarise(*extension.machine, number, options.seed);
+  gain.extended_and_surface = summarise(*extension.and_surface, number, options.seed);
   gain.noise_floor_mm = noise_floor(session, a, points);
-  gain.drop_mm2 = helps ? drop_by_naming(session, a) : 0.0;
+  if (extension.helps) {
+    const ExpectedGain expected = expected_gain(session, a, options.steps);
+    gain.drop_mm2 = expected.drop_mm2;
+    gain.drop_share = expected.share;
+  }
   const auto edge = border(session);
   if (session.points.size() - edge.size() >= kFewestPoints) {
-    const Fold outer = folds.hold_out(edge);
+    const Errors outer = folds.hold_out(edge).errors;
     gain.border = {rms(outer.calibrated),
                    rms(outer.extended),
                    rms(outer.extended_and_surface),

@@ -42,6 +42,25 @@ bool on_paper(const CauseId& cause) {
   return cause.effect->station == model::effects::Station::paper;
 }
 
+/// A cause's signature with the settings free, and with what was stated of them.
+struct Representative {
+  Eigen::VectorXd free;
+  Eigen::VectorXd stated;
+  bool fixed = false;
+};
+
+double cosine(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const double lengths = a.norm() * b.norm();
+  return lengths > 0.0 ? std::abs(a.dot(b)) / lengths : 0.0;
+}
+
+bool one_class(const Representative& a, const Representative& b) {
+  if (cosine(a.free, b.free) < kOneClass) return false;
+  // A whole link is no small change: where it would ask a chain zero for what nobody stated, it is
+  // told apart.
+  return !(a.fixed || b.fixed) || cosine(a.stated, b.stated) >= kOneClass;
+}
+
 using Key = std::vector<std::size_t>;  ///< classes that act, ascending
 
 struct Grouped {
@@ -265,21 +284,23 @@ std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
   const Eigen::MatrixXd basis =
       qr.householderQ() * Eigen::MatrixXd::Identity(settings.rows(), settings.cols());
   std::vector<CauseClass> classes;
-  std::vector<Eigen::VectorXd> representative;
-  for (const auto& [cause, direction] : leading_directions(rows, space)) {
-    Eigen::VectorXd own = rows.g(space.kept, direction);
-    const double whole = own.norm();
-    own -= basis * (basis.transpose() * own);
+  std::vector<Representative> first;
+  for (const auto& [cause, column] : leading_directions(rows, space)) {
+    Representative own{rows.g(space.kept, column),
+                       space.g.col(column),
+                       rows.directions[static_cast<std::size_t>(column)].fixed};
+    const double whole = own.free.norm();
+    own.free -= basis * (basis.transpose() * own.free);
     // Of a signature that the settings take whole, only rounding would be compared.
-    const bool absorbed = own.norm() < kAbsorbed * whole;
-    own.normalize();
+    const bool absorbed = own.free.norm() < kAbsorbed * whole;
     std::size_t home = classes.size();
     for (std::size_t k = 0; k < classes.size() && home == classes.size() && !absorbed; ++k) {
-      if (std::abs(own.dot(representative[k])) >= kOneClass) home = k;
+      if (one_class(own, first[k])) home = k;
     }
     if (home == classes.size()) {
       classes.emplace_back();
-      representative.push_back(absorbed ? Eigen::VectorXd::Zero(own.size()) : own);
+      if (absorbed) own.free.setZero();
+      first.push_back(std::move(own));
     }
     classes[home].push_back(cause);
   }

@@ -12,7 +12,8 @@
 ///   without it, whitened
 ///
 /// A direction is a secant: exact at the size at which it was taken, and proportional to
-/// size^power. Coefficient b of a direction is (size / that size)^power.
+/// size^power. Coefficient b of a direction is (size / that size)^power; a power of about one goes
+/// on through zero as a straight line.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +29,7 @@ namespace chaintrue::grid::diagnosis {
 struct Direction {
   CauseId cause;
   std::vector<double> values;  ///< sizes and places, in the effect's order
-  int power = 1;
+  double power = 1.0;          ///< of a refined one: as it is about its size
   /// The size is a whole number: the coefficient is 1 and `values` hold it.
   bool fixed = false;
   /// It acts at one visit alone.
@@ -38,7 +39,9 @@ struct Direction {
   /// What the coefficient may be.
   double lowest = 0.0;
   double highest = 0.0;
-  /// Share of this side, place and whole number within the effect.
+  /// Of a cause with whole numbers: visits at which it may be.
+  double visits = 0.0;
+  /// Share of this side, place and whole number within the effect (whole numbers: link_priors.hpp).
   double log_prior = 0.0;
 };
 
@@ -86,6 +89,12 @@ void add_directions(const Session& session,
                     const std::vector<CauseId>& causes,
                     const std::vector<Refinement>& refinements,
                     Rows& rows);
+
+/// Directions anew about another state, at their values. False where such a machine cannot be.
+[[nodiscard]] bool renew_directions(const Session& session,
+                                    const State& state,
+                                    const std::vector<Direction>& directions,
+                                    Rows& rows);
 
 /// The whitened column of an effect of these values; empty where such a machine cannot be.
 [[nodiscard]] std::optional<Eigen::VectorXd> signature(const Session& session,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/files/diagnosis_keys.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -19,11 +20,8 @@ using diagnosis::Cause;
 using diagnosis::CauseId;
 using diagnosis::Hypothesis;
 using diagnosis::LeftOver;
-using diagnosis::MeasurementKind;
-using diagnosis::NextMeasurement;
 using diagnosis::NotTestable;
 using diagnosis::ParameterEstimate;
-using diagnosis::PointPicture;
 using diagnosis::SameCause;
 using diagnosis::Separation;
 using diagnosis::Term;
@@ -31,39 +29,16 @@ using model::effects::Effect;
 using model::effects::EffectSide;
 
 constexpr Range kAny{"", -1e12, 1e12};
-constexpr Range kMm{"mm", -1e6, 1e6};
-constexpr Range kRad{"rad", -10.0, 10.0};
-constexpr Range kNewton{"N", -1e6, 1e6};
 constexpr Range kPositive{"", 0.0, 1e12};
 constexpr Range kShare{"", 0.0, 1.0};
 
 constexpr EffectSide kSides[] = {
     EffectSide::left, EffectSide::right, EffectSide::both, EffectSide::x, EffectSide::y};
 
-Value<std::string> side_word() { return one_of({"left", "right", "both", "x", "y"}); }
-
 Value<const Effect*> effect_word() {
   std::vector<std::pair<std::string, const Effect*>> names;
   for (const Effect* effect : model::effects::catalogue()) names.emplace_back(effect->id, effect);
   return choice<const Effect*>(std::move(names));
-}
-
-/// An empty text is null in the file.
-template <class T>
-void nullable_text(Record<T>& record,
-                   const std::string& key,
-                   std::string T::*member,
-                   const Value<std::string>& value) {
-  record.custom(
-      key,
-      false,
-      value.expected,
-      [member, value](const Cursor& at, T& object) {
-        if (auto word = value.read(at)) object.*member = std::move(*word);
-      },
-      [member](const T& object) {
-        return std::optional<Json>((object.*member).empty() ? Json(nullptr) : Json(object.*member));
-      });
 }
 
 /// The keys of an effect and its side; `id` takes the object to its CauseId.
@@ -190,95 +165,6 @@ const Record<Rival>& rival_record() {
   return record;
 }
 
-/// Two numbers, as [first, second].
-template <class T>
-void pair_key(Record<T>& record,
-              const std::string& key,
-              const Range& range,
-              const std::function<Eigen::Vector2d(const T&)>& get,
-              const std::function<void(T&, const Eigen::Vector2d&)>& set) {
-  const Value<std::vector<double>> value = list(number(range), 2);
-  const std::string expected =
-      fmt::format("a pair of numbers{}{}", range.unit.empty() ? "" : " in ", range.unit);
-  record.custom(
-      key,
-      true,
-      expected,
-      [value, set, expected](const Cursor& at, T& object) {
-        const auto read = value.read(at);
-        if (read && read->size() == 2) {
-          set(object, Eigen::Vector2d((*read)[0], (*read)[1]));
-        } else if (read && read->size() > 2) {
-          at.expect(expected);
-        }
-      },
-      [get](const T& object) {
-        const Eigen::Vector2d pair = get(object);
-        return std::optional<Json>(Json::array({pair[0] + 0.0, pair[1] + 0.0}));
-      });
-}
-
-void vector_key(Record<PointPicture>& record,
-                const std::string& key,
-                Eigen::Vector2d PointPicture::*member) {
-  pair_key<PointPicture>(
-      record,
-      key,
-      kMm,
-      [member](const PointPicture& point) { return point.*member; },
-      [member](PointPicture& point, const Eigen::Vector2d& pair) { point.*member = pair; });
-}
-
-/// A chain's number each, as [left, right].
-void chains_key(Record<PointPicture>& record,
-                const std::string& key,
-                const Range& range,
-                double PointPicture::*left,
-                double PointPicture::*right) {
-  pair_key<PointPicture>(
-      record,
-      key,
-      range,
-      [left, right](const PointPicture& point) {
-        return Eigen::Vector2d(point.*left, point.*right);
-      },
-      [left, right](PointPicture& point, const Eigen::Vector2d& pair) {
-        point.*left = pair[0];
-        point.*right = pair[1];
-      });
-}
-
-Value<std::size_t> index_value() {
-  constexpr int kMostPoints = 1000000;
-  const Value<int> whole = integer(0, kMostPoints);
-  return {[whole](const Cursor& at) -> std::optional<std::size_t> {
-            const auto value = whole.read(at);
-            return value ? std::optional(static_cast<std::size_t>(*value)) : std::nullopt;
-          },
-          [](const std::size_t& value) { return Json(value); },
-          whole.expected};
-}
-
-template <class T>
-void place_keys(Record<T>& record,
-                const std::function<model::BedPoint&(T&)>& place,
-                const std::function<const model::BedPoint&(const T&)>& const_place) {
-  const auto coordinate = [&](const char* key, double model::BedPoint::*member) {
-    record.custom(
-        key,
-        true,
-        "a number in mm",
-        [place, member](const Cursor& at, T& object) {
-          if (const auto value = at.number(kMm)) place(object).*member = *value;
-        },
-        [const_place, member](const T& object) {
-          return std::optional<Json>(const_place(object).*member);
-        });
-  };
-  coordinate("x_mm", &model::BedPoint::x_mm);
-  coordinate("y_mm", &model::BedPoint::y_mm);
-}
-
 Value<model::Setting> setting_word() {
   std::vector<std::pair<std::string, model::Setting>> names;
   for (auto setting : model::kMachineSettings) names.emplace_back(model::name(setting), setting);
@@ -372,89 +258,6 @@ const Record<CalibratedSetting>& calibrated_setting_record() {
           .required("calibrated", &CalibratedSetting::calibrated, number(kAny))
           .required("sigma", &CalibratedSetting::sigma, number(kPositive))
           .required("off", &CalibratedSetting::off, boolean());
-  return record;
-}
-
-const Record<NextMeasurement>& next_measurement_record() {
-  static const auto record = [] {
-    Record<NextMeasurement> next("a next measurement");
-    next.required("kind",
-                  &NextMeasurement::kind,
-                  choice<MeasurementKind>({{"point", MeasurementKind::point},
-                                           {"revisit", MeasurementKind::revisit},
-                                           {"reading", MeasurementKind::reading}}));
-    next.required("what", &NextMeasurement::what, text());
-    nullable_text(next, "side", &NextMeasurement::side, side_word());
-    const auto coordinate = [&next](const char* key, double model::BedPoint::*member) {
-      next.custom(
-          key,
-          false,
-          "a number in mm",
-          [member](const Cursor& at, NextMeasurement& object) {
-            const auto value = at.number(kMm);
-            if (!value) return;
-            if (!object.mark) object.mark.emplace();
-            (*object.mark).*member = *value;
-          },
-          [member](const NextMeasurement& object) {
-            return std::optional<Json>(object.mark ? Json((*object.mark).*member) : Json(nullptr));
-          });
-    };
-    coordinate("x_mm", &model::BedPoint::x_mm);
-    coordinate("y_mm", &model::BedPoint::y_mm);
-    next.required("sigma", &NextMeasurement::sigma, number(kPositive))
-        .required("raises_probability_to", &NextMeasurement::raises_probability_to, number(kShare))
-        .check([](const Cursor& at, NextMeasurement& object) {
-          const bool is_place = object.kind != MeasurementKind::reading;
-          for (const char* key : {"x_mm", "y_mm"}) {
-            const Cursor value = at.child(key);
-            if (is_place && at.clean() && value.json().is_null()) value.missing("a number in mm");
-          }
-        });
-    return next;
-  }();
-  return record;
-}
-
-const Record<PointPicture>& point_picture_record() {
-  static const auto record = [] {
-    Record<PointPicture> point("a point");
-    point.required("index", &PointPicture::index, index_value());
-    place_keys<PointPicture>(
-        point,
-        [](PointPicture& object) -> model::BedPoint& { return object.mark; },
-        [](const PointPicture& object) -> const model::BedPoint& { return object.mark; });
-    constexpr int kMostVisits = 1000000000;
-    point.optional("order", &PointPicture::order, integer(-kMostVisits, kMostVisits))
-        .required("bad", &PointPicture::bad, boolean());
-    vector_key(point, "before_mm", &PointPicture::before_mm);
-    vector_key(point, "after_mm", &PointPicture::after_mm);
-    vector_key(point, "noise_sigma_mm", &PointPicture::noise_sigma_mm);
-    vector_key(point, "chain_before_mm", &PointPicture::chain_before_mm);
-    vector_key(point, "chain_after_mm", &PointPicture::chain_after_mm);
-    vector_key(point, "best_mm", &PointPicture::best_mm);
-    vector_key(point, "rival_mm", &PointPicture::rival_mm);
-    pair_key<PointPicture>(
-        point,
-        "lengths_mm",
-        kMm,
-        [](const PointPicture& object) {
-          return Eigen::Vector2d(object.lengths.left_mm, object.lengths.right_mm);
-        },
-        [](PointPicture& object, const Eigen::Vector2d& pair) {
-          object.lengths = {pair[0], pair[1]};
-        });
-    chains_key(
-        point, "angles_rad", kRad, &PointPicture::angle_left_rad, &PointPicture::angle_right_rad);
-    chains_key(point,
-               "tensions_n",
-               kNewton,
-               &PointPicture::tension_left_n,
-               &PointPicture::tension_right_n);
-    point.required("direction_left", &PointPicture::direction_left, integer(-1, 1))
-        .required("direction_right", &PointPicture::direction_right, integer(-1, 1));
-    return point;
-  }();
   return record;
 }
 

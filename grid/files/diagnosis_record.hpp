@@ -14,10 +14,11 @@ namespace chaintrue::grid::files {
 [[nodiscard]] const Record<diagnosis::NotTestable>& not_testable_record();
 [[nodiscard]] const Record<diagnosis::Bound>& bound_record();
 [[nodiscard]] const Record<diagnosis::CalibratedSetting>& calibrated_setting_record();
-[[nodiscard]] const Record<diagnosis::NextMeasurement>& next_measurement_record();
-[[nodiscard]] const Record<diagnosis::PointPicture>& point_picture_record();
 [[nodiscard]] const Record<diagnosis::Term>& term_record();
 [[nodiscard]] const Record<diagnosis::Separation>& separation_record();
+/// Places on the bed; diagnosis_point_record.cpp.
+[[nodiscard]] const Record<diagnosis::NextMeasurement>& next_measurement_record();
+[[nodiscard]] const Record<diagnosis::PointPicture>& point_picture_record();
 /// Both speak of held-out errors row by row; diagnosis_gain_record.cpp.
 [[nodiscard]] const Record<diagnosis::Gain>& gain_record();
 [[nodiscard]] const Record<diagnosis::Transfer>& transfer_record();

@@ -2,6 +2,8 @@
 /// \file
 /// The pictures of a diagnosis' page. Residuals are measured less predicted; vermilion is before,
 /// blue is with the causes named.
+/// The places on the bed are drawn in diagnosis_charts.cpp, what the residuals follow in
+/// diagnosis_scatter_charts.cpp, bars and the matrix in diagnosis_bar_charts.cpp.
 #pragma once
 
 #include <vector>

@@ -98,6 +98,8 @@ std::string hypothesis_title(const Hypothesis& hypothesis) {
   return title(hypothesis.effect, hypothesis.side);
 }
 
+std::string point_name(std::size_t index) { return fmt::format("point {}", index + 1); }
+
 std::string size_in_words(std::string_view parameter, double value, double sigma) {
   return grid::diagnosis::in_workshop_units({std::string(parameter), value, sigma});
 }

@@ -18,6 +18,9 @@ namespace chaintrue::cli {
 /// Also for nothing, unknown, noise and bad_points.
 [[nodiscard]] std::string hypothesis_title(const grid::diagnosis::Hypothesis& hypothesis);
 
+/// "point 17": counted from one, as people count.
+[[nodiscard]] std::string point_name(std::size_t index);
+
 /// A parameter in a workshop unit: `elongation` 0.0012 is "0.12 % longer links"; without a sigma
 /// where it is 0.
 [[nodiscard]] std::string size_in_words(std::string_view parameter, double value, double sigma);

@@ -77,4 +77,28 @@ std::vector<Visit> fresh_session(const HiddenMachine& machine, double beside_mm,
   return fresh;
 }
 
+std::vector<Visit> area_session(const HiddenMachine& machine, Dice& dice) {
+  constexpr int kColumns = 14;
+  constexpr int kRows = 8;
+  Vec2 low = machine.visits().front().place;
+  Vec2 high = low;
+  for (const Visit& v : machine.visits()) {
+    low = {std::min(low.x, v.place.x), std::min(low.y, v.place.y)};
+    high = {std::max(high.x, v.place.x), std::max(high.y, v.place.y)};
+  }
+  const TrueMachine with = altered(machine.truth(), machine.hidden());
+  std::vector<Visit> fresh;
+  for (int j = 0; j < kRows; ++j) {
+    for (int i = 0; i < kColumns; ++i) {
+      const double x = (i + dice.uniform(0.0, 1.0)) / kColumns;
+      const double y = (j + dice.uniform(0.0, 1.0)) / kRows;
+      Visit v = machine.visits().front();
+      v.place = {low.x + x * (high.x - low.x), low.y + y * (high.y - low.y)};
+      v.number = j * kColumns + i;
+      if (come_to_rest(with, v.place)) fresh.push_back(v);
+    }
+  }
+  return fresh;
+}
+
 }  // namespace chaintrue::generator

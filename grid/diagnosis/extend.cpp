@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/leading.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+void extend(const Session& session, const Analysis& a, bool accept_class, Diagnosis& diagnosis) {
+  const bool pitch_read =
+      std::any_of(session.readings.begin(), session.readings.end(), [](const ExtraReading& r) {
+        return r.what == "link_pitch_mm";
+      });
+  // Of a set the most probable goes in: on these points its rivals would do the same.
+  std::vector<Cause> used = diagnosis.causes;
+  if (diagnosis.verdict == Verdict::named_set) used.resize(1);
+  // An extension that does not help on points it has not seen is not made.
+  const bool worse =
+      diagnosis.gain && diagnosis.gain->extended.rms_mm >= diagnosis.gain->calibrated.rms_mm;
+  std::vector<model::AppliedEffect> into_machine;
+  std::vector<int> taken;
+  for (const Cause& cause : used) {
+    const int column = best_direction(a, cause.cause);
+    // Links miscounted or skipped are none of the machine's: readings are mended whatever it gains.
+    if (worse && !direction(a, column).fixed) continue;
+    model::AppliedEffect applied{std::string(cause.cause.effect->id),
+                                 std::string(model::effects::name(cause.cause.side)),
+                                 {}};
+    for (const ParameterEstimate& p : cause.parameters) applied.parameters[p.parameter] = p.value;
+    const bool paper_too =
+        std::any_of(cause.same_as.begin(), cause.same_as.end(), [](const auto& s) {
+          return s.cause.effect->station == model::effects::Station::paper;
+        });
+    // Chain or paper: neither is touched before somebody has read the chain.
+    if (paper_too && !pitch_read && !accept_class) continue;
+    const bool in_machine = !model::effects::depends_on_visit(*cause.cause.effect) &&
+                            cause.cause.effect->station != model::effects::Station::paper;
+    (in_machine ? into_machine : diagnosis.data_corrections).push_back(std::move(applied));
+    taken.push_back(column);
+  }
+  // The settings that belong to what is taken, and to nothing else.
+  const Estimate fitted = taken.empty() ? estimate(session, a.rows, space_of(a), {}, -1)
+                                        : estimate_with(session, a, taken);
+  const Eigen::VectorXd values = a.rows.setting + fitted.setting_change;
+  diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine;
+  for (model::AppliedEffect& applied : into_machine) {
+    diagnosis.extended_machine.effects.push_back(std::move(applied));
+  }
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/leading.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chaintrue::grid::diagnosis {
+
+const Direction& direction(const Analysis& a, int k) {
+  return a.rows.directions[static_cast<std::size_t>(k)];
+}
+
+const Space& space_of(const Analysis& a) { return a.contest.spaces[a.judgement.space]; }
+
+int best_direction(const Analysis& a, const CauseId& cause) {
+  for (const int k : a.judgement.directions) {
+    if (direction(a, k).cause == cause) return k;
+  }
+  for (const Model& model : a.contest.models) {
+    if (model.directions.size() != 1) continue;
+    if (direction(a, model.directions.front()).cause == cause) return model.directions.front();
+  }
+  const Space& space = space_of(a);
+  int best = -1;
+  double most = -1.0;
+  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
+    if (!(a.rows.directions[k].cause == cause)) continue;
+    const auto g = space.g.col(static_cast<Eigen::Index>(k));
+    const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(space.e)) / g.norm() : 0.0;
+    if (score > most) {
+      most = score;
+      best = static_cast<int>(k);
+    }
+  }
+  return best;
+}
+
+bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
+  for (const CauseClass& members : a.judgement.classes) {
+    const auto in = [&](const CauseId& c) {
+      return std::find(members.begin(), members.end(), c) != members.end();
+    };
+    if (in(x)) return in(y);
+  }
+  return x == y;
+}
+
+Estimate estimate_with(const Session& session, const Analysis& a, std::vector<int> directions) {
+  std::sort(directions.begin(), directions.end());
+  return estimate(session,
+                  a.rows,
+                  space_of(a),
+                  directions,
+                  a.judgement.pattern_left ? a.judgement.best_pattern : -1);
+}
+
+}  // namespace chaintrue::grid::diagnosis

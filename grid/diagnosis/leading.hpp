@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What the leading explanation of an analysis is made of: its columns, and estimates with them.
+#pragma once
+
+#include <vector>
+
+#include "grid/diagnosis/analysis.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Column k of the analysis' rows.
+[[nodiscard]] const Direction& direction(const Analysis& analysis, int k);
+
+/// The space in which the judgement was made.
+[[nodiscard]] const Space& space_of(const Analysis& analysis);
+
+/// The most probable column of a cause over the models of the contest, or that with its best
+/// score; -1 where the cause has none.
+[[nodiscard]] int best_direction(const Analysis& analysis, const CauseId& cause);
+
+/// Whether no points tell the two apart.
+[[nodiscard]] bool same_class(const Analysis& analysis, const CauseId& x, const CauseId& y);
+
+/// Estimate with these columns, beside the pattern where the judgement holds one.
+[[nodiscard]] Estimate estimate_with(const Session& session,
+                                     const Analysis& analysis,
+                                     std::vector<int> columns);
+
+}  // namespace chaintrue::grid::diagnosis

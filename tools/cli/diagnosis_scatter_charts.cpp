@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the residuals follow: chain length, angle at the sprocket, visits.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+#include "tools/report/bed_chart.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::PointPicture;
+using report::Chart;
+using report::DataTable;
+
+constexpr const char* kPaidOutColor = "#009e73";
+constexpr const char* kTakenInColor = "#cc79a7";
+constexpr const char* kChains[] = {"left", "right"};
+
+/// A number of a point, for one of the chains (0 left, 1 right).
+using OfChain = std::function<double(const PointPicture&, int chain)>;
+
+/// What a scatter plot shows: where a dot stands along x, and to which of two groups it belongs.
+struct Scatter {
+  std::string title;
+  std::string caption;
+  std::string x_title;
+  OfChain x;
+  int chain = 0;
+  bool by_direction = false;
+  /// Of the dots that the first colour bears.
+  Eigen::Vector2d PointPicture::*first = &PointPicture::chain_before_mm;
+};
+
+struct Span {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void take(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  /// With a margin, and never of no width.
+  [[nodiscard]] Span widened(double share, double least) const {
+    const double margin = std::max(share * (high - low), 0.5 * (least - (high - low)));
+    return {low - margin, high + margin};
+  }
+};
+
+/// Means of the good points in stretches of equal width along x.
+DataTable means_of(const Diagnosis& found, const Scatter& scatter, const Span& span) {
+  DataTable curve{"curve", {"x", "y_mm"}, {}};
+  const std::size_t bins = found.points.size() >= 60 ? 10 : 6;
+  std::vector<double> x(bins), y(bins), count(bins);
+  for (const PointPicture& point : found.points) {
+    if (point.bad) continue;
+    const double at = scatter.x(point, scatter.chain);
+    const double share = (at - span.low) / std::max(span.high - span.low, 1e-12);
+    const auto bin = std::min(
+        bins - 1, static_cast<std::size_t>(std::max(0.0, share) * static_cast<double>(bins)));
+    x[bin] += at;
+    y[bin] += point.chain_before_mm[scatter.chain];
+    count[bin] += 1.0;
+  }
+  for (std::size_t i = 0; i < bins; ++i) {
+    if (count[i] > 0.0) curve.rows.push_back({x[i] / count[i], y[i] / count[i]});
+  }
+  return curve;
+}
+
+Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
+  constexpr double kLeastSpanMm = 0.2;
+  Chart chart{
+      .specification = "residual_scatter", .title = scatter.title, .caption = scatter.caption};
+  const bool has_after = !scatter.by_direction && !found.causes.empty();
+  Span along, up;
+  up.take(0.0);
+  for (const PointPicture& point : found.points) {
+    along.take(scatter.x(point, scatter.chain));
+    if (point.bad) continue;
+    // Both chains at one scale, so that the noise of one does not look like the error of the other.
+    for (int chain = 0; chain < 2; ++chain) {
+      up.take((point.*scatter.first)[chain]);
+      if (has_after) up.take(point.chain_after_mm[chain]);
+    }
+  }
+  const Span x_window = along.widened(0.03, 1e-6), y_window = up.widened(0.08, kLeastSpanMm);
+  DataTable points{"points", {"name", "x", "y_mm", "is_first", "is_bad"}, {}};
+  const auto add = [&](const PointPicture& point, double residual_mm, bool is_first) {
+    // Bad points stand at the rim, so that they do not flatten the rest.
+    points.rows.push_back({point_name(point.index),
+                           scatter.x(point, scatter.chain),
+                           std::clamp(residual_mm, y_window.low, y_window.high),
+                           is_first,
+                           point.bad});
+  };
+  for (const PointPicture& point : found.points) {
+    const int direction = scatter.chain == 0 ? point.direction_left : point.direction_right;
+    add(point, (point.*scatter.first)[scatter.chain], !scatter.by_direction || direction > 0);
+    if (has_after) add(point, point.chain_after_mm[scatter.chain], false);
+  }
+  DataTable curve{"curve", {"x", "y_mm"}, {}};
+  if (!scatter.by_direction) curve = means_of(found, scatter, along);
+  chart.data = {std::move(points), std::move(curve)};
+  chart.signals = {
+      {"x_title", scatter.x_title},
+      {"x_min", x_window.low},
+      {"x_max", x_window.high},
+      {"bottom_mm", y_window.low},
+      {"top_mm", y_window.high},
+      {"first_label", std::string(scatter.by_direction ? "paid out to get there" : "calibrated")},
+      {"second_label",
+       std::string(scatter.by_direction ? "taken in"
+                   : has_after          ? "with the cause"
+                                        : "")},
+      {"first_color", std::string(scatter.by_direction ? kPaidOutColor : report::kBeforeColor)},
+      {"second_color", std::string(scatter.by_direction ? kTakenInColor : report::kAfterColor)}};
+  return chart;
+}
+
+double length_mm(const PointPicture& point, int chain) {
+  return chain == 0 ? point.lengths.left_mm : point.lengths.right_mm;
+}
+
+}  // namespace
+
+std::vector<report::ChartRow> length_charts(const Diagnosis& found) {
+  const model::Sprocket& sprocket = found.extended_machine.sprocket;
+  const double turn_mm = sprocket.teeth * sprocket.pitch_mm;
+  std::vector<report::ChartRow> rows;
+  for (int chain = 0; chain < 2; ++chain) {
+    Scatter plain{.title = fmt::format("Against the {} chain's length", kChains[chain]),
+                  .caption = "",
+                  .x_title = "chain length, mm",
+                  .x = length_mm,
+                  .chain = chain};
+    Scatter folded{.title = fmt::format("Folded at one sprocket turn ({:g} mm)", turn_mm),
+                   .caption = "",
+                   .x_title = "mm past a full turn",
+                   .x =
+                       [turn_mm](const PointPicture& point, int side) {
+                         const double length = length_mm(point, side);
+                         return length - turn_mm * std::floor(length / turn_mm);
+                       },
+                   .chain = chain};
+    if (chain == 1) {
+      plain.caption =
+          "A slope is a chain too long or short; a step is a skipped link. The line runs through "
+          "the means of the dots before.";
+      folded.caption = "A wave is a sprocket that runs out of true.";
+    }
+    rows.push_back({{scatter_chart(found, plain), scatter_chart(found, folded)}});
+  }
+  return rows;
+}
+
+report::ChartRow angle_charts(const Diagnosis& found) {
+  report::ChartRow row;
+  for (int chain = 0; chain < 2; ++chain) {
+    row.charts.push_back(scatter_chart(
+        found,
+        {.title = fmt::format("Against the {} chain's angle", kChains[chain]),
+         .caption =
+             chain == 0 ? "A bend at some angle is a chain that touches something below it." : "",
+         .x_title = "degrees below the horizontal at the sprocket",
+         .x =
+             [](const PointPicture& point, int side) {
+               return (side == 0 ? point.angle_left_rad : point.angle_right_rad) * 180.0 /
+                      std::numbers::pi;
+             },
+         .chain = chain}));
+  }
+  return row;
+}
+
+bool has_order(const Diagnosis& found) {
+  return !found.points.empty() &&
+         std::all_of(found.points.begin(), found.points.end(), [](const PointPicture& point) {
+           return point.order.has_value();
+         });
+}
+
+report::ChartRow order_charts(const Diagnosis& found) {
+  // A cause of the visit shows before it is taken out; where there is none, what other causes do
+  // would only hide what may be left.
+  const bool of_the_visit =
+      std::any_of(found.causes.begin(), found.causes.end(), [](const auto& cause) {
+        return model::effects::depends_on_visit(*cause.cause.effect);
+      });
+  const bool shows_rest = !of_the_visit && !found.causes.empty();
+  report::ChartRow row;
+  for (int chain = 0; chain < 2; ++chain) {
+    row.charts.push_back(scatter_chart(
+        found,
+        {.title = fmt::format(
+             "The {} chain, visit by visit{}", kChains[chain], shows_rest ? ": what is left" : ""),
+         .caption = chain == 0 ? "Two layers of colour are friction or play; a slope is drift; a "
+                                 "step is a skipped link."
+                               : "",
+         .x_title = "number of the visit",
+         .x = [](const PointPicture& point, int) { return static_cast<double>(*point.order); },
+         .chain = chain,
+         .by_direction = true,
+         .first = shows_rest ? &PointPicture::chain_after_mm : &PointPicture::chain_before_mm}));
+  }
+  return row;
+}
+
+}  // namespace chaintrue::cli

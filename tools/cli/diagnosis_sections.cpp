@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/diagnosis_sections.hpp"
+
+#include <fmt/format.h>
+
+#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/map_words.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::diagnosis::Cause;
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::Verdict;
+using report::Paragraph;
+using report::Section;
+using report::Table;
+
+std::string cause_and_remedy(const model::effects::Effect& effect) {
+  return typeset(fmt::format("{}. What to do: {}.", effect.cause, effect.remedy));
+}
+
+/// What became of a term, in one word.
+std::string fate_of(const Diagnosis& found, const grid::diagnosis::Term& term) {
+  for (const Cause& cause : found.causes) {
+    if (cause.cause == term.cause)
+      return found.verdict == Verdict::named_set ? "in the set" : "named";
+  }
+  for (const auto& bound : found.bounds) {
+    if (bound.cause == term.cause) return "absent";
+  }
+  return "not named";
+}
+
+}  // namespace
+
+Section causes_section(const Diagnosis& found) {
+  Table table{{{"cause"}, {"size"}, {"probability", true}, {"what it is"}}, {}, ""};
+  for (const Cause& cause : found.causes) {
+    table.rows.push_back(
+        {{cause_title(cause.cause) + (cause.order_assumed ? " (order assumed)" : ""),
+          typeset(sizes_in_words(cause.parameters)),
+          percent(cause.probability),
+          cause_and_remedy(*cause.cause.effect)},
+         false});
+    for (const auto& same : cause.same_as) {
+      table.rows.push_back({{"or " + cause_title(same.cause),
+                             typeset(sizes_in_words(same.parameters)),
+                             "the same",
+                             cause_and_remedy(*same.cause.effect)},
+                            false});
+      table.caption =
+          "No points of this kind tell the causes marked \"or\" from the one above them.";
+    }
+  }
+  return {found.verdict == Verdict::named_set ? "One of these"
+          : found.causes.size() > 1           ? "The causes"
+                                              : "The cause",
+          {std::move(table)}};
+}
+
+Section terms_section(const Diagnosis& found) {
+  Table table{{{"cause"},
+               {"size, were it alone"},
+               {"strength", true},
+               {"share left", true},
+               {"chance of noise", true},
+               {"probability", true},
+               {"verdict"}},
+              {},
+              "Strength in units of noise. Share left: what the calibration of the settings leaves "
+              "of the cause. Chance of noise: that noise alone lets any cause look as strong."};
+  for (const auto& term : found.terms) {
+    const std::string fate = fate_of(found, term);
+    table.rows.push_back({{cause_title(term.cause),
+                           typeset(size_in_words(term.parameter, term.value, term.sigma)),
+                           fixed(term.delta, 1),
+                           share_percent(term.share_left),
+                           share_percent(term.p_value),
+                           percent(term.probability),
+                           fate},
+                          fate == "named" || fate == "in the set"});
+  }
+  return {"Every cause that was tested", {std::move(table)}};
+}
+
+Section bounds_section(const Diagnosis& found) {
+  Section section{"Looked for and absent, and not testable", {}};
+  if (!found.bounds.empty()) {
+    Table table{{{"absent"}, {"larger than this it would have shown"}}, {}, "95 % bounds."};
+    for (const auto& bound : found.bounds)
+      table.rows.push_back({{cause_title(bound.cause), bound_in_words(bound)}, false});
+    section.blocks.emplace_back(std::move(table));
+  }
+  if (!found.not_testable.empty()) {
+    Table table{{{"not testable"}, {"because"}}, {}, "Nothing is said about these."};
+    for (const auto& missing : found.not_testable)
+      table.rows.push_back({{cause_title(missing.cause), missing.reason}, false});
+    section.blocks.emplace_back(std::move(table));
+  }
+  return section;
+}
+
+Section bad_points_section(const Diagnosis& found) {
+  Table table{{{"point"}, {"right of its mark, mm", true}, {"up, mm", true}, {"in sigmas", true}},
+              {},
+              "Where the tool would have to have been for the reading to be right. They were set "
+              "aside; measure them again."};
+  for (const auto& bad : found.bad_points)
+    table.rows.push_back({{point_name(bad.index),
+                           fixed(bad.shift_mm.x(), 2),
+                           fixed(bad.shift_mm.y(), 2),
+                           fixed(bad.distance, 1)},
+                          true});
+  return {"Bad points", {std::move(table)}};
+}
+
+Section settings_section(const Diagnosis& found) {
+  Table table{{{"setting"},
+               {"stated", true},
+               {"\u00b1", true},
+               {"calibrated", true},
+               {"\u00b1", true},
+               {"unit"},
+               {"remark"}},
+              {},
+              "\u00b1: one sigma."};
+  for (const auto& result : found.settings) {
+    const int digits = unit_of(result.setting) == "mm" ? 2 : 3;
+    const auto cell = [&](double value) { return fixed(in_unit(result.setting, value), digits); };
+    table.rows.push_back(
+        {{std::string(setting_in_words(result.setting)),
+          cell(result.stated),
+          cell(result.stated_sigma),
+          cell(result.calibrated),
+          cell(result.sigma),
+          std::string(unit_of(result.setting)),
+          result.off ? "off: further from what was stated than its uncertainty allows; check it"
+                     : ""},
+         result.off});
+  }
+  return {"The machine's settings", {std::move(table)}};
+}
+
+Section method_section(const Diagnosis& found) {
+  Section section{"What this rests on", {}};
+  for (const std::string& note : found.notes) section.blocks.emplace_back(Paragraph{typeset(note)});
+  std::string noise = found.stated_noise
+                          ? fmt::format(
+                                "Noise as stated: {:g} mm a chain and {:g} mm a mark (one "
+                                "sigma, {:g} degrees of freedom); ",
+                                found.stated_noise->length_mm,
+                                found.stated_noise->position_mm,
+                                found.stated_noise->dof)
+                          : std::string("The noise was not stated; ");
+  noise += fmt::format("what was found is {:.2f} times that.", found.noise_factor);
+  section.blocks.emplace_back(Paragraph{std::move(noise)});
+  for (const auto& correction : found.data_corrections) {
+    section.blocks.emplace_back(
+        Paragraph{fmt::format("The data are corrected by {}; it does not go into the machine.",
+                              cause_title(correction))});
+  }
+  return section;
+}
+
+}  // namespace chaintrue::cli
