@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "grid/diagnosis/stability.hpp"
 
@@ -81,7 +82,26 @@ std::string percent(double probability) {
   return fmt::format("{:.0f} %", 100.0 * probability);
 }
 
+/// Whether a column or row that was left out holds the point.
+bool lies_on(const Diagnosis& diagnosis, const Removal& line, std::size_t point) {
+  const auto found = std::find_if(diagnosis.points.begin(),
+                                  diagnosis.points.end(),
+                                  [&](const PointPicture& p) { return p.index == point; });
+  if (line.what == Removal::What::point || found == diagnosis.points.end()) return false;
+  const double at_mm = line.what == Removal::What::column ? found->mark.x_mm : found->mark.y_mm;
+  return std::abs(at_mm - line.at_mm) < kLineGap_mm;
+}
+
 }  // namespace
+
+std::vector<std::size_t> points_it_rests_on(const Diagnosis& diagnosis) {
+  std::vector<std::size_t> points;
+  if (!diagnosis.stability) return points;
+  for (const Removal* removal : of_kind(*diagnosis.stability, Removal::What::point, true)) {
+    points.push_back(removal->index);
+  }
+  return points;
+}
 
 std::string stability_in_words(const Diagnosis& diagnosis) {
   const Stability& stability = *diagnosis.stability;
@@ -102,9 +122,10 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
       "Left out one at a time and judged anew: {}. {} What is named is least sure without {}: its "
       "probability is then {}, with all points {}.",
       listed(tried, "and"),
-      changes == 0   ? "The verdict names the same without any of them."
-      : changes == 1 ? "Without one of them it does not name the same."
-                     : fmt::format("Without any of {} of them it does not name the same.", changes),
+      changes == 0 ? "The verdict names the same without any of them."
+      : changes == 1
+          ? "Without one of them it does not name the same."
+          : fmt::format("Without one or another of {} of them it does not name the same.", changes),
       named_places(kind, {&*weakest}),
       percent(weakest->probability),
       percent(stability.probability));
@@ -113,8 +134,15 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
 std::string rests_on(const Diagnosis& diagnosis) {
   if (!diagnosis.stability) return "";
   std::string text;
+  const auto points = points_it_rests_on(diagnosis);
   for (const Kind& kind : kKinds) {
-    const auto changes = of_kind(*diagnosis.stability, kind.what, true);
+    auto changes = of_kind(*diagnosis.stability, kind.what, true);
+    // A line is worth a word where it is not one point of it alone.
+    std::erase_if(changes, [&](const Removal* removal) {
+      return std::any_of(points.begin(), points.end(), [&](std::size_t point) {
+        return lies_on(diagnosis, *removal, point);
+      });
+    });
     if (changes.empty()) continue;
     text += fmt::format(" {} rests on {}{}: without {} {}.",
                         diagnosis.causes.size() == 1 ? "The name" : "What is named",
