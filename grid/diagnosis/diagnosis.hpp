@@ -136,10 +136,12 @@ struct Gain {
   HeldOut extended_and_surface;
   HeldOut surface_only;
   double noise_floor_mm = 0.0;
-  /// By how much the mean square of the tool's error falls between the marks, as the points have
-  /// it: the mean square of what naming moves. Blocks held out say more, since there both models
-  /// extrapolate and the poorer one farther.
+  /// By how much the mean square of the tool's error falls over the measured area, as the points
+  /// have it (expected_gain.hpp). Blocks held out say more, since there both models extrapolate and
+  /// the poorer one farther.
   double drop_mm2 = 0.0;
+  /// That drop over the mean square before it, the noise of the readings in neither.
+  double drop_share = 0.0;
   /// The same rows where the outermost points were held out and the inner ones fitted.
   struct Border {
     double calibrated_mm = 0.0;

@@ -35,7 +35,8 @@ struct MachineReading {
   const char* side;
   double sigma;
 };
-constexpr double kLinkPitchSigmaMm = 0.001;  // 100 links to 0.1 mm
+constexpr double kLinkPitchSigmaMm = 0.001;     // 100 links to 0.1 mm
+constexpr double kTapeErrorSigmaMmPerM = 0.15;  // two metres to 0.3 mm, a good tape's tolerance
 constexpr MachineReading kReadings[] = {
     {"motor_spacing_mm", "", 1.0},
     {"beam_rise_mm", "", 1.0},
@@ -43,6 +44,8 @@ constexpr MachineReading kReadings[] = {
     {"link_pitch_mm", "left", kLinkPitchSigmaMm},
     {"link_pitch_mm", "right", kLinkPitchSigmaMm},
     {"chain_mass_kg_per_m", "", 0.002},
+    {"tape_error_mm_per_m", "x", kTapeErrorSigmaMmPerM},
+    {"tape_error_mm_per_m", "y", kTapeErrorSigmaMmPerM},
 };
 
 struct Alternative {

@@ -29,7 +29,7 @@ namespace chaintrue::grid::diagnosis {
 struct Direction {
   CauseId cause;
   std::vector<double> values;  ///< sizes and places, in the effect's order
-  double power = 1.0;  ///< of a refined one: as it is about its size
+  double power = 1.0;          ///< of a refined one: as it is about its size
   /// The size is a whole number: the coefficient is 1 and `values` hold it.
   bool fixed = false;
   /// It acts at one visit alone.

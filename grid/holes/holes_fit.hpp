@@ -38,6 +38,10 @@ namespace chaintrue::grid {
 /// readings in thirty-five loses one.
 inline constexpr double kBadDistanceSigmas = 3.5;
 
+/// One sigma beforehand of where a sheet lies whose edges were measured.
+inline constexpr double kSheetShiftMm = 50.0;
+inline constexpr double kSheetTurnRad = 0.03;
+
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
 inline constexpr Eigen::Index kHolesUnknowns = 8;
 
@@ -59,6 +63,13 @@ struct FittedDistance {
   double left_out_sigma_mm = 0.0;
   bool set_aside = false;
   [[nodiscard]] double sigmas() const { return left_out_mm / left_out_sigma_mm; }
+};
+
+/// By how much the readings of a session are all too long, where the hook's offset was not known
+/// exactly.
+struct FoundHook {
+  double mm = 0.0;
+  double sigma_mm = 0.0;
 };
 
 struct FittedHole {
@@ -90,8 +101,9 @@ struct HolesFit {
   bool has_surface = false;
   std::vector<FittedDistance> distances;
   std::vector<FittedHole> holes;
-  ErrorSummary left_out_all;   ///< every reading
-  ErrorSummary left_out_good;  ///< those that fit
+  std::vector<FoundHook> hooks;  ///< by session; none where it was known
+  ErrorSummary left_out_all;     ///< every reading
+  ErrorSummary left_out_good;    ///< those that fit
   std::vector<std::string> notes;
 };
 
