@@ -12,6 +12,7 @@ namespace {
 
 /// Points of which the numbers are given; of more their count and the first of them.
 constexpr std::size_t kMostNumbers = 5;
+constexpr double kBeyondDoubt = 0.995;
 
 struct Kind {
   Removal::What what;
@@ -42,9 +43,9 @@ std::string listed(const std::vector<std::string>& parts, std::string_view last)
 std::string place(const Removal& removal) {
   switch (removal.what) {
     case Removal::What::column:
-      return fmt::format("x = {:.0f} mm", removal.at_mm);
+      return fmt::format("x = {} mm", std::lround(removal.at_mm));
     case Removal::What::row:
-      return fmt::format("y = {:.0f} mm", removal.at_mm);
+      return fmt::format("y = {} mm", std::lround(removal.at_mm));
     case Removal::What::point:
       break;
   }
@@ -78,7 +79,7 @@ std::string fate(const Removal& removal) {
 }
 
 std::string percent(double probability) {
-  if (probability > 0.995) return "more than 99 %";
+  if (probability > kBeyondDoubt) return "more than 99 %";
   return fmt::format("{:.0f} %", 100.0 * probability);
 }
 
@@ -118,17 +119,20 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
         return a.probability < b.probability;
       });
   const Kind& kind = kKinds[static_cast<std::size_t>(weakest->what)];
-  return fmt::format(
-      "Left out one at a time and judged anew: {}. {} What is named is least sure without {}: its "
-      "probability is then {}, with all points {}.",
-      listed(tried, "and"),
+  std::string text =
+      fmt::format("Left out one at a time and judged anew: {}. ", listed(tried, "and"));
+  text +=
       changes == 0 ? "The verdict names the same without any of them."
       : changes == 1
           ? "Without one of them it does not name the same."
-          : fmt::format("Without one or another of {} of them it does not name the same.", changes),
-      named_places(kind, {&*weakest}),
-      percent(weakest->probability),
-      percent(stability.probability));
+          : fmt::format("Without one or another of {} of them it does not name the same.", changes);
+  if (weakest->probability > kBeyondDoubt) return text;
+  return text + fmt::format(
+                    " What is named is least sure without {}: its probability is then {}, "
+                    "with all points {}.",
+                    named_places(kind, {&*weakest}),
+                    percent(weakest->probability),
+                    percent(stability.probability));
 }
 
 std::string rests_on(const Diagnosis& diagnosis) {
