@@ -44,6 +44,7 @@ std::map<LensKey, std::vector<Model>> followed(const Rows& rows, const Contest& 
   const double best = contest.best().log_weight;
   std::map<LensKey, std::vector<Model>> result;
   std::map<LensKey, std::vector<CauseId>> alone;
+  std::set<std::size_t> spaces;
   std::size_t taken = 0;
   // Best first, so that a space is known before the rest of what is asked for in it.
   for (const Model& model : contest.models) {
@@ -57,8 +58,9 @@ std::map<LensKey, std::vector<Model>> followed(const Rows& rows, const Contest& 
       first_alone = std::find(known.begin(), known.end(), cause) == known.end();
       if (first_alone) known.push_back(cause);
     }
-    if (!leads && !(first_alone && result.contains(key))) continue;
+    if (!leads && !(first_alone && spaces.contains(key.first))) continue;
     taken += leads ? 1 : 0;
+    spaces.insert(key.first);
     result[key].push_back(model);
   }
   return result;

@@ -41,6 +41,8 @@ struct LeftOut {
 /// What was left out and what became of the name, in a sentence or two. Precondition: the diagnosis
 /// has a stability.
 [[nodiscard]] std::string stability_in_words(const Diagnosis& diagnosis);
+/// Points without each of which the verdict would not name the same (indices into the grid's).
+[[nodiscard]] std::vector<std::size_t> points_it_rests_on(const Diagnosis& diagnosis);
 /// What the name rests on: " The name rests on point 17: without it ...", or nothing where it
 /// stands.
 [[nodiscard]] std::string rests_on(const Diagnosis& diagnosis);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "grid/diagnosis/stability.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 
 /// Points of which the numbers are given; of more their count and the first of them.
 constexpr std::size_t kMostNumbers = 5;
+constexpr double kBeyondDoubt = 0.995;
 
 struct Kind {
   Removal::What what;
@@ -41,9 +43,9 @@ std::string listed(const std::vector<std::string>& parts, std::string_view last)
 std::string place(const Removal& removal) {
   switch (removal.what) {
     case Removal::What::column:
-      return fmt::format("x = {:.0f} mm", removal.at_mm);
+      return fmt::format("x = {} mm", std::lround(removal.at_mm));
     case Removal::What::row:
-      return fmt::format("y = {:.0f} mm", removal.at_mm);
+      return fmt::format("y = {} mm", std::lround(removal.at_mm));
     case Removal::What::point:
       break;
   }
@@ -77,11 +79,30 @@ std::string fate(const Removal& removal) {
 }
 
 std::string percent(double probability) {
-  if (probability > 0.995) return "more than 99 %";
+  if (probability > kBeyondDoubt) return "more than 99 %";
   return fmt::format("{:.0f} %", 100.0 * probability);
 }
 
+/// Whether a column or row that was left out holds the point.
+bool lies_on(const Diagnosis& diagnosis, const Removal& line, std::size_t point) {
+  const auto found = std::find_if(diagnosis.points.begin(),
+                                  diagnosis.points.end(),
+                                  [&](const PointPicture& p) { return p.index == point; });
+  if (line.what == Removal::What::point || found == diagnosis.points.end()) return false;
+  const double at_mm = line.what == Removal::What::column ? found->mark.x_mm : found->mark.y_mm;
+  return std::abs(at_mm - line.at_mm) < kLineGap_mm;
+}
+
 }  // namespace
+
+std::vector<std::size_t> points_it_rests_on(const Diagnosis& diagnosis) {
+  std::vector<std::size_t> points;
+  if (!diagnosis.stability) return points;
+  for (const Removal* removal : of_kind(*diagnosis.stability, Removal::What::point, true)) {
+    points.push_back(removal->index);
+  }
+  return points;
+}
 
 std::string stability_in_words(const Diagnosis& diagnosis) {
   const Stability& stability = *diagnosis.stability;
@@ -98,23 +119,34 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
         return a.probability < b.probability;
       });
   const Kind& kind = kKinds[static_cast<std::size_t>(weakest->what)];
-  return fmt::format(
-      "Left out one at a time and judged anew: {}. {} What is named is least sure without {}: its "
-      "probability is then {}, with all points {}.",
-      listed(tried, "and"),
-      changes == 0   ? "The verdict names the same without any of them."
-      : changes == 1 ? "Without one of them it does not name the same."
-                     : fmt::format("Without any of {} of them it does not name the same.", changes),
-      named_places(kind, {&*weakest}),
-      percent(weakest->probability),
-      percent(stability.probability));
+  std::string text =
+      fmt::format("Left out one at a time and judged anew: {}. ", listed(tried, "and"));
+  text +=
+      changes == 0 ? "The verdict names the same without any of them."
+      : changes == 1
+          ? "Without one of them it does not name the same."
+          : fmt::format("Without one or another of {} of them it does not name the same.", changes);
+  if (weakest->probability > kBeyondDoubt) return text;
+  return text + fmt::format(
+                    " What is named is least sure without {}: its probability is then {}, "
+                    "with all points {}.",
+                    named_places(kind, {&*weakest}),
+                    percent(weakest->probability),
+                    percent(stability.probability));
 }
 
 std::string rests_on(const Diagnosis& diagnosis) {
   if (!diagnosis.stability) return "";
   std::string text;
+  const auto points = points_it_rests_on(diagnosis);
   for (const Kind& kind : kKinds) {
-    const auto changes = of_kind(*diagnosis.stability, kind.what, true);
+    auto changes = of_kind(*diagnosis.stability, kind.what, true);
+    // A line is worth a word where it is not one point of it alone.
+    std::erase_if(changes, [&](const Removal* removal) {
+      return std::any_of(points.begin(), points.end(), [&](std::size_t point) {
+        return lies_on(diagnosis, *removal, point);
+      });
+    });
     if (changes.empty()) continue;
     text += fmt::format(" {} rests on {}{}: without {} {}.",
                         diagnosis.causes.size() == 1 ? "The name" : "What is named",

@@ -169,7 +169,20 @@ std::string sentence(const Session& session, const Diagnosis& d) {
   return nothing_words(session, d);
 }
 
+/// Before a part is changed for the sake of one reading, that is read again.
+void say_what_to_read_again(Diagnosis& d) {
+  const std::vector<std::size_t> points = points_it_rests_on(d);
+  if (points.size() != 1) return;
+  const bool is_bad = std::any_of(d.bad_points.begin(), d.bad_points.end(), [&](const BadPoint& b) {
+    return b.index == points.front();
+  });
+  if (is_bad) return;
+  d.what_to_do.push_back(fmt::format(
+      "Measure point {} again before anything else: the name rests on it.", points.front() + 1));
+}
+
 void say_what_to_do(Diagnosis& d) {
+  say_what_to_read_again(d);
   for (const Cause& c : d.causes) {
     if (d.what_to_do.size() < 2 && d.verdict != Verdict::named_set) {
       d.what_to_do.emplace_back(c.cause.effect->remedy);

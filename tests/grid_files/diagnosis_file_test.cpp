@@ -18,6 +18,7 @@ using diagnosis::Diagnosis;
 using grid::testing::quiet_diagnosis;
 using grid::testing::sample_diagnosis;
 using nlohmann::ordered_json;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -59,11 +60,21 @@ TEST(DiagnosisFile, ReadsBackWhatItWrote) {
     }
     EXPECT_EQ(read.gain.has_value(), said.gain.has_value());
     EXPECT_EQ(read.transferred.has_value(), said.transferred.has_value());
+    EXPECT_EQ(read.stability.has_value(), said.stability.has_value());
+    EXPECT_EQ(read.normal_plot.has_value(), said.normal_plot.has_value());
   }
   const Diagnosis read = parse_diagnosis(write_diagnosis(sample_diagnosis()), "diagnosis.json");
   EXPECT_EQ(read.gain->placed->high_mm, 2.44);
   EXPECT_EQ(read.gain->border.surface_only_mm, 0.95);
   EXPECT_EQ(read.transferred->extended.low_mm, 0.30);
+  const auto& removals = read.stability->removals;
+  EXPECT_EQ(removals[2].index, 2U);
+  EXPECT_FALSE(removals[2].stands);
+  EXPECT_EQ(removals[2].verdict, diagnosis::Verdict::named_set);
+  EXPECT_EQ(removals.back().what, diagnosis::Removal::What::column);
+  EXPECT_EQ(removals.back().at_mm, -1100.0);
+  EXPECT_EQ(removals.back().points, 4U);
+  EXPECT_EQ(read.normal_plot->high, (std::vector<double>{-0.6, 0.7, 2.0}));
   EXPECT_EQ(read.bad_points[0].shift_mm, Eigen::Vector2d(3.0, -4.0));
   EXPECT_EQ(read.separations[1].delta_needed, 3.1);
   EXPECT_TRUE(std::isinf(read.separations[2].delta_needed));
@@ -101,6 +112,8 @@ TEST(DiagnosisFile, HasItsKeysInTheOrderPromised) {
                           "seed",
                           "grid_name",
                           "stated_noise",
+                          "stability",
+                          "normal_plot",
                           "held_out_grid"));
   EXPECT_EQ(json["verdict"], "named");
   EXPECT_EQ(json["causes"][0]["effect"], "chain_pitch_error");
@@ -113,6 +126,29 @@ TEST(DiagnosisFile, HasItsKeysInTheOrderPromised) {
                                     "surface_only": 0.52, "noise_floor": 0.29})"));
   EXPECT_EQ(json["bad_points"], ordered_json::array({9}));
   EXPECT_EQ(json["extended_machine"]["file_type"], "chaintrue_machine");
+}
+
+// A file of an earlier diagnosis has neither.
+TEST(DiagnosisFile, NeedsNeitherStabilityNorNormalPlot) {
+  ordered_json json = written_sample();
+  json.erase("stability");
+  json.erase("normal_plot");
+  EXPECT_THAT(problems_in(json), ::testing::IsEmpty());
+}
+
+TEST(DiagnosisFile, PointsLeftOutHaveTheirPlaceAndListsTheirLength) {
+  ordered_json json = written_sample();
+  json["stability"]["removals"][0]["point"] = nullptr;
+  json["stability"]["removals"][1]["what"] = "diagonal";
+  json["stability"]["removals"].back()["at_mm"] = nullptr;
+  json["normal_plot"]["low"].push_back(1.0);
+  EXPECT_THAT(
+      problems_in(json),
+      ::testing::UnorderedElementsAre(
+          HasSubstr("/stability/removals/0/point"),
+          HasSubstr("/stability/removals/1/what"),
+          AllOf(HasSubstr("/at_mm"), HasSubstr("a number in mm")),
+          AllOf(HasSubstr("/normal_plot/low"), HasSubstr("as many numbers as there are values"))));
 }
 
 TEST(DiagnosisFile, SaysNullWhereThereIsNone) {

@@ -159,6 +159,30 @@ void add_follow_up(Diagnosis& found) {
        0.995}};
 }
 
+/// Every point and a column left out; without the third point another cause would be named.
+diagnosis::Stability sample_stability(const std::vector<PointPicture>& points) {
+  diagnosis::Stability stability{.probability = 0.97};
+  for (const PointPicture& point : points) {
+    const bool rests = point.index == 2;
+    stability.removals.push_back(
+        {.index = point.index,
+         .verdict = rests ? diagnosis::Verdict::named_set : diagnosis::Verdict::named,
+         .causes = {cause(rests ? "beam_flex" : "chain_pitch_error",
+                          rests ? EffectSide::none : EffectSide::left)},
+         .stands = !rests,
+         .probability = rests ? 0.31 : 0.96,
+         .support = rests ? 4.3 : -0.2});
+  }
+  stability.removals.push_back({.what = diagnosis::Removal::What::column,
+                                .at_mm = -1100.0,
+                                .points = 4,
+                                .verdict = diagnosis::Verdict::named,
+                                .causes = {cause("chain_pitch_error", EffectSide::left)},
+                                .probability = 0.93,
+                                .support = 0.9});
+  return stability;
+}
+
 }  // namespace
 
 Diagnosis sample_diagnosis() {
@@ -189,6 +213,9 @@ Diagnosis sample_diagnosis() {
   found.seed = 18446744073709551615ULL;
   found.grid_name = "workshop grid";
   found.stated_noise = StatedNoise{0.2, 0.3, 12.0};
+  found.stability = sample_stability(found.points);
+  found.normal_plot = diagnosis::NormalPlot{
+      {-1.4, 0.1, 1.5}, {-1.3, 0.0, 1.3}, {-2.0, -0.7, 0.6}, {-0.6, 0.7, 2.0}, 0.42};
   found.transferred = diagnosis::Transfer{"a day later",
                                           60,
                                           {3.80, 6.10, 3.40, 4.20},
@@ -215,6 +242,8 @@ Diagnosis quiet_diagnosis() {
   found.extended_machine.effects.clear();
   found.gain.reset();
   found.transferred.reset();
+  found.stability.reset();
+  found.normal_plot.reset();
   found.stated_noise.reset();
   found.seed = 1;
   for (PointPicture& point : found.points) {

@@ -101,8 +101,28 @@ TEST_F(DiagnosisPage, DrawsEveryChartAndLogsNothing) {
   EXPECT_EQ(count_marks(visited, "probability_bars", "bars"), 4);
   EXPECT_EQ(count_marks(visited, "gain_bars", "bars"), 6);
   EXPECT_EQ(count_marks(visited, "separation_matrix", "cell_marks"), 6);
+  EXPECT_EQ(count_marks(visited, "name_support", "point_marks"), kSamplePoints);
+  EXPECT_EQ(count_marks(visited, "normal_plot", "quantile_marks"), 3);
   EXPECT_EQ(count_marks(visited, "next_points", "next_marks"), 2);
   EXPECT_EQ(count_marks(visited, "next_points", "measured_marks"), kSamplePoints);
+}
+
+// A name that rests on a point shows where, without anybody opening anything; what is as it should
+// be is folded away, and its charts have their width once it is opened.
+TEST_F(DiagnosisPage, FoldsAwayWhatIsAsItShouldBe) {
+  const std::string html = page_of(sample_diagnosis());
+  EXPECT_THAT(html, HasSubstr("<h2>Does the name hang on a few points?</h2>\n<div"));
+  EXPECT_THAT(html, HasSubstr("<summary><h2>Is what is left as noise would be?</h2></summary>"));
+  if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
+  const Visit visited = visit(html, R"(
+    const folded = document.querySelector('[data-spec="normal_plot"]');
+    folded.closest("details").open = true;
+    requestAnimationFrame(() => requestAnimationFrame(() => {
+      const svg = folded.querySelector("svg").getBoundingClientRect();
+      document.documentElement.dataset.fits = Math.abs(svg.width - folded.clientWidth) < 3;
+    }));)");
+  EXPECT_THAT(problems_of(visited), IsEmpty());
+  EXPECT_THAT(visited.dom, HasSubstr("data-fits=\"true\""));
 }
 
 TEST_F(DiagnosisPage, OfNothingFoundHasNoEmptyCharts) {

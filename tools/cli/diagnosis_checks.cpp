@@ -32,9 +32,9 @@ constexpr double kSurprising = 0.01;
 std::string left_out_name(const Removal& removal) {
   switch (removal.what) {
     case Removal::What::column:
-      return fmt::format("column at x = {:.0f} mm", removal.at_mm);
+      return fmt::format("column at x = {} mm", std::lround(removal.at_mm));
     case Removal::What::row:
-      return fmt::format("row at y = {:.0f} mm", removal.at_mm);
+      return fmt::format("row at y = {} mm", std::lround(removal.at_mm));
     case Removal::What::point:
       break;
   }
@@ -121,11 +121,12 @@ Table removals_table(const Diagnosis& found) {
                           kShown)};
   for (const Removal* removal : order) {
     constexpr double kMost = 6.9;  // a thousand
+    const double factor = std::exp(removal->support);
     table.rows.push_back({{left_out_name(*removal),
                            fmt::format("{}", removal->points),
                            percent(removal->probability),
                            removal->support > kMost ? std::string("above 1000")
-                                                    : fixed(std::exp(removal->support), 1),
+                                                    : fixed(factor, factor < 10.0 ? 1 : 0),
                            verdict_without(*removal)},
                           !removal->stands});
   }
@@ -309,13 +310,14 @@ Section normal_section(const Diagnosis& found) {
                   "holds all dots in 95 of 100 sessions of noise."};
   DataTable table{"quantiles", {"value", "expected", "low", "high"}, {}};
   double reach = 2.5;
+  double expected = 2.0;
   for (std::size_t i = 0; i < plot.values.size(); ++i) {
     table.rows.push_back({plot.values[i], plot.expected[i], plot.low[i], plot.high[i]});
     reach =
         std::max({reach, std::abs(plot.values[i]), std::abs(plot.low[i]), std::abs(plot.high[i])});
   }
   chart.data = {std::move(table)};
-  chart.signals = {{"reach", 1.05 * reach}};
+  chart.signals = {{"reach", 1.05 * reach}, {"reach_of_noise", 1.05 * expected}};
   section.blocks.emplace_back(std::move(chart));
   return section;
 }

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whether what is left has the shape of noise: often enough for noise, and not for what is none.
+#include "grid/diagnosis/normal_plot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/synthetic/generator.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+Session session_of(std::uint64_t seed) {
+  synthetic::SyntheticSpec spec;
+  spec.repeats = 6;
+  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
+  spec.stated = StatedNoise{0.2, 0.3, 12.0};
+  spec.seed = seed;
+  return make_session(synthetic::generate(model::Machine{}, spec).value().grid).value();
+}
+
+TEST(NormalPlot, HoldsItsListsInOrderAndTheMeanInsideTheBand) {
+  const Session session = session_of(1);
+  const auto a = analyse(session, {});
+  ASSERT_TRUE(a);
+  const auto plot = normal_plot(session, *a, 1);
+  ASSERT_TRUE(plot);
+  EXPECT_EQ(plot->values.size(), 2 * session.points.size());
+  EXPECT_TRUE(std::is_sorted(plot->values.begin(), plot->values.end()));
+  EXPECT_TRUE(std::is_sorted(plot->expected.begin(), plot->expected.end()));
+  double square = 0.0;
+  for (std::size_t i = 0; i < plot->values.size(); ++i) {
+    EXPECT_LT(plot->low[i], plot->expected[i]);
+    EXPECT_GT(plot->high[i], plot->expected[i]);
+    square += plot->values[i] * plot->values[i];
+  }
+  EXPECT_NEAR(square / static_cast<double>(plot->values.size()), 1.0, 1e-12);
+}
+
+// The size of the noise is none of the shape's business.
+TEST(NormalPlot, IsTheSameForNoiseOfAnySize) {
+  const Session session = session_of(2);
+  auto a = analyse(session, {});
+  ASSERT_TRUE(a);
+  const auto one = normal_plot(session, *a, 1);
+  a->estimate.left *= 4.0;  // a power of two: no rounding
+  a->estimate.left_beside_pattern *= 4.0;
+  const auto other = normal_plot(session, *a, 1);
+  ASSERT_TRUE(one && other);
+  EXPECT_EQ(one->values, other->values);
+  EXPECT_EQ(one->p_value, other->p_value);
+}
+
+TEST(NormalPlot, NoiseIsOddAsOftenAsItSays) {
+  constexpr int kSessions = 30;
+  int below_tenth = 0;
+  int below_hundredth = 0;
+  for (int k = 0; k < kSessions; ++k) {
+    const Session session = session_of(100 + static_cast<std::uint64_t>(k));
+    const auto a = analyse(session, {});
+    ASSERT_TRUE(a);
+    const auto plot = normal_plot(session, *a, 1);
+    ASSERT_TRUE(plot);
+    below_tenth += plot->p_value < 0.1 ? 1 : 0;
+    below_hundredth += plot->p_value < 0.01 ? 1 : 0;
+  }
+  EXPECT_LE(below_tenth, 9);      // binomial, 3 expected: more in 1 of 2000
+  EXPECT_LE(below_hundredth, 3);  // 0.3 expected: more in 1 of 5000
+}
+
+TEST(NormalPlot, WhatIsNoNoiseLeavesTheBand) {
+  const Session session = session_of(3);
+  auto a = analyse(session, {});
+  ASSERT_TRUE(a);
+  // Many small ones and a few large ones.
+  for (Eigen::VectorXd* left : {&a->estimate.left, &a->estimate.left_beside_pattern}) {
+    *left = left->array().cube().matrix();
+  }
+  const auto plot = normal_plot(session, *a, 1);
+  ASSERT_TRUE(plot);
+  EXPECT_LT(plot->p_value, 0.01);
+  bool outside = false;
+  for (std::size_t i = 0; i < plot->values.size(); ++i) {
+    outside = outside || plot->values[i] < plot->low[i] || plot->values[i] > plot->high[i];
+  }
+  EXPECT_TRUE(outside);
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whether a name hangs on a few points: the short way against contests held anew, a name that
+// stands, and one that rests on a single point.
+#include "grid/diagnosis/stability.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/normal_plot.hpp"
+#include "grid/diagnosis/reweighing.hpp"
+#include "grid/synthetic/generator.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+MeasuredGrid session_of(const std::vector<model::AppliedEffect>& hidden,
+                        std::uint64_t seed,
+                        int columns = 7,
+                        int rows = 4) {
+  synthetic::SyntheticSpec spec;
+  spec.design.columns = columns;
+  spec.design.rows = rows;
+  spec.order = synthetic::VisitingOrder::random;
+  spec.repeats = 6;
+  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
+  spec.stated = StatedNoise{0.2, 0.3, 12.0};
+  spec.hidden = hidden;
+  spec.seed = seed;
+  return synthetic::generate(model::Machine{}, spec).value().grid;
+}
+
+const model::AppliedEffect kLongLeft{"chain_pitch_error", "left", {{"elongation", 0.0015}}};
+
+DiagnosisOptions quick() {
+  DiagnosisOptions options;
+  options.gain = false;
+  options.next_measurements = false;
+  return options;
+}
+
+std::size_t count(const Stability& stability, Removal::What what) {
+  return static_cast<std::size_t>(std::count_if(stability.removals.begin(),
+                                                stability.removals.end(),
+                                                [&](const Removal& r) { return r.what == what; }));
+}
+
+double probability_that_all_act(const Analysis& a, const Contest& contest) {
+  double p = 0.0;
+  for (const Model& model : contest.models) {
+    const bool all =
+        std::all_of(a.judgement.listed.begin(), a.judgement.listed.end(), [&](std::size_t index) {
+          const CauseClass& members = a.judgement.classes[index];
+          return std::any_of(model.directions.begin(), model.directions.end(), [&](int k) {
+            return std::find(members.begin(), members.end(), direction(a, k).cause) !=
+                   members.end();
+          });
+        });
+    if (all) p += contest.probability(model);
+  }
+  return p;
+}
+
+TEST(LeavingOut, ColumnsAndRowsHoldEveryPointOnce) {
+  const auto session = make_session(session_of({}, 1));
+  ASSERT_TRUE(session);
+  const auto groups = groups_to_leave_out(*session);
+  for (const auto& [what, lines] :
+       {std::pair(Removal::What::column, 7), std::pair(Removal::What::row, 4)}) {
+    std::vector<int> times(session->points.size(), 0);
+    int found = 0;
+    for (const LeftOut& group : groups) {
+      if (group.what != what) continue;
+      ++found;
+      for (const std::size_t i : group.points) ++times[i];
+    }
+    EXPECT_EQ(found, lines);
+    EXPECT_THAT(times, testing::Each(1));
+  }
+}
+
+TEST(LeavingOut, MarksThatLieAnywhereHaveNoColumns) {
+  synthetic::SyntheticSpec spec;
+  spec.design.kind = synthetic::DesignKind::random;
+  spec.design.points = 30;
+  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
+  const auto session = make_session(synthetic::generate(model::Machine{}, spec).value().grid);
+  ASSERT_TRUE(session);
+  for (const LeftOut& group : groups_to_leave_out(*session)) {
+    EXPECT_EQ(group.what, Removal::What::point);
+  }
+}
+
+// Nothing left out: the contest itself, but for what the followed models leave aside.
+TEST(Reweighing, OfAllPointsIsTheContest) {
+  const auto session = make_session(session_of({kLongLeft}, 3));
+  const auto a = analyse(*session, quick());
+  ASSERT_TRUE(a);
+  ASSERT_FALSE(a->judgement.listed.empty());
+  const Reweighing reweighing(*session, *a, quick());
+  const auto all = reweighing.without({});
+  EXPECT_TRUE(all.seen);
+  EXPECT_EQ(all.contest.best().directions, a->contest.best().directions);
+  // Two factorisations of one matrix.
+  EXPECT_NEAR(all.contest.best().log_weight, a->contest.best().log_weight, 1e-6);
+  EXPECT_NEAR(probability_that_all_act(*a, all.contest),
+              probability_that_all_act(*a, a->contest),
+              0.01);  // what patterns of less than a hundredth hold
+}
+
+// The short way against the long one: a contest of its own without each point and line.
+TEST(Reweighing, SaysWhatAContestHeldAnewSays) {
+  const model::AppliedEffect wave{
+      "sprocket_eccentricity", "left", {{"amplitude_mm", 0.6}, {"phase_rad", 1.0}}};
+  for (const auto& [hidden, seed] : {std::pair(wave, 1), std::pair(kLongLeft, 2)}) {
+    SCOPED_TRACE(hidden.effect);
+    const auto session = make_session(session_of({hidden}, static_cast<std::uint64_t>(seed)));
+    const auto a = analyse(*session, quick());
+    ASSERT_TRUE(a);
+    ASSERT_EQ(a->judgement.verdict, Verdict::named);
+    const auto stability = examine_stability(*session, *a, quick());
+    ASSERT_TRUE(stability);
+    const auto groups = groups_to_leave_out(*session);
+    ASSERT_EQ(stability->removals.size(), groups.size());
+    for (std::size_t k = 0; k < groups.size(); k += 3) {
+      std::vector<bool> excluded(session->points.size(), false);
+      for (const std::size_t i : groups[k].points) excluded[i] = true;
+      const Contest contest =
+          hold_contest(*session, a->rows, excluded, {quick().steps, true, std::nullopt});
+      const Judgement judged = judge(a->rows, contest, excluded, true, a->judgement.classes);
+      EXPECT_EQ(stability->removals[k].stands, still_named(a->judgement, judged)) << "group " << k;
+      // What the models of all points leave aside: sets of bad points and patterns that only show
+      // once these points are gone.
+      EXPECT_NEAR(stability->removals[k].probability, probability_that_all_act(*a, contest), 0.1)
+          << "group " << k;
+    }
+  }
+}
+
+TEST(Stability, AStrongNameStandsWithoutAnyPointColumnOrRow) {
+  const auto found = diagnose(session_of({kLongLeft}, 5), quick());
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->verdict, Verdict::named) << found->sentence;
+  ASSERT_TRUE(found->stability);
+  const Stability& stability = *found->stability;
+  EXPECT_EQ(count(stability, Removal::What::point), found->points.size());
+  EXPECT_EQ(count(stability, Removal::What::column), 7U);
+  EXPECT_EQ(count(stability, Removal::What::row), 4U);
+  for (const Removal& removal : stability.removals) {
+    EXPECT_TRUE(removal.stands);
+    EXPECT_GT(removal.probability, 0.9);
+  }
+  EXPECT_THAT(found->not_proved, Not(HasSubstr("rests on")));
+  EXPECT_THAT(found->notes,
+              testing::Contains(HasSubstr("The verdict names the same without any of them.")));
+}
+
+TEST(Stability, OfNothingNamedThereIsNone) {
+  const auto found = diagnose(session_of({}, 7), quick());
+  ASSERT_TRUE(found);
+  ASSERT_TRUE(found->causes.empty()) << found->sentence;
+  EXPECT_FALSE(found->stability);
+}
+
+// Which points speak for a name depends on the marks, not on where they stand in the file.
+TEST(Stability, DoesNotDependOnTheOrderInTheFile) {
+  MeasuredGrid grid = session_of({kLongLeft}, 5);
+  const auto one = diagnose(grid, quick());
+  std::reverse(grid.points.begin(), grid.points.end());
+  const auto other = diagnose(grid, quick());
+  ASSERT_TRUE(one && other && one->stability && other->stability);
+  const std::size_t points = grid.points.size();
+  for (std::size_t i = 0; i < points; ++i) {
+    EXPECT_EQ(one->stability->removals[i].support,
+              other->stability->removals[points - 1 - i].support);
+  }
+}
+
+// One reading off by two millimetres, in a corner where a bent chain would show as well: whoever
+// reads the name must read that it is a name of one point.
+TEST(Stability, ANameThatOnePointMakesSaysSo) {
+  synthetic::SyntheticSpec spec;
+  spec.repeats = 6;
+  spec.order = synthetic::VisitingOrder::random;
+  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
+  spec.stated = StatedNoise{0.2, 0.3, 12.0};
+  int named = 0;
+  for (const auto& [seed, point, off_mm] : {std::tuple(1U, 21U, 2.0),
+                                            std::tuple(1U, 21U, 1.5),
+                                            std::tuple(2U, 27U, -3.0),
+                                            std::tuple(2U, 27U, -2.0)}) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", point " << point + 1);
+    spec.seed = seed;
+    MeasuredGrid grid = synthetic::generate(model::Machine{}, spec).value().grid;
+    grid.points[point].lengths->right_mm += off_mm;
+    const auto found = diagnose(grid, quick());
+    ASSERT_TRUE(found);
+    const bool set_aside = std::any_of(found->bad_points.begin(),
+                                       found->bad_points.end(),
+                                       [&](const BadPoint& b) { return b.index == point; });
+    if (found->causes.empty() || set_aside) continue;
+    ++named;
+    ASSERT_TRUE(found->stability);
+    EXPECT_THAT(points_it_rests_on(*found), testing::Contains(point));
+    EXPECT_THAT(found->not_proved, HasSubstr(testing::PrintToString(point + 1)))
+        << found->not_proved;
+    EXPECT_THAT(found->not_proved, HasSubstr("rests on"));
+    EXPECT_THAT(found->what_to_do.front(), HasSubstr("again before anything else"));
+  }
+  EXPECT_GT(named, 0) << "no reading makes a name any more: choose others";
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis
