@@ -31,14 +31,20 @@ std::string_view name(Verdict verdict) {
   return "nothing_found";
 }
 
-tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
-                                                   const DiagnosisOptions& options) {
-  const auto session = make_session(grid);
+std::string_view name(Observations observations) {
+  return observations == Observations::points ? "points" : "distances";
+}
+
+namespace {
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(
+    const tl::expected<Session, DiagnosisFailure>& session, const DiagnosisOptions& options) {
   if (!session) return tl::unexpected(session.error());
   if (const auto slip = suspected_slip(*session)) return tl::unexpected(*slip);
   const auto analysis = analyse(*session, options);
   if (!analysis) return tl::unexpected(analysis.error());
   Diagnosis d;
+  d.observations = session->distances ? Observations::distances : Observations::points;
   d.seed = options.seed;
   d.verdict = analysis->judgement.verdict;
   d.noise_factor = std::sqrt(analysis->estimate.noise_square);
@@ -52,12 +58,30 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
   d.bad_points = bad_points_found(*session, *analysis);
   d.separations = separations(*analysis);
   d.points = pictures(*session, *analysis);
+  d.holes = hole_pictures(*session, *analysis);
+  d.distances = distance_pictures(*session, *analysis);
   d.left_over = left_over(*session, *analysis, options.seed);
   if (options.gain) d.gain = measure_gain(*session, *analysis, options);
   extend(*session, *analysis, options.accept_class, d);
   if (options.next_measurements) d.next_measurements = next_measurements(*session, *analysis);
   put_into_words(*session, d);
   return d;
+}
+
+}  // namespace
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
+                                                   const DiagnosisOptions& options) {
+  return diagnose(make_session(grid), options);
+}
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredHoles& set,
+                                                   const DiagnosisOptions& options) {
+  auto found = diagnose(make_session(set), options);
+  if (!found) return found;
+  found->grid_name = set.name;
+  found->stated_tape = StatedTape{set.tape.sigma_mm, set.hole_sigma_mm, set.noise_dof};
+  return found;
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -19,7 +19,7 @@ constexpr double kSettingOff = 3.0;    // sigmas: 1 in 370 for each setting
 
 /// Length of a column before the settings take their share.
 double raw_length(const Analysis& a, int column) {
-  return a.rows.g(space_of(a).kept, column).norm();
+  return length_in_noise(a.rows, space_of(a).kept, a.rows.g.col(column));
 }
 
 double circular(double difference, const EffectParameter& p) {
@@ -240,6 +240,8 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
   std::vector<CalibratedSetting> result;
   for (std::size_t k = 0; k < session.settings.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
+    // Where no edge was measured, distances know nothing of where the sheet lies.
+    if (a.rows.by_setting.col(at).isZero(0.0)) continue;
     CalibratedSetting one;
     one.setting = session.settings[k];
     one.stated = session.stated_value(at);
@@ -257,6 +259,7 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
 }
 
 std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a) {
+  if (session.distances) return bad_distances_found(session, a);
   const auto residuals = chain_residuals(a.rows, a.estimate.left_beside_pattern);
   std::vector<bool> bad = space_of(a).bad;
   // A link counted wrong is a bad point with a name.

@@ -30,7 +30,7 @@ class Folds {
       : session_(session), a_(analysis), options_(options) {}
 
   [[nodiscard]] Fold hold_out(const std::vector<std::size_t>& points) const {
-    std::vector<bool> excluded(session_.points.size(), false);
+    std::vector<bool> excluded(session_.units(), false);
     for (const std::size_t i : points) excluded[i] = true;
     const ContestOptions contest_options{options_.steps, true, options_.told};
     const Contest contest = hold_contest(session_, a_.rows, excluded, contest_options);
@@ -50,13 +50,12 @@ class Folds {
     const Estimate caused = estimate(session_, a_.rows, space, judged.directions, -1);
     const int pattern = preferred_pattern(contest, judged.directions);
     const int alone = preferred_pattern(contest, {});
-    fold.calibrated = errors(plain.left, fold.points);
-    fold.extended = errors(caused.left, fold.points);
-    fold.extended_and_surface =
-        errors(estimate(session_, a_.rows, space, judged.directions, pattern).left_beside_pattern,
-               fold.points);
-    fold.surface_only =
-        errors(estimate(session_, a_.rows, space, {}, alone).left_beside_pattern, fold.points);
+    const Estimate with_surface = estimate(session_, a_.rows, space, judged.directions, pattern);
+    const Estimate surface = estimate(session_, a_.rows, space, {}, alone);
+    fold.calibrated = errors(plain, plain.left, fold.points);
+    fold.extended = errors(caused, caused.left, fold.points);
+    fold.extended_and_surface = errors(with_surface, with_surface.left_beside_pattern, fold.points);
+    fold.surface_only = errors(surface, surface.left_beside_pattern, fold.points);
     return fold;
   }
 
@@ -80,15 +79,12 @@ class Folds {
     return -1;
   }
 
-  [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Eigen::VectorXd& whitened,
+  [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Estimate& model,
+                                                    const Eigen::VectorXd& left,
                                                     const std::vector<std::size_t>& points) const {
+    const Eigen::VectorXd whitened = left_of_machine(a_.rows, model, left);
     std::vector<Eigen::Vector2d> result;
-    for (const std::size_t i : points) {
-      const PointState& state = a_.rows.points[i];
-      const Eigen::Vector2d chain =
-          state.whitening.inverse() * whitened.segment<2>(2 * static_cast<Eigen::Index>(i));
-      result.push_back(tool_shift(state, chain));
-    }
+    for (const std::size_t i : points) result.push_back(error_of_unit(a_.rows, whitened, i));
     return result;
   }
 
@@ -107,6 +103,28 @@ std::vector<LengthPoint> as_length_points(const Session& session) {
   std::vector<LengthPoint> result;
   for (const SessionPoint& p : session.points) result.push_back({p.index, p.mark, p.lengths});
   return result;
+}
+
+/// Blocks of the bed; or each hole with all distances that end there.
+std::vector<std::vector<std::size_t>> held_out_blocks(const Session& session) {
+  if (!session.distances) return spatial_blocks(as_length_points(session));
+  const MeasuredHoles& set = session.distances->set();
+  std::vector<std::vector<std::size_t>> blocks(set.holes.size());
+  for (std::size_t k = 0; k < set.distances.size(); ++k) {
+    blocks[set.distances[k].from].push_back(k);
+    if (!set.distances[k].edge) blocks[set.distances[k].to].push_back(k);
+  }
+  std::erase_if(blocks, [](const auto& block) { return block.empty(); });
+  return blocks;
+}
+
+/// Three blocks, and twice the fewest points; of distances the fewest without any of the blocks.
+bool are_enough(const Session& session, const std::vector<std::vector<std::size_t>>& blocks) {
+  if (blocks.size() < 3) return false;
+  if (!session.distances) return session.points.size() >= 2 * kFewestPoints;
+  return std::all_of(blocks.begin(), blocks.end(), [&](const auto& block) {
+    return session.units() - block.size() >= kFewestDistances;
+  });
 }
 
 /// Points beyond kBorderShare of the measured half width or half height.
@@ -153,9 +171,7 @@ double noise_floor(const Session& session,
                    const std::vector<std::size_t>& points) {
   double sum = 0.0;
   for (const std::size_t i : points) {
-    const Eigen::Matrix2d inverse = a.rows.points[i].by_mark.inverse();
-    sum += 2.0 * std::pow(session.noise.position_mm, 2) +
-           (inverse * inverse.transpose()).trace() * std::pow(session.noise.length_mm, 2);
+    sum += noise_of_unit_mm2(session, a.rows, i);
   }
   return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(points.size()));
 }
@@ -166,12 +182,13 @@ double drop_by_naming(const Session& session, const Analysis& a) {
   const Space& space = a.contest.spaces[a.judgement.space];
   const Estimate plain = estimate(session, a.rows, space, {}, -1);
   const Estimate named = estimate(session, a.rows, space, a.judgement.directions, -1);
-  const auto moved = chain_residuals(a.rows, Eigen::VectorXd(plain.left - named.left));
+  const Eigen::VectorXd moved =
+      left_of_machine(a.rows, plain, plain.left) - left_of_machine(a.rows, named, named.left);
   double sum = 0.0;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    sum += tool_shift(a.rows.points[i], moved[i]).squaredNorm();
+  for (std::size_t i = 0; i < session.units(); ++i) {
+    sum += error_of_unit(a.rows, moved, i).squaredNorm();
   }
-  return sum / static_cast<double>(moved.size());
+  return sum / static_cast<double>(session.units());
 }
 
 /// Tool errors with the settings as stated, and with the sheet alone moved to where it fits.
@@ -185,25 +202,24 @@ Delivered delivered(const Session& session,
   Delivered result;
   const auto stated = base_rows(session, stated_state(session), {});
   if (!stated) return result;
-  const auto machine_settings = static_cast<Eigen::Index>(model::kMachineSettings.size());
-  const auto sheet = stated->setting.size() - machine_settings;
+  constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
+  const auto sheet = static_cast<Eigen::Index>(session.settings.size()) - kOfMachine;
   Eigen::VectorXd placed = stated->e;
-  if (sheet > 0) {
+  const Eigen::MatrixXd by_sheet = stated->by_setting.middleCols(kOfMachine, sheet);
+  const bool moves = sheet > 0 && !by_sheet.isZero(0.0);
+  if (moves) {
     const auto& kept = a.contest.spaces[a.judgement.space].kept;
-    const Eigen::MatrixXd by_sheet = stated->by_setting.rightCols(sheet);
-    const Eigen::MatrixXd scaled =
-        by_sheet(kept, Eigen::all) * stated->sigma.tail(sheet).asDiagonal();
+    const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);
+    const Eigen::MatrixXd scaled = by_sheet(kept, Eigen::all) * sigma.asDiagonal();
     Eigen::MatrixXd normal = scaled.transpose() * scaled;
     normal.diagonal().array() += 1.0;
     const Eigen::VectorXd x =
         normal.llt().solve(scaled.transpose() * Eigen::VectorXd(stated->e(kept)));
-    placed -= by_sheet * stated->sigma.tail(sheet).cwiseProduct(x);
+    placed -= by_sheet * sigma.cwiseProduct(x);
   }
-  const auto chain = chain_residuals(*stated, stated->e);
-  const auto chain_placed = chain_residuals(*stated, placed);
   for (const std::size_t i : points) {
-    result.as_stated.push_back(tool_shift(stated->points[i], chain[i]));
-    if (sheet > 0) result.placed.push_back(tool_shift(stated->points[i], chain_placed[i]));
+    result.as_stated.push_back(error_of_unit(*stated, stated->e, i));
+    if (moves) result.placed.push_back(error_of_unit(*stated, placed, i));
   }
   return result;
 }
@@ -252,8 +268,8 @@ HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
 std::optional<Gain> measure_gain(const Session& session,
                                  const Analysis& a,
                                  const DiagnosisOptions& options) {
-  const auto blocks = spatial_blocks(as_length_points(session));
-  if (blocks.size() < 3 || session.points.size() < 2 * kFewestPoints) return std::nullopt;
+  const auto blocks = held_out_blocks(session);
+  if (!are_enough(session, blocks)) return std::nullopt;
   const Folds folds(session, a, options);
   Gain gain;
   std::vector<std::size_t> points;
@@ -276,7 +292,9 @@ std::optional<Gain> measure_gain(const Session& session,
   if (points.empty()) return std::nullopt;
   const Delivered before = delivered(session, a, points);
   gain.scheme = fmt::format(
-      "{} blocks of the bed, each held out in turn, the naming repeated without it", blocks.size());
+      "{}, each held out in turn, the naming repeated without it",
+      session.distances ? fmt::format("all the distances of each of {} holes", blocks.size())
+                        : fmt::format("{} blocks of the bed", blocks.size()));
   gain.as_delivered = summarise(before.as_stated, number, options.seed);
   if (!before.placed.empty()) gain.placed = summarise(before.placed, number, options.seed);
   gain.calibrated = summarise(all.calibrated, number, options.seed);
@@ -287,6 +305,8 @@ std::optional<Gain> measure_gain(const Session& session,
   gain.surface_only = summarise(all.surface_only, number, options.seed);
   gain.noise_floor_mm = noise_floor(session, a, points);
   gain.drop_mm2 = helps ? drop_by_naming(session, a) : 0.0;
+  // Nearly all distances reach the border.
+  if (session.distances) return gain;
   const auto edge = border(session);
   if (session.points.size() - edge.size() >= kFewestPoints) {
     const Fold outer = folds.hold_out(edge);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/judgement.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -258,16 +259,31 @@ class Judge {
 
 }  // namespace
 
+namespace {
+
+/// An orthonormal basis of what the columns span: of distances they span less than their number.
+Eigen::MatrixXd range_of(const Eigen::MatrixXd& columns) {
+  constexpr double kNone = 1e-9;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  qr.setThreshold(kNone);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+}
+
+}  // namespace
+
 std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
   // Free settings: what a class shares must not hang on how well the settings were stated.
-  const Eigen::MatrixXd settings = rows.by_setting(space.kept, Eigen::all);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(settings);
-  const Eigen::MatrixXd basis =
-      qr.householderQ() * Eigen::MatrixXd::Identity(settings.rows(), settings.cols());
+  const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(rows, space.kept);
+  const auto seen = [&](Eigen::MatrixXd columns) {
+    if (rows.nuisances > 0) noise.matrixL().solveInPlace(columns);
+    return columns;
+  };
+  const Eigen::MatrixXd basis = range_of(seen(
+      rows.by_setting.leftCols(rows.by_setting.cols() - rows.nuisances)(space.kept, Eigen::all)));
   std::vector<CauseClass> classes;
   std::vector<Eigen::VectorXd> representative;
   for (const auto& [cause, direction] : leading_directions(rows, space)) {
-    Eigen::VectorXd own = rows.g(space.kept, direction);
+    Eigen::VectorXd own = seen(rows.g(space.kept, direction));
     const double whole = own.norm();
     own -= basis * (basis.transpose() * own);
     // Of a signature that the settings take whole, only rounding would be compared.

@@ -30,9 +30,6 @@ constexpr double kSettledSigmas = 1e-3;
 constexpr double kHuberSigmas = 1.96;
 /// Passes with soft weights only, so that several bad readings cannot hide each other.
 constexpr int kSoftPasses = 4;
-/// One sigma beforehand of where a sheet lies whose edges were measured.
-constexpr double kSheetShiftMm = 50.0;
-constexpr double kSheetTurnRad = 0.03;
 /// What is stated without any uncertainty is taken as known this well, in mm or as a ratio.
 constexpr double kKnownSigma = 1e-7;
 

@@ -38,6 +38,10 @@ namespace chaintrue::grid {
 /// readings in thirty-five loses one.
 inline constexpr double kBadDistanceSigmas = 3.5;
 
+/// One sigma beforehand of where a sheet lies whose edges were measured.
+inline constexpr double kSheetShiftMm = 50.0;
+inline constexpr double kSheetTurnRad = 0.03;
+
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
 inline constexpr Eigen::Index kHolesUnknowns = 8;
 
