@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/bad_points.hpp"
+#include "grid/diagnosis/link_priors.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -133,8 +134,7 @@ bool has_continuous_place(const Direction& direction) {
 constexpr double kLeastReach = 4.0;
 
 /// Takes effects out that could not show at any size that they may have.
-void drop_invisible(const Session& session, const Steps& steps, Analysis& a) {
-  const Space space = make_space(a.rows, std::vector<bool>(session.units(), false), steps);
+void drop_invisible(const Space& space, Analysis& a) {
   const auto reach = [&](const CauseId& cause) {
     double most = 0.0;
     for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
@@ -209,34 +209,30 @@ void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judge
 
 }  // namespace
 
+/// Share of what noise does not explain that causes named beside an unknown pattern must explain.
+constexpr double kExplained = 0.95;
+
 Judgement decide(const Session& session,
                  const Rows& rows,
                  const Contest& contest,
                  const std::vector<bool>& excluded,
                  bool seen) {
-  // Strength of the leading cause over what is left; less where it is beyond doubt.
-  constexpr double kOverPattern = 2.2;
-  constexpr double kOverPatternBeyondDoubt = 1.5;
-  constexpr double kBeyondDoubt = 0.9995;
   Judgement judged = judge(rows, contest, excluded, seen);
   speak_of_leaders(rows, contest, judged);
   if (judged.listed.empty() || judged.pattern <= kPatternPossible || judged.best_pattern < 0) {
     return judged;
   }
-  // A pattern that nobody knows may lend a name its strength: the leading cause must stand above
-  // it.
+  // A pattern that nobody knows looks somewhat like this cause or that: what is named must explain
+  // nearly all that noise does not.
   const Space& space = contest.spaces[judged.space];
-  const Estimate fitted = estimate(session, rows, space, judged.directions, judged.best_pattern);
-  double strongest = 0.0;
-  for (std::size_t k = 0; k < fitted.directions.size(); ++k) {
-    strongest = std::max(strongest,
-                         std::abs(fitted.coefficient(static_cast<Eigen::Index>(k))) *
-                             space.g.col(fitted.directions[k]).norm());
-  }
-  const Eigen::VectorXd pattern = fitted.left - fitted.left_beside_pattern;
-  const double needed =
-      judged.marginal.front().probability >= kBeyondDoubt ? kOverPatternBeyondDoubt : kOverPattern;
-  if (strongest >= needed * length_in_noise(rows, space.kept, pattern)) return judged;
+  const auto unexplained = [&](const std::vector<int>& directions) {
+    const Estimate fitted = estimate(session, rows, space, directions, -1);
+    const Eigen::VectorXd left = left_of_machine(rows, fitted, fitted.left);
+    return square_in_noise(rows, space.kept, left) - static_cast<double>(space.kept.size());
+  };
+  const double before = unexplained({});
+  const double after = unexplained(judged.directions);
+  if (after <= (1.0 - kExplained) * before) return judged;
   return judge(rows, contest, excluded, false);
 }
 
@@ -283,7 +279,10 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     if (!rows) return tl::unexpected(unreachable(session, rows.error()));
     a.rows = std::move(*rows);
     add_directions(session, a.state, a.candidates.testable, known, a.rows);
-    if (pass == 0) drop_invisible(session, options.steps, a);
+    const std::vector<bool> none(session.units(), false);
+    const Space space = make_space(a.rows, none, options.steps);
+    share_out_links(space, a.rows);
+    if (pass == 0) drop_invisible(space, a);
     contest_and_judge(session, contest, true, a);
     if (pass + 1 == kPasses || a.judgement.directions.empty()) break;
     known = refinements(session, a);

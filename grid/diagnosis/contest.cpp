@@ -18,11 +18,8 @@ constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
 /// Beforehand: nothing, one cause, two, three, four; and how much rarer each is with an unknown
 /// pattern beside it.
-constexpr std::array<double, kMostCauses + 1> kPriorOfCount = {0.50, 0.25, 0.06, 0.02, 0.01};
-constexpr double kPatternPrior = 0.06;
-/// A slip at one visit stands beside any number of causes: odds of one, shared by all effects.
-constexpr double kSlipOdds = 0.5;
-
+constexpr std::array<double, kMostCauses + 1> kPriorOfCount = {0.50, 0.25, 0.05, 0.015, 0.007};
+constexpr double kPatternPrior = 0.10;
 /// A set of bad points so much less probable than the best is not tried beside patterns.
 constexpr double kWorthPatterns = 6.0;
 /// Sets of bad points in one contest.
@@ -68,11 +65,7 @@ double log_prior(const std::vector<Direction>& directions,
   for (const int k : set) {
     const Direction& d = directions[static_cast<std::size_t>(k)];
     value += d.log_prior - std::log(effects);
-    if (d.slip) {
-      value += std::log(kSlipOdds);
-    } else {
-      ++lasting;
-    }
+    if (!d.slip) ++lasting;
   }
   return value + std::log(kPriorOfCount[lasting]) + std::lgamma(1.0 + static_cast<double>(lasting));
 }

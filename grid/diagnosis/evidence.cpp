@@ -120,12 +120,18 @@ Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const Rows& rows,
   return Eigen::LLT<Eigen::MatrixXd>(covariance);
 }
 
-double length_in_noise(const Rows& rows,
+double square_in_noise(const Rows& rows,
                        const std::vector<Eigen::Index>& kept,
                        const Eigen::VectorXd& column) {
   Eigen::VectorXd own = column(kept);
   if (rows.nuisances > 0) nuisance_noise(rows, kept).matrixL().solveInPlace(own);
-  return own.norm();
+  return own.squaredNorm();
+}
+
+double length_in_noise(const Rows& rows,
+                       const std::vector<Eigen::Index>& kept,
+                       const Eigen::VectorXd& column) {
+  return std::sqrt(square_in_noise(rows, kept, column));
 }
 
 Eigen::VectorXd reduced(const Space& space, const Eigen::VectorXd& column) {

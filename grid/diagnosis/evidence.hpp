@@ -76,7 +76,10 @@ struct Space {
 /// noise as a person sees it. Empty where there are none.
 [[nodiscard]] Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const Rows& rows,
                                                          const std::vector<Eigen::Index>& kept);
-/// Length of a column's kept rows in units of that noise.
+/// Square, and length, of a column's kept rows in units of that noise.
+[[nodiscard]] double square_in_noise(const Rows& rows,
+                                     const std::vector<Eigen::Index>& kept,
+                                     const Eigen::VectorXd& column);
 [[nodiscard]] double length_in_noise(const Rows& rows,
                                      const std::vector<Eigen::Index>& kept,
                                      const Eigen::VectorXd& column);

@@ -17,10 +17,19 @@ namespace {
 
 constexpr double kBorderShare = 0.9;  // of the half width of the points: beyond is the border
 
-/// Tool errors of the held-out points of one fold, for every way of modelling.
+/// Tool errors for every way of modelling.
+struct Errors {
+  std::vector<Eigen::Vector2d> calibrated, surface_only;
+  /// With the causes that the fold itself names.
+  std::vector<Eigen::Vector2d> extended, extended_and_surface;
+  /// With the causes that all points name, their sizes fitted without the fold.
+  std::vector<Eigen::Vector2d> held_fast, held_fast_and_surface;
+};
+
+/// Held-out points of one fold.
 struct Fold {
   std::vector<std::size_t> points;
-  std::vector<Eigen::Vector2d> calibrated, extended, extended_and_surface, surface_only;
+  Errors errors;
   std::vector<CauseClass> named;
 };
 
@@ -46,16 +55,14 @@ class Folds {
       if (!bad_in_all(i)) fold.points.push_back(i);
     }
     for (const std::size_t index : judged.listed) fold.named.push_back(judged.classes[index]);
-    const Estimate plain = estimate(session_, a_.rows, space, {}, -1);
-    const Estimate caused = estimate(session_, a_.rows, space, judged.directions, -1);
-    const int pattern = preferred_pattern(contest, judged.directions);
-    const int alone = preferred_pattern(contest, {});
-    const Estimate with_surface = estimate(session_, a_.rows, space, judged.directions, pattern);
-    const Estimate surface = estimate(session_, a_.rows, space, {}, alone);
-    fold.calibrated = errors(plain, plain.left, fold.points);
-    fold.extended = errors(caused, caused.left, fold.points);
-    fold.extended_and_surface = errors(with_surface, with_surface.left_beside_pattern, fold.points);
-    fold.surface_only = errors(surface, surface.left_beside_pattern, fold.points);
+    fold.errors.calibrated = errors(fit(space, {}), fold.points);
+    fold.errors.surface_only = beside_pattern(contest, judged.space, {}, fold.points);
+    fold.errors.extended = errors(fit(space, judged.directions), fold.points);
+    fold.errors.extended_and_surface =
+        beside_pattern(contest, judged.space, judged.directions, fold.points);
+    const std::vector<int>& all = a_.judgement.directions;
+    fold.errors.held_fast = errors(fit(space, all), fold.points);
+    fold.errors.held_fast_and_surface = beside_pattern(contest, judged.space, all, fold.points);
     return fold;
   }
 
@@ -70,21 +77,38 @@ class Folds {
     return false;
   }
 
+  [[nodiscard]] Estimate fit(const Space& space,
+                             const std::vector<int>& directions,
+                             int pattern = -1) const {
+    return estimate(session_, a_.rows, space, directions, pattern);
+  }
+
+  [[nodiscard]] std::vector<Eigen::Vector2d> beside_pattern(
+      const Contest& contest,
+      std::size_t space,
+      const std::vector<int>& directions,
+      const std::vector<std::size_t>& points) const {
+    const int pattern = preferred_pattern(contest, space, directions);
+    return errors(fit(contest.spaces[space], directions, pattern), points);
+  }
+
   /// The pattern that the points prefer beside these causes; none where they would rather have
   /// none.
-  static int preferred_pattern(const Contest& contest, const std::vector<int>& directions) {
+  static int preferred_pattern(const Contest& contest,
+                               std::size_t space,
+                               const std::vector<int>& directions) {
     for (const Model& model : contest.models) {
-      if (model.directions == directions) return model.pattern;
+      if (model.directions == directions && model.space == space) return model.pattern;
     }
     return -1;
   }
 
+  /// What the model leaves, the pattern that it may have taken out.
   [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Estimate& model,
-                                                    const Eigen::VectorXd& left,
                                                     const std::vector<std::size_t>& points) const {
-    const Eigen::VectorXd whitened = left_of_machine(a_.rows, model, left);
+    const Eigen::VectorXd left = left_of_machine(a_.rows, model, model.left_beside_pattern);
     std::vector<Eigen::Vector2d> result;
-    for (const std::size_t i : points) result.push_back(error_of_unit(a_.rows, whitened, i));
+    for (const std::size_t i : points) result.push_back(error_of_unit(a_.rows, left, i));
     return result;
   }
 
@@ -224,6 +248,50 @@ Delivered delivered(const Session& session,
   return result;
 }
 
+void append(const Errors& fold, Errors& all) {
+  const auto join = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  join(all.calibrated, fold.calibrated);
+  join(all.surface_only, fold.surface_only);
+  join(all.extended, fold.extended);
+  join(all.extended_and_surface, fold.extended_and_surface);
+  join(all.held_fast, fold.held_fast);
+  join(all.held_fast_and_surface, fold.held_fast_and_surface);
+}
+
+/// Which errors speak of the extension: an extension that does not help on points it has not seen
+/// is not made.
+struct Extension {
+  const std::vector<Eigen::Vector2d>* machine = nullptr;
+  const std::vector<Eigen::Vector2d>* and_surface = nullptr;
+  bool helps = false;
+  bool naming_repeated = true;
+};
+
+Extension extension_of(const Analysis& a, const Errors& errors) {
+  if (!a.judgement.listed.empty() && rms(errors.extended) < rms(errors.calibrated)) {
+    return {&errors.extended, &errors.extended_and_surface, true, true};
+  }
+  // A block without which these points leave two names, the wrong one first, says little against
+  // the name that all points give.
+  if (!a.judgement.listed.empty() && rms(errors.held_fast) < rms(errors.calibrated)) {
+    return {&errors.held_fast, &errors.held_fast_and_surface, true, false};
+  }
+  return {&errors.calibrated, &errors.surface_only, false, true};
+}
+
+std::string scheme_of(const Session& session, std::size_t blocks, bool naming_repeated) {
+  return fmt::format(
+      "{}, each held out in turn, {}",
+      session.distances ? fmt::format("all the distances of each of {} holes", blocks)
+                        : fmt::format("{} blocks of the bed", blocks),
+      naming_repeated ? "the naming repeated without it"
+                      : fmt::format("the causes that all {} name fitted without it, since not "
+                                    "every block left out leaves the same name",
+                                    session.distances ? "distances" : "points"));
+}
+
 }  // namespace
 
 HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
@@ -274,42 +342,32 @@ std::optional<Gain> measure_gain(const Session& session,
   Gain gain;
   std::vector<std::size_t> points;
   std::vector<std::size_t> number;
-  Fold all;
+  Errors all;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Fold fold = folds.hold_out(blocks[b]);
     gain.folds += 1;
     gain.folds_agree += names_agree(fold, a) ? 1 : 0;
     points.insert(points.end(), fold.points.begin(), fold.points.end());
     number.insert(number.end(), fold.points.size(), b);
-    const auto append = [](auto& to, const auto& from) {
-      to.insert(to.end(), from.begin(), from.end());
-    };
-    append(all.calibrated, fold.calibrated);
-    append(all.extended, fold.extended);
-    append(all.extended_and_surface, fold.extended_and_surface);
-    append(all.surface_only, fold.surface_only);
+    append(fold.errors, all);
   }
   if (points.empty()) return std::nullopt;
   const Delivered before = delivered(session, a, points);
-  gain.scheme = fmt::format(
-      "{}, each held out in turn, the naming repeated without it",
-      session.distances ? fmt::format("all the distances of each of {} holes", blocks.size())
-                        : fmt::format("{} blocks of the bed", blocks.size()));
   gain.as_delivered = summarise(before.as_stated, number, options.seed);
   if (!before.placed.empty()) gain.placed = summarise(before.placed, number, options.seed);
   gain.calibrated = summarise(all.calibrated, number, options.seed);
-  // What would not help on points it has not seen is not made.
-  const bool helps = rms(all.extended) < rms(all.calibrated);
-  gain.extended = summarise(helps ? all.extended : all.calibrated, number, options.seed);
-  gain.extended_and_surface = summarise(all.extended_and_surface, number, options.seed);
   gain.surface_only = summarise(all.surface_only, number, options.seed);
+  const Extension extension = extension_of(a, all);
+  gain.scheme = scheme_of(session, blocks.size(), extension.naming_repeated);
+  gain.extended = summarise(*extension.machine, number, options.seed);
+  gain.extended_and_surface = summarise(*extension.and_surface, number, options.seed);
   gain.noise_floor_mm = noise_floor(session, a, points);
-  gain.drop_mm2 = helps ? drop_by_naming(session, a) : 0.0;
+  gain.drop_mm2 = extension.helps ? drop_by_naming(session, a) : 0.0;
   // Nearly all distances reach the border.
   if (session.distances) return gain;
   const auto edge = border(session);
   if (session.points.size() - edge.size() >= kFewestPoints) {
-    const Fold outer = folds.hold_out(edge);
+    const Errors outer = folds.hold_out(edge).errors;
     gain.border = {rms(outer.calibrated),
                    rms(outer.extended),
                    rms(outer.extended_and_surface),

@@ -43,6 +43,25 @@ bool on_paper(const CauseId& cause) {
   return cause.effect->station == model::effects::Station::paper;
 }
 
+/// A cause's signature with the settings free, and with what was stated of them.
+struct Representative {
+  Eigen::VectorXd free;
+  Eigen::VectorXd stated;
+  bool fixed = false;
+};
+
+double cosine(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const double lengths = a.norm() * b.norm();
+  return lengths > 0.0 ? std::abs(a.dot(b)) / lengths : 0.0;
+}
+
+bool one_class(const Representative& a, const Representative& b) {
+  if (cosine(a.free, b.free) < kOneClass) return false;
+  // A whole link is no small change: where it would ask a chain zero for what nobody stated, it is
+  // told apart.
+  return !(a.fixed || b.fixed) || cosine(a.stated, b.stated) >= kOneClass;
+}
+
 using Key = std::vector<std::size_t>;  ///< classes that act, ascending
 
 struct Grouped {
@@ -257,15 +276,17 @@ class Judge {
   Judgement result_;
 };
 
-}  // namespace
-
-namespace {
-
-/// An orthonormal basis of what the columns span: of distances they span less than their number.
-Eigen::MatrixXd range_of(const Eigen::MatrixXd& columns) {
-  constexpr double kNone = 1e-9;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  qr.setThreshold(kNone);
+/// An orthonormal basis of what the settings can do. Distances hardly feel some of them, and what
+/// no setting does within reason does not count.
+Eigen::MatrixXd range_of_settings(const Rows& rows, const Eigen::MatrixXd& columns) {
+  constexpr double kFelt = 1e-2;
+  if (rows.nuisances == 0) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+    return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns *
+                                                 rows.sigma.head(columns.cols()).asDiagonal());
+  qr.setThreshold(kFelt);
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
@@ -278,24 +299,27 @@ std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
     if (rows.nuisances > 0) noise.matrixL().solveInPlace(columns);
     return columns;
   };
-  const Eigen::MatrixXd basis = range_of(seen(
-      rows.by_setting.leftCols(rows.by_setting.cols() - rows.nuisances)(space.kept, Eigen::all)));
+  const Eigen::Index settings = rows.by_setting.cols() - rows.nuisances;
+  const Eigen::MatrixXd basis =
+      range_of_settings(rows, seen(rows.by_setting.leftCols(settings)(space.kept, Eigen::all)));
   std::vector<CauseClass> classes;
-  std::vector<Eigen::VectorXd> representative;
-  for (const auto& [cause, direction] : leading_directions(rows, space)) {
-    Eigen::VectorXd own = seen(rows.g(space.kept, direction));
-    const double whole = own.norm();
-    own -= basis * (basis.transpose() * own);
+  std::vector<Representative> first;
+  for (const auto& [cause, column] : leading_directions(rows, space)) {
+    Representative own{seen(rows.g(space.kept, column)),
+                       space.g.col(column),
+                       rows.directions[static_cast<std::size_t>(column)].fixed};
+    const double whole = own.free.norm();
+    own.free -= basis * (basis.transpose() * own.free);
     // Of a signature that the settings take whole, only rounding would be compared.
-    const bool absorbed = own.norm() < kAbsorbed * whole;
-    own.normalize();
+    const bool absorbed = own.free.norm() < kAbsorbed * whole;
     std::size_t home = classes.size();
     for (std::size_t k = 0; k < classes.size() && home == classes.size() && !absorbed; ++k) {
-      if (std::abs(own.dot(representative[k])) >= kOneClass) home = k;
+      if (one_class(own, first[k])) home = k;
     }
     if (home == classes.size()) {
       classes.emplace_back();
-      representative.push_back(absorbed ? Eigen::VectorXd::Zero(own.size()) : own);
+      if (absorbed) own.free.setZero();
+      first.push_back(std::move(own));
     }
     classes[home].push_back(cause);
   }

@@ -161,12 +161,6 @@ void limit(Direction& direction) {
   direction.highest = std::max(a, b);
 }
 
-/// Of whole numbers of links, one is the rule.
-double share_of_links(int links) {
-  const double weight = std::pow(0.25, std::abs(links) - 1);
-  return weight / (2.0 * (1.0 + 0.25 + 0.0625));
-}
-
 struct Column {
   Direction direction;
   Eigen::VectorXd g;
@@ -228,7 +222,6 @@ class Builder {
 
   void add_links(CauseId cause, std::vector<double> values) {
     const std::vector<double> where = places(session_, rows_, cause);
-    const double share = share_of_side(cause) / static_cast<double>(where.size());
     for (const double place : where) {
       values.back() = place;
       for (int links = -kMostLinks; links <= kMostLinks; ++links) {
@@ -242,7 +235,7 @@ class Builder {
         direction.fixed = true;
         direction.slip = is_slip(*cause.effect);
         direction.lowest = direction.highest = 1.0;
-        direction.log_prior = std::log(share * share_of_links(links));
+        direction.visits = static_cast<double>(where.size());
         columns_.push_back({std::move(direction), std::move(*g)});
       }
     }

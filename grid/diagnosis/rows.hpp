@@ -41,7 +41,9 @@ struct Direction {
   /// What the coefficient may be.
   double lowest = 0.0;
   double highest = 0.0;
-  /// Share of this side, place and whole number within the effect.
+  /// Of a cause with whole numbers: visits at which it may be.
+  double visits = 0.0;
+  /// Share of this side, place and whole number within the effect (whole numbers: link_priors.hpp).
   double log_prior = 0.0;
 };
 

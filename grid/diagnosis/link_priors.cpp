@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/link_priors.hpp"
+
+#include <cmath>
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// A slip stands beside any number of causes: odds that a visit bears one of a given kind, shared
+/// by all kinds of the catalogue. A session of 34 visits has one more often than not written down
+/// right.
+constexpr double kSlipOddsOfVisit = 0.5 / 34.0;
+
+/// Of whole numbers of links, one is the rule.
+double share_of_links(double links) { return std::pow(0.25, std::abs(links) - 1.0); }
+
+double strength_density(double delta) {
+  const auto normal = [&](double sigma) {
+    return std::exp(-0.5 * std::pow(delta / sigma, 2)) / sigma;
+  };
+  return (1.0 - kWideDeltaPrior) * normal(kUsualDelta) + kWideDeltaPrior * normal(kWideDelta);
+}
+
+}  // namespace
+
+void share_out_links(const Space& space, Rows& rows) {
+  std::size_t first = 0;
+  while (first < rows.directions.size()) {
+    std::size_t last = first;
+    double sum = 0.0;
+    std::vector<double> weight;
+    for (; last < rows.directions.size(); ++last) {
+      const Direction& d = rows.directions[last];
+      if (!(d.cause == rows.directions[first].cause)) break;
+      weight.push_back(share_of_links(d.values.front()) *
+                       strength_density(space.g.col(static_cast<Eigen::Index>(last)).norm()));
+      sum += weight.back();
+    }
+    for (std::size_t k = first; k < last && rows.directions[first].fixed; ++k) {
+      Direction& d = rows.directions[k];
+      d.log_prior = std::log(weight[k - first] / sum) -
+                    std::log(static_cast<double>(d.cause.effect->sides.size()));
+      if (d.slip) d.log_prior += std::log(kSlipOddsOfVisit * d.visits);
+    }
+    first = last;
+  }
+}
+
+}  // namespace chaintrue::grid::diagnosis
