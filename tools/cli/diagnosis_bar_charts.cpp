@@ -76,8 +76,10 @@ Chart gain_chart(const Diagnosis& found) {
 Chart separation_chart(const Diagnosis& found) {
   Chart chart{
       .specification = "separation_matrix",
-      .title = "How alike two causes look to these points",
-      .caption = "0: nothing in common; 1: no such points tell them apart, whatever their number."};
+      .title = fmt::format("How alike two causes look to these {}", name(found.observations)),
+      .caption =
+          fmt::format("0: nothing in common; 1: no such {} tell them apart, whatever their number.",
+                      name(found.observations))};
   std::vector<std::string> names;
   const auto number_of = [&names](const std::string& what) {
     const auto at = std::find(names.begin(), names.end(), what);

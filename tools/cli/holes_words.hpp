@@ -13,9 +13,6 @@ namespace chaintrue::cli {
 /// Each distance: measured, commanded, and what the others make of it.
 [[nodiscard]] std::string distances_in_words(const grid::MeasuredHoles& set,
                                              const grid::HolesFit& fit);
-/// What alone, of the catalogue's effects, would explain the distances, and what the settings do.
-[[nodiscard]] std::string causes_in_words(const grid::MeasuredHoles& set,
-                                          const grid::HolesFit& fit);
 /// The holes and what to measure, as a list for the workshop.
 [[nodiscard]] std::string workshop_list(const grid::HolesPlan& plan);
 /// What the plan's set will tell, and what it cannot tell apart.
