@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/findings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -228,7 +230,9 @@ std::vector<Bound> bounds(const Session& session,
                                  std::abs(fitted.coefficient(at) - kQuantile95 * s));
     const double upper = std::abs(size_at(direction(a, column), most));
     if (upper >= std::max(std::abs(size.lower), std::abs(size.upper))) {
-      not_testable.push_back({cause, "any size that it may have could hide in these points"});
+      not_testable.push_back({cause,
+                              fmt::format("any size that it may have could hide in these {}",
+                                          session.distances ? "distances" : "points")});
     } else {
       result.push_back({cause, std::string(size.name), upper});
     }
@@ -240,8 +244,7 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
   std::vector<CalibratedSetting> result;
   for (std::size_t k = 0; k < session.settings.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
-    // Where no edge was measured, distances know nothing of where the sheet lies.
-    if (a.rows.by_setting.col(at).isZero(0.0)) continue;
+    if (!session.knows(session.settings[k])) continue;
     CalibratedSetting one;
     one.setting = session.settings[k];
     one.stated = session.stated_value(at);

@@ -230,7 +230,8 @@ Delivered delivered(const Session& session,
   const auto sheet = static_cast<Eigen::Index>(session.settings.size()) - kOfMachine;
   Eigen::VectorXd placed = stated->e;
   const Eigen::MatrixXd by_sheet = stated->by_setting.middleCols(kOfMachine, sheet);
-  const bool moves = sheet > 0 && !by_sheet.isZero(0.0);
+  const bool moves = sheet > 0 && (session.knows(model::Setting::sheet_x_mm) ||
+                                   session.knows(model::Setting::sheet_y_mm));
   if (moves) {
     const auto& kept = a.contest.spaces[a.judgement.space].kept;
     const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);

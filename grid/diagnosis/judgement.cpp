@@ -279,7 +279,7 @@ class Judge {
 /// An orthonormal basis of what the settings can do. Distances hardly feel some of them, and what
 /// no setting does within reason does not count.
 Eigen::MatrixXd range_of_settings(const Rows& rows, const Eigen::MatrixXd& columns) {
-  constexpr double kFelt = 1e-2;
+  constexpr double kFelt = 1e-4;
   if (rows.nuisances == 0) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
     return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());

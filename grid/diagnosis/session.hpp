@@ -59,6 +59,9 @@ struct Session {
   [[nodiscard]] Eigen::Index nuisances() const {
     return stated_value.size() - static_cast<Eigen::Index>(settings.size());
   }
+  /// Whether the readings know of it at all: of distances, of the sheet's place where its edges were
+  /// measured.
+  [[nodiscard]] bool knows(model::Setting setting) const;
   /// With fewer units left, none is set aside.
   [[nodiscard]] std::size_t fewest_units() const;
 };

@@ -59,14 +59,16 @@ std::string gain_words(const Diagnosis& d) {
   if (!d.gain) return "";
   if (d.gain->extended.rms_mm >= d.gain->calibrated.rms_mm) {
     return fmt::format(
-        " Held out, naming it does not make the tool truer ({:.2f} mm with and without; noise "
+        " Held out, naming it does not make {} truer ({:.2f} mm with and without; noise "
         "alone "
         "makes {:.2f} mm): the machine is not extended.",
+        d.observations == Observations::points ? "the tool" : "distances",
         d.gain->calibrated.rms_mm,
         d.gain->noise_floor_mm);
   }
   return fmt::format(
-      " Held out, the tool's error falls from {:.2f} to {:.2f} mm; noise alone makes {:.2f} mm.",
+      " Held out, the {} error falls from {:.2f} to {:.2f} mm; noise alone makes {:.2f} mm.",
+      d.observations == Observations::points ? "tool's" : "distances'",
       d.gain->calibrated.rms_mm,
       d.gain->extended.rms_mm,
       d.gain->noise_floor_mm);

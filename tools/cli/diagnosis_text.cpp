@@ -67,19 +67,21 @@ void write_hypotheses(Text& text, const Diagnosis& found) {
 void write_errors(Text& text, const std::vector<GainRow>& rows, double floor_mm) {
   const bool has_border =
       std::any_of(rows.begin(), rows.end(), [](const GainRow& row) { return row.border_mm; });
-  text.line("  {:<32}{:>7}{:>15}{:>9}{:>9}",
+  text.line("  {:<32}{:>7}{:>15}{:>9}{}",
             "",
             "rms",
             "90 % interval",
             "95 % of",
-            has_border ? "border" : "");
+            has_border ? fmt::format("{:>9}", "border") : "");
   for (const GainRow& row : rows) {
-    text.line("  {:<32}{:>7.2f}{:>15}{:>9.2f}{:>9}",
+    text.line("  {:<32}{:>7.2f}{:>15}{:>9.2f}{}",
               row.what,
               row.held_out->rms_mm,
               fmt::format("{:.2f} to {:.2f}", row.held_out->low_mm, row.held_out->high_mm),
               row.held_out->percentile_95_mm,
-              row.border_mm ? fmt::format("{:.2f}", *row.border_mm) : "");
+              !has_border     ? ""
+              : row.border_mm ? fmt::format("{:>9.2f}", *row.border_mm)
+                              : fmt::format("{:>9}", ""));
   }
   text.line("  {:<32}{:>7.2f}", "noise of the readings", floor_mm);
 }

@@ -136,6 +136,14 @@ void take_holes(HoleDistances distances, const std::vector<std::size_t>& index, 
 
 }  // namespace
 
+bool Session::knows(model::Setting setting) const {
+  if (!distances || setting < model::Setting::sheet_x_mm) return true;
+  const SheetMeasured measured = sheet_measured(distances->set());
+  return setting == model::Setting::sheet_x_mm   ? measured.x
+         : setting == model::Setting::sheet_y_mm ? measured.y
+                                                 : measured.rotation;
+}
+
 tl::expected<Session, DiagnosisFailure> make_session(const MeasuredHoles& set) {
   if (!set.machine) {
     return failure(Reason::no_machine,
