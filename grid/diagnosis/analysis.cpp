@@ -9,6 +9,7 @@
 
 #include "grid/diagnosis/bad_points.hpp"
 #include "grid/diagnosis/link_priors.hpp"
+#include "grid/diagnosis/polish.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -61,74 +62,6 @@ tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const St
   return state;
 }
 
-/// The place of a cause at which it explains most, beside the others of its set.
-double refined_place(const Session& session,
-                     const Analysis& a,
-                     const Space& space,
-                     std::size_t which) {
-  const Direction& own = a.rows.directions[static_cast<std::size_t>(a.estimate.directions[which])];
-  Eigen::MatrixXd others(space.e.size(), 0);
-  for (std::size_t k = 0; k < a.estimate.directions.size(); ++k) {
-    if (k == which) continue;
-    others.conservativeResize(Eigen::NoChange, others.cols() + 1);
-    others.rightCols<1>() = space.g.col(a.estimate.directions[k]);
-  }
-  const Eigen::MatrixXd gram = others.transpose() * others;
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(gram);
-  const auto without = [&](Eigen::VectorXd v) {
-    if (others.cols() > 0) v -= others * ldlt.solve(others.transpose() * v);
-    return v;
-  };
-  const Eigen::VectorXd e = without(space.e);
-  const auto gain = [&](double place) {
-    std::vector<double> values = own.values;
-    values.back() = place;
-    const auto g = signature(session, a.state, a.rows, own.cause, values);
-    if (!g) return 0.0;
-    const Eigen::VectorXd left = without(reduced(space, *g));
-    const double square = left.squaredNorm();
-    const double c = left.dot(e);
-    return square > 1e-12 && c * a.estimate.coefficient(static_cast<Eigen::Index>(which)) > 0.0
-               ? c * c / square
-               : 0.0;
-  };
-  // The neighbouring places of the grid bracket the best.
-  double low = own.values.back();
-  double high = low;
-  for (const Direction& d : a.rows.directions) {
-    if (!(d.cause == own.cause)) continue;
-    const double step = d.values.back() - own.values.back();
-    if (step < 0.0 && (low == own.values.back() || d.values.back() > low)) low = d.values.back();
-    if (step > 0.0 && (high == own.values.back() || d.values.back() < high)) high = d.values.back();
-  }
-  constexpr double kGolden = 0.381966011250105;
-  double x1 = low + kGolden * (high - low);
-  double x2 = high - kGolden * (high - low);
-  double f1 = gain(x1);
-  double f2 = gain(x2);
-  for (int step = 0; step < 18; ++step) {
-    if (f1 > f2) {
-      high = x2;
-      x2 = x1;
-      f2 = f1;
-      x1 = low + kGolden * (high - low);
-      f1 = gain(x1);
-    } else {
-      low = x1;
-      x1 = x2;
-      f1 = f2;
-      x2 = high - kGolden * (high - low);
-      f2 = gain(x2);
-    }
-  }
-  return 0.5 * (low + high);
-}
-
-bool has_continuous_place(const Direction& direction) {
-  const auto& parameters = direction.cause.effect->parameters;
-  return parameters.size() > 1 && !parameters.back().integer;
-}
-
 /// Strength below which no point plan names a cause: what cannot get there is left out of the
 /// contest, where it would only take probability from the others.
 constexpr double kLeastReach = 4.0;
@@ -169,23 +102,6 @@ void drop_invisible(const Space& space, Analysis& a) {
   a.candidates.testable = std::move(visible);
 }
 
-/// Sizes and places found, for secants that are exact there.
-std::vector<Refinement> refinements(const Session& session, const Analysis& a) {
-  std::vector<Refinement> result;
-  const Space& space = a.contest.spaces[a.judgement.space];
-  for (std::size_t k = 0; k < a.estimate.directions.size(); ++k) {
-    const Direction& d = a.rows.directions[static_cast<std::size_t>(a.estimate.directions[k])];
-    if (d.fixed) continue;
-    const double size = size_at(d, a.estimate.coefficient(static_cast<Eigen::Index>(k)));
-    if (!(std::abs(size) > 1e-3 * std::abs(d.values.front()))) continue;
-    Refinement refinement{d.cause, d.values, d.log_prior};
-    refinement.values.front() = size;
-    if (has_continuous_place(d)) refinement.values.back() = refined_place(session, a, space, k);
-    result.push_back(std::move(refinement));
-  }
-  return result;
-}
-
 /// What is fitted is the member that gives its class the name: settings and sizes belong together.
 void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judged) {
   for (int& k : judged.directions) {
@@ -210,7 +126,7 @@ void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judge
 }  // namespace
 
 /// Share of what noise does not explain that causes named beside an unknown pattern must explain.
-constexpr double kExplained = 0.95;
+constexpr double kExplained = 0.93;
 
 Judgement decide(const Session& session,
                  const Rows& rows,
@@ -285,8 +201,12 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     if (pass == 0) drop_invisible(space, a);
     contest_and_judge(session, contest, true, a);
     if (pass + 1 == kPasses || a.judgement.directions.empty()) break;
-    known = refinements(session, a);
-    a.state = with_settings(session, a.state, a.rows.setting + a.estimate.setting_change);
+    const Judgement& judged = a.judgement;
+    const Leaders leaders{judged.directions, judged.pattern_left ? judged.best_pattern : -1};
+    Polished polished = polish(
+        session, a.state, a.rows, a.contest.spaces[judged.space], leaders, options.steps);
+    known = std::move(polished.refinements);
+    a.state = std::move(polished.state);
   }
   test_significance(session, options, a);
   if (a.family_wise_p >= kFalseAlarm && !options.told) {

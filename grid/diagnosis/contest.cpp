@@ -18,7 +18,7 @@ constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
 /// Beforehand: nothing, one cause, two, three, four; and how much rarer each is with an unknown
 /// pattern beside it.
-constexpr std::array<double, kMostCauses + 1> kPriorOfCount = {0.50, 0.25, 0.05, 0.015, 0.007};
+constexpr std::array<double, kMostCauses + 1> kPriorOfCount = {0.50, 0.25, 0.05, 0.02, 0.01};
 constexpr double kPatternPrior = 0.10;
 /// A set of bad points so much less probable than the best is not tried beside patterns.
 constexpr double kWorthPatterns = 6.0;

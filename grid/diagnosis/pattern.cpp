@@ -8,7 +8,21 @@ namespace {
 
 double bell(double square) { return std::exp(-0.5 * square); }
 
+/// Density of a half-Cauchy over the logarithm of the strength, but for a constant.
+double cauchy_weight(double delta) {
+  constexpr double kScale = 10.0;
+  return delta / (1.0 + std::pow(delta / kScale, 2));
+}
+
 }  // namespace
+
+double log_share_of_pattern(int index) {
+  double sum = 0.0;
+  for (const double delta : kPatternDeltas) sum += cauchy_weight(delta);
+  const auto deltas = static_cast<int>(std::size(kPatternDeltas));
+  return std::log(cauchy_weight(kPatternDeltas[index % deltas]) / sum) -
+         std::log(static_cast<double>(std::size(kPatternShapes)));
+}
 
 Eigen::Matrix2d pattern_block(const PatternShape& shape,
                               const PatternPlace& a,

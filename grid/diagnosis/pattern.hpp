@@ -35,6 +35,11 @@ inline constexpr double kPatternDeltas[] = {4.0, 6.5, 10.0, 16.0, 25.0, 60.0};
 inline constexpr int kPatterns =
     static_cast<int>(std::size(kPatternShapes) * std::size(kPatternDeltas));
 
+/// Of pattern number `index` among all: shapes alike, strengths as a half-Cauchy of scale 10 has
+/// them, so that a huge pattern is rarer than one that is just seen (A. Gelman, Bayesian Analysis 1
+/// (2006), 515, section 4.3).
+[[nodiscard]] double log_share_of_pattern(int index);
+
 struct Pattern {
   PatternShape shape;
   double sigma_mm = 0.0;  ///< s

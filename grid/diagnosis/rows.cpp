@@ -143,10 +143,22 @@ std::vector<double> places(const Session& session, const Rows& rows, CauseId cau
 }
 
 /// The coefficient's power: how the signature grows from half the size to the whole one.
-int power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half) {
+double power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half) {
   const double ratio = whole.norm() / std::max(half.norm(), 1e-300);
-  return std::max(1, static_cast<int>(std::lround(std::log2(ratio))));
+  return std::max(1.0, std::round(std::log2(ratio)));
 }
+
+constexpr double kNearby = 0.95;  // of a size: far enough for differences, near enough for a slope
+
+/// The same about a size that was found. A signature that hardly grows any more leaves its size
+/// open; one that shrinks again has no power.
+double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby) {
+  const double ratio = whole.dot(nearby) / whole.squaredNorm();
+  return std::clamp(std::log(std::max(ratio, 1e-3)) / std::log(kNearby), 0.2, 4.0);
+}
+
+/// Goes on through zero as a straight line, where an odd effect changes its sign.
+bool is_odd(const Direction& direction) { return direction.power < 1.5; }
 
 void limit(Direction& direction) {
   const EffectParameter& size = size_parameter(*direction.cause.effect);
@@ -207,13 +219,13 @@ class Builder {
     auto g = signature(session_, state_, rows_, cause, values);
     if (!g || !(g->norm() > 0.0)) return;
     std::vector<double> smaller = values;
-    smaller.front() *= 0.5;
+    smaller.front() *= refined_ ? kNearby : 0.5;
     const auto half = signature(session_, state_, rows_, cause, smaller);
     if (!half) return;
     Direction direction;
     direction.cause = cause;
     direction.values = values;
-    direction.power = power_of(*g, *half);
+    direction.power = refined_ ? power_about(*g, *half) : power_of(*g, *half);
     direction.log_prior = log_prior;
     direction.refined = refined_;
     limit(direction);
@@ -356,17 +368,42 @@ void add_directions(const Session& session,
   }
 }
 
+bool renew_directions(const Session& session,
+                      const State& state,
+                      const std::vector<Direction>& directions,
+                      Rows& rows) {
+  rows.directions = directions;
+  rows.g.resize(session.rows(), static_cast<Eigen::Index>(directions.size()));
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    Direction& d = rows.directions[k];
+    const auto g = signature(session, state, rows, d.cause, d.values);
+    if (!g || !(g->norm() > 0.0)) return false;
+    rows.g.col(static_cast<Eigen::Index>(k)) = *g;
+    if (d.fixed) continue;
+    std::vector<double> nearby = d.values;
+    nearby.front() *= kNearby;
+    const auto there = signature(session, state, rows, d.cause, nearby);
+    if (!there) return false;
+    d.power = power_about(*g, *there);
+    d.refined = true;
+    limit(d);
+  }
+  return true;
+}
+
 double size_at(const Direction& direction, double coefficient) {
   const double at = direction.values.front();
-  if (direction.fixed || direction.power == 1) return at * coefficient;
-  return coefficient < 0.0 ? 0.0 : at * std::pow(coefficient, 1.0 / direction.power);
+  if (direction.fixed) return at;
+  if (coefficient <= 0.0) return is_odd(direction) ? at * coefficient : 0.0;
+  return at * std::pow(coefficient, 1.0 / direction.power);
 }
 
 double size_slope(const Direction& direction, double coefficient) {
   if (direction.fixed) return 0.0;
-  if (direction.power == 1) return direction.values.front();
+  const double at = direction.values.front();
+  if (coefficient <= 0.0 && is_odd(direction)) return at;
   const double c = std::max(coefficient, 1e-6);
-  return direction.values.front() / direction.power * std::pow(c, 1.0 / direction.power - 1.0);
+  return at / direction.power * std::pow(c, 1.0 / direction.power - 1.0);
 }
 
 }  // namespace chaintrue::grid::diagnosis

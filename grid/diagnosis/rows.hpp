@@ -15,7 +15,8 @@
 ///   without it, whitened
 ///
 /// A direction is a secant: exact at the size at which it was taken, and proportional to
-/// size^power. Coefficient b of a direction is (size / that size)^power.
+/// size^power. Coefficient b of a direction is (size / that size)^power; a power of about one goes
+/// on through zero as a straight line.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,7 +32,7 @@ namespace chaintrue::grid::diagnosis {
 struct Direction {
   CauseId cause;
   std::vector<double> values;  ///< sizes and places, in the effect's order
-  int power = 1;
+  double power = 1.0;          ///< of a refined one: as it is about its size
   /// The size is a whole number: the coefficient is 1 and `values` hold it.
   bool fixed = false;
   /// It acts at one visit alone.
@@ -107,6 +108,12 @@ void add_directions(const Session& session,
 [[nodiscard]] inline auto nuisance_columns(const Rows& rows) {
   return rows.by_setting.rightCols(rows.nuisances);
 }
+
+/// Directions anew about another state, at their values. False where such a machine cannot be.
+[[nodiscard]] bool renew_directions(const Session& session,
+                                    const State& state,
+                                    const std::vector<Direction>& directions,
+                                    Rows& rows);
 
 /// The whitened column of an effect of these values; empty where such a machine cannot be.
 [[nodiscard]] std::optional<Eigen::VectorXd> signature(const Session& session,

@@ -269,9 +269,9 @@ class SetSearch::Search {
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     const std::vector<Metric> metrics = pattern_metrics(rows_, session_, space_, used);
-    const double share = -std::log(static_cast<double>(kPatterns));
     for (int pattern = 0; pattern < kPatterns; ++pattern) {
       const Metric& metric = metrics[static_cast<std::size_t>(pattern)];
+      const double share = log_share_of_pattern(pattern);
       for (const auto& set : sets) {
         std::vector<Eigen::Index> there;
         for (const Eigen::Index i : set) {

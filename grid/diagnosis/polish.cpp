@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/polish.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr int kRounds = 8;
+constexpr double kSettled = 1e-3;     // of a size: a hundredth of its sigma at strength 10
+constexpr double kSettled_mm = 1e-3;  // of a setting
+constexpr int kSteps = 5;             // of the search for a size
+constexpr double kLongestStep = 0.5;  // of a size
+
+/// How far the places next to a direction's own lie.
+struct Reach {
+  double below = 0.0;
+  double above = 0.0;
+};
+
+bool has_continuous_place(const Direction& direction) {
+  const auto& parameters = direction.cause.effect->parameters;
+  return parameters.size() > 1 && !parameters.back().integer;
+}
+
+Reach reach(const Rows& rows, const Direction& own) {
+  Reach result;
+  for (const Direction& d : rows.directions) {
+    if (!(d.cause == own.cause)) continue;
+    const double step = d.values.back() - own.values.back();
+    if (step < 0.0 && (result.below == 0.0 || -step < result.below)) result.below = -step;
+    if (step > 0.0 && (result.above == 0.0 || step < result.above)) result.above = step;
+  }
+  // A wave has no first and no last phase.
+  result.below = std::max(result.below, result.above);
+  result.above = result.below;
+  return result;
+}
+
+class Round {
+ public:
+  Round(const Session& session, const State& state, const Rows& rows, Space space, int pattern)
+      : session_(session), state_(state), rows_(rows), space_(std::move(space)) {
+    std::vector<int> all;
+    for (std::size_t k = 0; k < rows.directions.size(); ++k) all.push_back(static_cast<int>(k));
+    estimate_ = diagnosis::estimate(session, rows, space_, all, pattern);
+  }
+  [[nodiscard]] const Estimate& estimate() const { return estimate_; }
+
+  /// The size whose signature is as long, along the one at hand, as the coefficient asks for.
+  [[nodiscard]] double size(std::size_t which) const {
+    const Direction& own = rows_.directions[which];
+    const auto& bounds = own.cause.effect->parameters.front();
+    const double asked = estimate_.coefficient(static_cast<Eigen::Index>(which));
+    const auto bounded = [&](double s) { return std::clamp(s, bounds.lower, bounds.upper); };
+    double last = own.values.front();
+    double last_length = 1.0;
+    double now = bounded(size_at(own, asked));
+    for (int step = 0; step < kSteps; ++step) {
+      const auto there = length(which, now);
+      if (!there || now == last) break;
+      const double slope = (*there - last_length) / (now - last);
+      if (std::abs(*there - asked) < 0.1 * kSettled || !(std::abs(slope) > 0.0)) break;
+      const double most = kLongestStep * std::abs(now);
+      const double change = std::clamp((asked - *there) / slope, -most, most);
+      last = now;
+      last_length = *there;
+      now = bounded(now + change);
+    }
+    return now;
+  }
+
+  /// The place at which a cause explains most, beside the others.
+  [[nodiscard]] double place(std::size_t which, const Reach& reach) const {
+    const Direction& own = rows_.directions[which];
+    double low = own.values.back() - reach.below;
+    double high = own.values.back() + reach.above;
+    const Others others(*this, which);
+    constexpr double kGolden = 0.381966011250105;
+    double x1 = low + kGolden * (high - low);
+    double x2 = high - kGolden * (high - low);
+    double f1 = others.gain(x1);
+    double f2 = others.gain(x2);
+    for (int step = 0; step < 18; ++step) {
+      if (f1 > f2) {
+        high = x2;
+        x2 = x1;
+        f2 = f1;
+        x1 = low + kGolden * (high - low);
+        f1 = others.gain(x1);
+      } else {
+        low = x1;
+        x1 = x2;
+        f1 = f2;
+        x2 = high - kGolden * (high - low);
+        f2 = others.gain(x2);
+      }
+    }
+    return 0.5 * (low + high);
+  }
+
+ private:
+  [[nodiscard]] std::optional<double> length(std::size_t which, double size) const {
+    std::vector<double> values = rows_.directions[which].values;
+    values.front() = size;
+    const auto g = signature(session_, state_, rows_, rows_.directions[which].cause, values);
+    if (!g) return std::nullopt;
+    const auto own = space_.g.col(static_cast<Eigen::Index>(which));
+    return own.dot(reduced(space_, *g)) / own.squaredNorm();
+  }
+
+  /// What is left for one direction once the others have taken their share.
+  class Others {
+   public:
+    Others(const Round& round, std::size_t which) : round_(round), which_(which) {
+      for (std::size_t k = 0; k < round.rows_.directions.size(); ++k) {
+        if (k == which) continue;
+        columns_.conservativeResize(round.space_.e.size(), columns_.cols() + 1);
+        columns_.rightCols<1>() = round.space_.g.col(static_cast<Eigen::Index>(k));
+      }
+      ldlt_.compute(columns_.transpose() * columns_);
+      e_ = without(round.space_.e);
+    }
+
+    [[nodiscard]] double gain(double place) const {
+      const Direction& own = round_.rows_.directions[which_];
+      std::vector<double> values = own.values;
+      values.back() = place;
+      const auto g = signature(round_.session_, round_.state_, round_.rows_, own.cause, values);
+      if (!g) return 0.0;
+      const Eigen::VectorXd left = without(reduced(round_.space_, *g));
+      const double square = left.squaredNorm();
+      const double c = left.dot(e_);
+      const double sign = round_.estimate_.coefficient(static_cast<Eigen::Index>(which_));
+      return square > 1e-12 && c * sign > 0.0 ? c * c / square : 0.0;
+    }
+
+   private:
+    [[nodiscard]] Eigen::VectorXd without(Eigen::VectorXd v) const {
+      if (columns_.cols() > 0) v -= columns_ * ldlt_.solve(columns_.transpose() * v);
+      return v;
+    }
+
+    const Round& round_;
+    std::size_t which_;
+    Eigen::MatrixXd columns_;
+    Eigen::LDLT<Eigen::MatrixXd> ldlt_;
+    Eigen::VectorXd e_;
+  };
+
+  const Session& session_;
+  const State& state_;
+  const Rows& rows_;
+  Space space_;
+  Estimate estimate_;
+};
+
+}  // namespace
+
+Polished polish(const Session& session,
+                const State& state,
+                const Rows& rows,
+                const Space& space,
+                const Leaders& leaders,
+                const Steps& steps) {
+  std::vector<Direction> own;
+  std::vector<Reach> reaches;
+  for (const int k : leaders.directions) {
+    own.push_back(rows.directions[static_cast<std::size_t>(k)]);
+    reaches.push_back(reach(rows, own.back()));
+  }
+  Polished result{state, {}};
+  for (int round = 0; round < kRounds; ++round) {
+    auto about = base_rows(session, result.state, steps);
+    if (!about || !renew_directions(session, result.state, own, *about)) break;
+    Space there = make_space(*about, space.bad, steps);
+    there.pattern_trace = space.pattern_trace;  // the pattern stays as strong as it was found
+    const Round here(session, result.state, *about, std::move(there), leaders.pattern);
+    const auto settings = static_cast<Eigen::Index>(session.settings.size());
+    bool settled =
+        here.estimate().setting_change.head(settings).cwiseAbs().maxCoeff() < kSettled_mm;
+    std::vector<Direction> moved = own;
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      if (own[k].fixed) continue;
+      moved[k].values.front() = here.size(k);
+      settled = settled && std::abs(moved[k].values.front() - own[k].values.front()) <
+                               kSettled * std::abs(own[k].values.front());
+      // Beside a pattern the best of the places tried has to do: e has the pattern in it.
+      if (has_continuous_place(own[k]) && leaders.pattern < 0) moved[k].values.back() = here.place(k, reaches[k]);
+    }
+    State next = with_settings(
+        session, result.state, about->setting + here.estimate().setting_change);
+    if (!model::problems_of(next.machine).empty()) break;
+    result.state = std::move(next);
+    own = std::move(moved);
+    if (settled) break;
+  }
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const double first = rows.directions[static_cast<std::size_t>(leaders.directions[k])].values.front();
+    // A secant over next to nothing has no direction.
+    if (own[k].fixed || !(std::abs(own[k].values.front()) > kSettled * std::abs(first))) continue;
+    result.refinements.push_back({own[k].cause, own[k].values, own[k].log_prior});
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

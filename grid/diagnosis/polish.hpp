@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The causes that lead a contest, refitted without linearisation: sizes, places and settings moved
+/// until the secants taken at them fit as they are.
+///
+/// A secant is exact at its own size alone. Half a chain's weight gone, a pull of several newtons or
+/// the phase of a wave along a chain whose zero moves by a millimetre need several rounds; about
+/// where they end the contest is held again.
+#pragma once
+
+#include "grid/diagnosis/estimate.hpp"
+#include "grid/diagnosis/judgement.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+struct Polished {
+  State state;
+  std::vector<Refinement> refinements;  ///< of the causes whose size is no whole number
+};
+
+/// What leads: directions of the rows, beside an unknown pattern or none (-1).
+struct Leaders {
+  std::vector<int> directions;
+  int pattern = -1;
+};
+
+/// From the state of the rows, with the points set aside that `space` sets aside.
+[[nodiscard]] Polished polish(const Session& session,
+                              const State& state,
+                              const Rows& rows,
+                              const Space& space,
+                              const Leaders& leaders,
+                              const Steps& steps);
+
+}  // namespace chaintrue::grid::diagnosis
