@@ -9,6 +9,7 @@
 
 #include "model/calibration/setting.hpp"
 #include "model/controllers/payout.hpp"
+#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -84,6 +85,20 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
   noise.size_mm2 =
       std::pow(set.sheet.size_sigma_mm, 2) * geometry.by_size * geometry.by_size.transpose();
   return noise;
+}
+
+bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide side) {
+  return effect.station == model::effects::Station::paper &&
+         side == model::effects::EffectSide::both;
+}
+
+double tape_factor(const model::Machine& machine) {
+  double factor = 1.0;
+  for (const model::effects::ActingEffect& acting : model::effects::acting_effects(machine)) {
+    if (!is_of_tape(*acting.effect, acting.side)) continue;
+    factor *= acting.effect->write({1.0, 0.0}, acting.side, acting.values).x_mm;
+  }
+  return factor;
 }
 
 tl::expected<HoleDistances, std::string> HoleDistances::of(MeasuredHoles set) {

@@ -29,6 +29,7 @@
 
 #include "grid/holes/measured_holes.hpp"
 #include "model/calibration/observation.hpp"
+#include "model/effects/effect.hpp"
 
 namespace chaintrue::grid {
 
@@ -49,6 +50,12 @@ struct DistanceNoise {
 };
 [[nodiscard]] DistanceNoise distance_noise(const MeasuredHoles& set,
                                            const DistanceGeometry& geometry);
+
+/// Of the effects of the paper the one that a tape can have: a scale of its own.
+[[nodiscard]] bool is_of_tape(const model::effects::Effect& effect,
+                              model::effects::EffectSide side);
+/// Read over true length, where the machine's effects say that the tape is long or short.
+[[nodiscard]] double tape_factor(const model::Machine& machine);
 
 /// A hole where a machine puts it.
 struct HolePlace {

@@ -10,6 +10,7 @@
 #include <map>
 #include <sstream>
 
+#include "grid/diagnosis/diagnosis.hpp"
 #include "grid/holes/holes_fit.hpp"
 
 namespace chaintrue::grid {
@@ -181,6 +182,16 @@ TEST_F(RealSets, TheReadingThatContradictsTheOthersIsNamed) {
   ASSERT_TRUE(fit);
   for (std::size_t k = 0; k < sets_[0].distances.size(); ++k)
     EXPECT_EQ(fit->distances[k].set_aside, words_of(sets_[0], sets_[0].distances[k]) == "H0-H3");
+}
+
+TEST_F(RealSets, WhatADiagnosisSaysOfEach) {
+  for (const MeasuredHoles& set : sets_) {
+    const auto found = diagnosis::diagnose(set);
+    ASSERT_TRUE(found) << found.error().sentence;
+    fmt::print("set {}: {}\n", set.name, found->sentence);
+    for (const auto& bad : found->bad_points)
+      fmt::print("  bad: {} {:+.1f} mm\n", words_of(set, set.distances[bad.index]), bad.off_mm);
+  }
 }
 
 TEST_F(RealSets, TheChainsScalesAreNamedAndTheMotorsAreNot) {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 #include "grid/diagnosis/observed/observed.hpp"
-#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using model::effects::EffectSide;
 using model::effects::Station;
 
 std::vector<model::BedPoint> marks_of(const std::vector<HolePlace>& places) {
@@ -74,7 +71,7 @@ class Distances final : public Observed {
     if (cause.effect->needs == model::effects::DataNeed::order) {
       return "the order in which the holes were cut is not in the file, and no chain was read";
     }
-    if (cause.effect->station == Station::paper && !of_the_tape(cause)) {
+    if (cause.effect->station == Station::paper && !is_of_tape(*cause.effect, cause.side)) {
       return "a tape has one scale whichever way it is held, and no axes: print or set out marks "
              "and read the chains there";
     }
@@ -108,19 +105,6 @@ class Distances final : public Observed {
 };
 
 }  // namespace
-
-bool of_the_tape(const CauseId& cause) {
-  return cause.effect->station == Station::paper && cause.side == EffectSide::both;
-}
-
-double tape_factor(const model::Machine& machine) {
-  double factor = 1.0;
-  for (const model::effects::ActingEffect& acting : model::effects::acting_effects(machine)) {
-    if (!of_the_tape({acting.effect, acting.side})) continue;
-    factor *= acting.effect->write({1.0, 0.0}, acting.side, acting.values).x_mm;
-  }
-  return factor;
-}
 
 const Observed& observed_distances() {
   static const Distances distances;

@@ -38,11 +38,6 @@ class Observed {
 
 [[nodiscard]] const Observed& observed_of(const Session& session);
 
-/// Of the effects of the paper the one that a tape can have: a scale of its own.
-[[nodiscard]] bool of_the_tape(const CauseId& cause);
-/// Read over true length, for a machine whose effects say so.
-[[nodiscard]] double tape_factor(const model::Machine& machine);
-
 [[nodiscard]] const Observed& observed_points();
 [[nodiscard]] const Observed& observed_distances();
 
