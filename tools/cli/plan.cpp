@@ -31,6 +31,7 @@ namespace chaintrue::cli {
 namespace {
 
 namespace files = grid::files;
+using grid::diagnosis::MeasurementKind;
 
 struct PlanOptions {
   std::string grid;
@@ -151,6 +152,15 @@ int run_holes_follow_up(const PlanOptions& options, const std::string& text) {
        is_json(text) ? holes_follow_up_json(found, set) : holes_follow_up_csv(found, set)});
   files::write_whole_files(outputs);
   fmt::print(stderr, "{}", follow_up_list(found));
+  const bool has_readings = std::any_of(
+      found.next_measurements.begin(), found.next_measurements.end(), [](const auto& next) {
+        return next.kind == MeasurementKind::reading;
+      });
+  if (has_readings) {
+    fmt::print(stderr,
+               "A holes file holds no readings of the chain: where it reads long, diagnose again "
+               "with --accept-class.\n");
+  }
   return kDone;
 }
 

@@ -36,6 +36,14 @@ class Observed {
   [[nodiscard]] virtual std::string untestable(const Session& session, CauseId cause) const = 0;
 };
 
+/// The whitened column of an effect that is added to a chain, or to what is written down: the poses
+/// stay.
+[[nodiscard]] Eigen::VectorXd added(const Session& session,
+                                    const State& state,
+                                    const Rows& rows,
+                                    CauseId cause,
+                                    const std::vector<double>& values);
+
 [[nodiscard]] const Observed& observed_of(const Session& session);
 
 [[nodiscard]] const Observed& observed_points();
