@@ -127,6 +127,8 @@ void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judge
 
 /// Share of what noise does not explain that causes named beside an unknown pattern must explain.
 constexpr double kExplained = 0.93;
+/// From this probability of a pattern on; below it what noise leaves would decide.
+constexpr double kPatternLikely = 0.5;
 
 Judgement decide(const Session& session,
                  const Rows& rows,
@@ -135,7 +137,7 @@ Judgement decide(const Session& session,
                  bool seen) {
   Judgement judged = judge(rows, contest, excluded, seen);
   speak_of_leaders(rows, contest, judged);
-  if (judged.listed.empty() || judged.pattern <= kPatternPossible || judged.best_pattern < 0) {
+  if (judged.listed.empty() || judged.pattern <= kPatternLikely || judged.best_pattern < 0) {
     return judged;
   }
   // A pattern that nobody knows looks somewhat like this cause or that: what is named must explain
@@ -203,8 +205,8 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     if (pass + 1 == kPasses || a.judgement.directions.empty()) break;
     const Judgement& judged = a.judgement;
     const Leaders leaders{judged.directions, judged.pattern_left ? judged.best_pattern : -1};
-    Polished polished = polish(
-        session, a.state, a.rows, a.contest.spaces[judged.space], leaders, options.steps);
+    Polished polished =
+        polish(session, a.state, a.rows, a.contest.spaces[judged.space], leaders, options.steps);
     known = std::move(polished.refinements);
     a.state = std::move(polished.state);
   }

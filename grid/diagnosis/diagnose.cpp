@@ -7,7 +7,9 @@
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/gain.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
+#include "grid/diagnosis/normal_plot.hpp"
 #include "grid/diagnosis/slips.hpp"
+#include "grid/diagnosis/stability.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -61,9 +63,11 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(
   d.holes = hole_pictures(*session, *analysis);
   d.distances = distance_pictures(*session, *analysis);
   d.left_over = left_over(*session, *analysis, options.seed);
+  d.normal_plot = normal_plot(*session, *analysis, options.seed);
   if (options.gain) d.gain = measure_gain(*session, *analysis, options);
   extend(*session, *analysis, options.accept_class, d);
   if (options.next_measurements) d.next_measurements = next_measurements(*session, *analysis);
+  if (options.stability) d.stability = examine_stability(*session, *analysis, options);
   put_into_words(*session, d);
   return d;
 }

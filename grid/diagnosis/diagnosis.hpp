@@ -146,10 +146,12 @@ struct Gain {
   HeldOut extended_and_surface;
   HeldOut surface_only;
   double noise_floor_mm = 0.0;
-  /// By how much the mean square of the tool's error falls between the marks, as the points have
-  /// it: the mean square of what naming moves. Blocks held out say more, since there both models
-  /// extrapolate and the poorer one farther.
+  /// By how much the mean square of the tool's error falls over the measured area, as the points
+  /// have it (expected_gain.hpp). Blocks held out say more, since there both models extrapolate and
+  /// the poorer one farther.
   double drop_mm2 = 0.0;
+  /// That drop over the mean square before it, the noise of the readings in neither.
+  double drop_share = 0.0;
   /// The same rows where the outermost points were held out and the inner ones fitted.
   struct Border {
     double calibrated_mm = 0.0;
@@ -269,6 +271,39 @@ struct Transfer {
   double noise_floor_mm = 0.0;
 };
 
+/// What the verdict would be without a point, or without a whole column or row of marks.
+struct Removal {
+  enum class What { point, column, row } what = What::point;
+  std::size_t index = 0;  ///< of a point: into the grid's points
+  double at_mm = 0.0;     ///< of a column its x, of a row its y
+  std::size_t points = 1;
+  Verdict verdict = Verdict::nothing_found;
+  std::vector<CauseId> causes;  ///< that would be named
+  /// What all points name is named without these too.
+  bool stands = true;
+  /// That what is named acts.
+  double probability = 0.0;
+  /// Fall of the logarithm of its odds: how much of the name rests on these points; negative where
+  /// they speak against it.
+  double support = 0.0;
+};
+
+/// Whether what is named hangs on a few of the points.
+struct Stability {
+  double probability = 0.0;       ///< with all points: that every cause named acts, or one of a set
+  std::vector<Removal> removals;  ///< points by index, then columns and rows by place
+};
+
+/// What is left at the good points, whitened and in units of its own rms, against what normal noise
+/// would leave: a value a chain and point, ascending, all lists of one length.
+struct NormalPlot {
+  std::vector<double> values;
+  std::vector<double> expected;  ///< mean of the draws at that rank
+  std::vector<double> low;       ///< band that holds 95 of 100 sessions of noise whole
+  std::vector<double> high;
+  double p_value = 1.0;  ///< chance of noise to leave the band as far
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::nothing_found;
   std::string sentence;
@@ -302,6 +337,9 @@ struct Diagnosis {
   std::string grid_name;
   std::optional<StatedNoise> stated_noise;
   std::optional<StatedTape> stated_tape;
+  /// Empty where no cause is named or too few points would be left.
+  std::optional<Stability> stability;
+  std::optional<NormalPlot> normal_plot;
   /// Another grid foretold; empty where none was asked for.
   std::optional<Transfer> transferred;
 };
@@ -319,6 +357,7 @@ struct DiagnosisOptions {
   std::uint64_t seed = 1;
   bool gain = true;  ///< held-out errors, naming repeated in each fold
   bool next_measurements = true;
+  bool stability = true;       ///< the naming without each point, column and row of marks
   bool order_assumed = false;  ///< the points' order was assumed by somebody, not measured
   /// Chain or paper, which no points tell apart: the person has it that it is the chain.
   bool accept_class = false;

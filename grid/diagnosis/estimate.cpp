@@ -133,6 +133,13 @@ Estimate estimate(const Session& session,
     result.coefficient_sigma(static_cast<Eigen::Index>(result.free[k])) =
         std::sqrt(result.covariance(column, column));
   }
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const bool is_fixed = rows.directions[static_cast<std::size_t>(directions[k])].fixed;
+    if (is_fixed || result.coefficient_sigma(at) > 0.0) continue;
+    const double length = std::max(space.g.col(directions[k]).norm(), 1e-12);
+    result.coefficient_sigma(at) = std::sqrt(result.noise_square) / length;
+  }
   return result;
 }
 

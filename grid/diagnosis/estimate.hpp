@@ -15,8 +15,9 @@ struct Estimate {
   std::vector<int> directions;
   Eigen::VectorXd setting_change;  ///< from the state of the rows; the nuisances after them
   Eigen::MatrixXd setting_covariance;
-  Eigen::VectorXd coefficient;          ///< of each direction
-  Eigen::VectorXd coefficient_sigma;    ///< 0 where the size is a whole number
+  Eigen::VectorXd coefficient;  ///< of each direction
+  /// 0 where the size is a whole number; at a bound what noise alone makes of it.
+  Eigen::VectorXd coefficient_sigma;
   double noise_square = 1.0;            ///< s^2
   Eigen::VectorXd left;                 ///< whitened, all rows, the pattern not taken out
   Eigen::VectorXd left_beside_pattern;  ///< the same with the pattern taken out

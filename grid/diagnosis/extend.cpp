@@ -10,7 +10,7 @@ namespace chaintrue::grid::diagnosis {
 void extend(const Session& session, const Analysis& a, bool accept_class, Diagnosis& diagnosis) {
   const bool pitch_read =
       std::any_of(session.readings.begin(), session.readings.end(), [](const ExtraReading& r) {
-        return r.what == "link_pitch_mm";
+        return r.what == "link_pitch_mm" || r.what == "tape_error_mm_per_m";
       });
   // Of a set the most probable goes in: on these points its rivals would do the same.
   std::vector<Cause> used = diagnosis.causes;

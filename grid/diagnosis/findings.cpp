@@ -224,8 +224,7 @@ std::vector<Bound> bounds(const Session& session,
     if (std::find(set.begin(), set.end(), column) == set.end()) set.push_back(column);
     const Estimate fitted = estimate_with(session, a, set);
     const Eigen::Index at = position_of(fitted, column);
-    const double s = fitted.coefficient_sigma(at) > 0.0 ? fitted.coefficient_sigma(at)
-                                                        : std::sqrt(fitted.noise_square) / left;
+    const double s = fitted.coefficient_sigma(at);
     const double most = std::max(std::abs(fitted.coefficient(at) + kQuantile95 * s),
                                  std::abs(fitted.coefficient(at) - kQuantile95 * s));
     const double upper = std::abs(size_at(direction(a, column), most));

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "grid/diagnosis/expected_gain.hpp"
 #include "grid/map/spatial_blocks.hpp"
 #include "grid/synthetic/random.hpp"
 
@@ -55,7 +56,9 @@ class Folds {
       if (!bad_in_all(i)) fold.points.push_back(i);
     }
     for (const std::size_t index : judged.listed) fold.named.push_back(judged.classes[index]);
-    fold.errors.calibrated = errors(fit(space, {}), fold.points);
+    const Space plain =
+        without_slips(session_, a_.rows, space, a_.judgement.directions, options_.steps);
+    fold.errors.calibrated = errors(fit(plain, {}), fold.points);
     fold.errors.surface_only = beside_pattern(contest, judged.space, {}, fold.points);
     fold.errors.extended = errors(fit(space, judged.directions), fold.points);
     fold.errors.extended_and_surface =
@@ -198,21 +201,6 @@ double noise_floor(const Session& session,
     sum += noise_of_unit_mm2(session, a.rows, i);
   }
   return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(points.size()));
-}
-
-/// Mean square of what the named causes move the tool by, each model calibrated on all points. The
-/// causes' estimate is the mean of what the truth may be, so this is the expected drop.
-double drop_by_naming(const Session& session, const Analysis& a) {
-  const Space& space = a.contest.spaces[a.judgement.space];
-  const Estimate plain = estimate(session, a.rows, space, {}, -1);
-  const Estimate named = estimate(session, a.rows, space, a.judgement.directions, -1);
-  const Eigen::VectorXd moved =
-      left_of_machine(a.rows, plain, plain.left) - left_of_machine(a.rows, named, named.left);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < session.units(); ++i) {
-    sum += error_of_unit(a.rows, moved, i).squaredNorm();
-  }
-  return sum / static_cast<double>(session.units());
 }
 
 /// Tool errors with the settings as stated, and with the sheet alone moved to where it fits.
@@ -363,7 +351,11 @@ std::optional<Gain> measure_gain(const Session& session,
   gain.extended = summarise(*extension.machine, number, options.seed);
   gain.extended_and_surface = summarise(*extension.and_surface, number, options.seed);
   gain.noise_floor_mm = noise_floor(session, a, points);
-  gain.drop_mm2 = extension.helps ? drop_by_naming(session, a) : 0.0;
+  if (extension.helps) {
+    const ExpectedGain expected = expected_gain(session, a, options.steps);
+    gain.drop_mm2 = expected.drop_mm2;
+    gain.drop_share = expected.share;
+  }
   // Nearly all distances reach the border.
   if (session.distances) return gain;
   const auto edge = border(session);

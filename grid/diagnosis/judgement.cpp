@@ -73,9 +73,12 @@ struct Grouped {
 
 class Judge {
  public:
-  Judge(const Rows& rows, const Contest& contest, const std::vector<bool>& excluded)
+  Judge(const Rows& rows,
+        const Contest& contest,
+        const std::vector<bool>& excluded,
+        std::vector<CauseClass> classes)
       : rows_(rows), contest_(contest), excluded_(excluded) {
-    result_.classes = classes_of(rows, contest.spaces[contest.best().space]);
+    result_.classes = std::move(classes);
   }
 
   Judgement run(bool seen) {
@@ -334,7 +337,16 @@ Judgement judge(const Rows& rows,
                 const Contest& contest,
                 const std::vector<bool>& excluded,
                 bool seen) {
-  return Judge(rows, contest, excluded).run(seen);
+  return judge(
+      rows, contest, excluded, seen, classes_of(rows, contest.spaces[contest.best().space]));
+}
+
+Judgement judge(const Rows& rows,
+                const Contest& contest,
+                const std::vector<bool>& excluded,
+                bool seen,
+                std::vector<CauseClass> classes) {
+  return Judge(rows, contest, excluded, std::move(classes)).run(seen);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -58,5 +58,12 @@ struct Judgement {
                               const Contest& contest,
                               const std::vector<bool>& excluded,
                               bool seen);
+/// The same with the classes known: of the contest's spaces nothing but the points set aside is
+/// asked.
+[[nodiscard]] Judgement judge(const Rows& rows,
+                              const Contest& contest,
+                              const std::vector<bool>& excluded,
+                              bool seen,
+                              std::vector<CauseClass> classes);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -19,6 +19,7 @@ struct MachineReading {
   const char* side;
   double sigma;
 };
+constexpr double kTapeErrorSigmaMmPerM = 0.15;  // two metres to 0.3 mm, a good tape's tolerance
 constexpr MachineReading kReadings[] = {
     {"motor_spacing_mm", "", 1.0},
     {"beam_rise_mm", "", 1.0},
@@ -26,6 +27,8 @@ constexpr MachineReading kReadings[] = {
     {"link_pitch_mm", "left", kLinkPitchSigmaMm},
     {"link_pitch_mm", "right", kLinkPitchSigmaMm},
     {"chain_mass_kg_per_m", "", 0.002},
+    {"tape_error_mm_per_m", "x", kTapeErrorSigmaMmPerM},
+    {"tape_error_mm_per_m", "y", kTapeErrorSigmaMmPerM},
 };
 
 /// A session of everything that might be measured, as one more visit each.

@@ -33,33 +33,48 @@ SingleScore::SingleScore(const Rows& rows, const Space& space, double noise_dof)
   }
 }
 
-double SingleScore::score(Eigen::Index k, double c, double ee) const {
+double SingleScore::score(Eigen::Index k, double square, double c, double ee, double n) const {
   const auto at = static_cast<std::size_t>(k);
-  if (!(square_(k) > 1e-8) || sign_[at] * c < 0.0) return kNoScore;
-  const double drop = fixed_[at] ? 2.0 * c - square_(k) : c * c / (square_(k) * (1.0 + kPrecision));
-  const double n = static_cast<double>(space_.e.size());
+  if (!(square > 1e-8) || sign_[at] * c < 0.0) return kNoScore;
+  const double drop = fixed_[at] ? 2.0 * c - square : c * c / (square * (1.0 + kPrecision));
   return constant_(k) - 0.5 * (n + dof_) * std::log1p(-drop / (dof_ + ee));
+}
+
+double SingleScore::largest(const Metric& metric, Eigen::Index rows) const {
+  double result = kNoScore;
+  for (std::size_t i = 0; i < metric.columns.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    result = std::max(result,
+                      score(metric.columns[i],
+                            metric.gg(at, at),
+                            metric.ge(at),
+                            metric.ee,
+                            static_cast<double>(rows)));
+  }
+  return result;
 }
 
 Eigen::VectorXd SingleScore::by_cause(const Eigen::VectorXd& e) const {
   const Eigen::VectorXd c = space_.g.transpose() * e;
   const double ee = e.squaredNorm();
+  const auto n = static_cast<double>(e.size());
   Eigen::VectorXd result =
       Eigen::VectorXd::Constant(static_cast<Eigen::Index>(causes_.size()), kNoScore);
   for (Eigen::Index k = 0; k < c.size(); ++k) {
     double& own = result(static_cast<Eigen::Index>(cause_of_[static_cast<std::size_t>(k)]));
-    own = std::max(own, score(k, c(k), ee));
+    own = std::max(own, score(k, square_(k), c(k), ee, n));
   }
   return result;
 }
 
 Eigen::VectorXd SingleScore::largest(const Eigen::MatrixXd& e) const {
   const Eigen::MatrixXd c = space_.g.transpose() * e;
+  const auto n = static_cast<double>(e.rows());
   Eigen::VectorXd result = Eigen::VectorXd::Constant(e.cols(), kNoScore);
   for (Eigen::Index draw = 0; draw < e.cols(); ++draw) {
     const double ee = e.col(draw).squaredNorm();
     for (Eigen::Index k = 0; k < c.rows(); ++k) {
-      result(draw) = std::max(result(draw), score(k, c(k, draw), ee));
+      result(draw) = std::max(result(draw), score(k, square_(k), c(k, draw), ee, n));
     }
   }
   return result;

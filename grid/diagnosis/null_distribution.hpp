@@ -25,11 +25,14 @@ class SingleScore {
   /// The largest over all directions of a cause, in the order of `causes()`; `e` like Space::e.
   [[nodiscard]] Eigen::VectorXd by_cause(const Eigen::VectorXd& e) const;
   [[nodiscard]] const std::vector<CauseId>& causes() const { return causes_; }
+  /// The largest over the columns of a metric of so many rows.
+  [[nodiscard]] double largest(const Metric& metric, Eigen::Index rows) const;
   /// The largest of all, for each column of `e`.
   [[nodiscard]] Eigen::VectorXd largest(const Eigen::MatrixXd& e) const;
 
  private:
-  [[nodiscard]] double score(Eigen::Index k, double c, double ee) const;
+  /// Of a direction with this square and inner product with the residual, in so many rows.
+  [[nodiscard]] double score(Eigen::Index k, double square, double c, double ee, double n) const;
   const Space& space_;
   double dof_;
   std::vector<CauseId> causes_;

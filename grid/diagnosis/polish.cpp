@@ -190,17 +190,19 @@ Polished polish(const Session& session,
       settled = settled && std::abs(moved[k].values.front() - own[k].values.front()) <
                                kSettled * std::abs(own[k].values.front());
       // Beside a pattern the best of the places tried has to do: e has the pattern in it.
-      if (has_continuous_place(own[k]) && leaders.pattern < 0) moved[k].values.back() = here.place(k, reaches[k]);
+      if (has_continuous_place(own[k]) && leaders.pattern < 0)
+        moved[k].values.back() = here.place(k, reaches[k]);
     }
-    State next = with_settings(
-        session, result.state, about->setting + here.estimate().setting_change);
+    State next =
+        with_settings(session, result.state, about->setting + here.estimate().setting_change);
     if (!model::problems_of(next.machine).empty()) break;
     result.state = std::move(next);
     own = std::move(moved);
     if (settled) break;
   }
   for (std::size_t k = 0; k < own.size(); ++k) {
-    const double first = rows.directions[static_cast<std::size_t>(leaders.directions[k])].values.front();
+    const double first =
+        rows.directions[static_cast<std::size_t>(leaders.directions[k])].values.front();
     // A secant over next to nothing has no direction.
     if (own[k].fixed || !(std::abs(own[k].values.front()) > kSettled * std::abs(first))) continue;
     result.refinements.push_back({own[k].cause, own[k].values, own[k].log_prior});

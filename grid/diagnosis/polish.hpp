@@ -3,8 +3,8 @@
 /// The causes that lead a contest, refitted without linearisation: sizes, places and settings moved
 /// until the secants taken at them fit as they are.
 ///
-/// A secant is exact at its own size alone. Half a chain's weight gone, a pull of several newtons or
-/// the phase of a wave along a chain whose zero moves by a millimetre need several rounds; about
+/// A secant is exact at its own size alone. Half a chain's weight gone, a pull of several newtons
+/// or the phase of a wave along a chain whose zero moves by a millimetre need several rounds; about
 /// where they end the contest is held again.
 #pragma once
 

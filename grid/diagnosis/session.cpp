@@ -59,6 +59,10 @@ const std::map<std::string, Predict, std::less<>>& predictions() {
        [](const Machine& m, const ExtraReading&) {
          return m.chain.mass_kg_per_m * (1.0 + summed_size(m, "chain_sag", ""));
        }},
+      {"tape_error_mm_per_m",
+       [](const Machine& m, const ExtraReading& r) {
+         return 1000.0 * summed_size(m, "tape_scale", r.side);
+       }},
   };
   return kPredictions;
 }
@@ -91,6 +95,7 @@ double sigma_of_statement(const Machine& machine, const std::string& what) {
   if (what == "ring_radius_mm") return machine.uncertainty.ring_radius_mm;
   // A chain's pitch may be off by half a percent, its mass by more than that: nothing contradicts.
   if (what == "link_pitch_mm") return 0.005 * machine.sprocket.pitch_mm;
+  if (what == "tape_error_mm_per_m") return 5.0;
   return machine.chain.mass_kg_per_m;
 }
 
@@ -230,6 +235,13 @@ tl::expected<Session, DiagnosisFailure> make_session(const MeasuredGrid& grid) {
   session.noise = {noise->length_mm, noise->position_mm};
   session.noise_dof = noise->dof;
   return session;
+}
+
+Session with_points(const Session& session, std::vector<SessionPoint> points) {
+  Session other = session;
+  other.points = std::move(points);
+  other.readings.clear();
+  return other;
 }
 
 std::size_t Session::fewest_units() const {

@@ -38,7 +38,9 @@ struct Session {
   /// Between the holes at `points`; none: the chains were read at each.
   std::shared_ptr<const HoleDistances> distances;
   std::vector<std::size_t> distance_index;  ///< into the set's, in the order of the rows
-  model::PointNoise noise;                  ///< of points
+  /// Sessions of the tape whose hooks are known with a doubt; each is a nuisance.
+  std::vector<std::size_t> tape_sessions;
+  model::PointNoise noise;  ///< of points
   double noise_dof = 15.0;
   bool noise_from_repeats = false;
   std::vector<model::Setting> settings;
@@ -59,8 +61,8 @@ struct Session {
   [[nodiscard]] Eigen::Index nuisances() const {
     return stated_value.size() - static_cast<Eigen::Index>(settings.size());
   }
-  /// Whether the readings know of it at all: of distances, of the sheet's place where its edges were
-  /// measured.
+  /// Whether the readings know of it at all: of distances, of the sheet's place where its edges
+  /// were measured.
   [[nodiscard]] bool knows(model::Setting setting) const;
   /// With fewer units left, none is set aside.
   [[nodiscard]] std::size_t fewest_units() const;
@@ -76,6 +78,8 @@ inline constexpr std::size_t kFewestGoodDistances = 6;
 [[nodiscard]] tl::expected<Session, DiagnosisFailure> make_session(const MeasuredGrid& grid);
 [[nodiscard]] tl::expected<Session, DiagnosisFailure> make_session(const MeasuredHoles& set);
 
+/// The session without its readings and with these points alone.
+[[nodiscard]] Session with_points(const Session& session, std::vector<SessionPoint> points);
 /// The same machine with other holes and distances: those that it has first and in their order.
 /// Empty where a hole is out of the controller's reach.
 [[nodiscard]] std::optional<Session> with_holes(const Session& session, MeasuredHoles set);

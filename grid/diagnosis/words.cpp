@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/stability.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "grid/holes/measured_holes.hpp"
 
@@ -265,6 +266,7 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
         "This does not prove the machine perfect: causes smaller than their bounds below would "
         "not have shown.";
   }
+  text += rests_on(d);
   if (session.distances) {
     text +=
         " Distances do not know in which order the holes were cut, nor where the machine stands as "
@@ -284,6 +286,7 @@ void put_into_words(const Session& session, Diagnosis& d) {
         session.noise.length_mm,
         session.noise.position_mm));
   }
+  if (d.stability) d.notes.push_back(stability_in_words(d));
   d.sentence = sentence(session, d);
   d.not_proved = not_proved(session, d);
   say_what_to_do(d);

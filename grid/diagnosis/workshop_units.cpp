@@ -98,6 +98,13 @@ std::string reading_words(std::string_view what, std::string_view side) {
   if (what == "ring_radius_mm") return "from the bit to the end of a chain";
   if (what == "sled_mass_kg") return "the sled's weight, on a scale";
   if (what == "chain_mass_kg_per_m") return "the weight of a metre of chain";
+  if (what == "tape_error_mm_per_m") {
+    return fmt::format(
+        "how much a metre of the tape or the printed sheet says too much{}: hold a good tape "
+        "against "
+        "two metres of it",
+        side == "x" || side == "y" ? fmt::format(" along {}", side) : "");
+  }
   if (what == "link_pitch_mm") {
     return fmt::format("the length of 100 links of the {} chain, pulled taut", side);
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/whole_file.hpp"
@@ -22,20 +23,6 @@ constexpr Range kPositive{"", 0.0, 1e12};
 constexpr Range kMm{"mm", -1e6, 1e6};
 constexpr Range kShare{"", 0.0, 1.0};
 constexpr int kMostPoints = 1000000;
-
-Value<Verdict> verdict_word() {
-  std::vector<std::pair<std::string, Verdict>> names;
-  for (const Verdict verdict : {Verdict::named,
-                                Verdict::named_set,
-                                Verdict::several_causes,
-                                Verdict::unknown_pattern,
-                                Verdict::noise_larger_than_stated,
-                                Verdict::bad_points,
-                                Verdict::nothing_found}) {
-    names.emplace_back(diagnosis::name(verdict), verdict);
-  }
-  return choice<Verdict>(std::move(names));
-}
 
 Value<std::uint64_t> seed_value() {
   const std::string expected = "a whole number of at least 0";
@@ -198,6 +185,8 @@ Record<Diagnosis> make_diagnosis_record() {
       .required("seed", &Diagnosis::seed, seed_value())
       .required("grid_name", &Diagnosis::grid_name, text())
       .optional("stated_noise", &Diagnosis::stated_noise, object(noise_record()))
+      .optional("stability", &Diagnosis::stability, object(stability_record()))
+      .optional("normal_plot", &Diagnosis::normal_plot, object(normal_plot_record()))
       .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()));
   distance_keys(record);
   record.check(check_diagnosis);

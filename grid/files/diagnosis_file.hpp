@@ -14,7 +14,10 @@
 ///     "not_testable": [...], "bounds": [...], "settings": [...],
 ///     "gain": {"scheme", "position_rms_mm": {row: mm}, "position_percentile_95_mm": {row: mm},
 ///              "position_rms_90_percent_mm": {row: [low, high]}, "border_rms_mm": {row: mm}, ...},
-///     "next_measurements": [...], "extended_machine": { a chaintrue_machine }, ... }
+///     "next_measurements": [...], "extended_machine": { a chaintrue_machine },
+///     "stability":  {"probability", "removals": [ {"what": "point", "point": index, "points": 1,
+///                    "verdict", "causes", "stands", "probability", "support"} ]},
+///     "normal_plot": {"values", "expected", "low", "high", "p_value"}, ... }
 ///
 /// Of holes ("observations": "distances"; without the key: points) there are no points but
 ///

@@ -13,6 +13,7 @@ using diagnosis::HeldOut;
 using diagnosis::Transfer;
 
 constexpr Range kErrorMm{"mm", 0.0, 1e6};
+constexpr Range kShare{"", 0.0, 1.0};
 constexpr int kMostFolds = 1000;
 constexpr int kMostPoints = 1000000;
 
@@ -142,6 +143,7 @@ const Record<Gain>& gain_record() {
     gain.required("scheme", &Gain::scheme, text());
     error_figures(gain, kGainRows);
     gain.required("drop_mm2", &Gain::drop_mm2, number(kErrorMm))
+        .required("drop_share", &Gain::drop_share, number(kShare))
         .required("border_rms_mm", &Gain::border, object(border_record()))
         .required("folds", &Gain::folds, integer(0, kMostFolds))
         .required("folds_agree", &Gain::folds_agree, integer(0, kMostFolds))

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "grid/diagnosis/diagnosis.hpp"
 #include "grid/files/json_reader.hpp"
 
 namespace chaintrue::grid::files {
@@ -13,6 +14,8 @@ namespace chaintrue::grid::files {
 [[nodiscard]] inline Value<std::string> side_word() {
   return one_of({"left", "right", "both", "x", "y"});
 }
+
+[[nodiscard]] Value<diagnosis::Verdict> verdict_word();
 
 /// An empty text is null in the file.
 template <class T>

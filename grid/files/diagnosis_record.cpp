@@ -81,6 +81,8 @@ void cause_keys(Record<T>& record, const Access& id) {
 
 constexpr auto kCause = [](auto& object) -> auto& { return object.cause; };
 
+}  // namespace
+
 const Record<CauseId>& cause_id_record() {
   static const auto record = [] {
     Record<CauseId> id("an effect with its side");
@@ -90,6 +92,8 @@ const Record<CauseId>& cause_id_record() {
   }();
   return record;
 }
+
+namespace {
 
 const Record<ParameterEstimate>& estimate_record() {
   static const auto record = Record<ParameterEstimate>("a value with its sigma")

@@ -8,6 +8,7 @@
 
 namespace chaintrue::grid::files {
 
+[[nodiscard]] const Record<diagnosis::CauseId>& cause_id_record();
 [[nodiscard]] const Record<diagnosis::Cause>& cause_record();
 [[nodiscard]] const Record<diagnosis::Hypothesis>& hypothesis_record();
 [[nodiscard]] const Record<diagnosis::LeftOver>& left_over_record();
@@ -18,6 +19,9 @@ namespace chaintrue::grid::files {
 [[nodiscard]] const Record<diagnosis::DistancePicture>& distance_picture_record();
 [[nodiscard]] const Record<diagnosis::Term>& term_record();
 [[nodiscard]] const Record<diagnosis::Separation>& separation_record();
+/// diagnosis_stability_record.cpp.
+[[nodiscard]] const Record<diagnosis::Stability>& stability_record();
+[[nodiscard]] const Record<diagnosis::NormalPlot>& normal_plot_record();
 /// Places on the bed; diagnosis_point_record.cpp.
 [[nodiscard]] const Record<diagnosis::NextMeasurement>& next_measurement_record();
 [[nodiscard]] const Record<diagnosis::PointPicture>& point_picture_record();

@@ -26,21 +26,25 @@ constexpr int kLargestOrder = 1'000'000'000;
 struct ReadingKind {
   const char* what;
   Range value;
-  bool has_side;
+  std::vector<std::string> sides = {};  ///< that it may have; none at all where empty
 };
 
-constexpr ReadingKind kReadingKinds[] = {
-    {"motor_spacing_mm", {"mm", 500.0, 20000.0}, false},
-    {"beam_rise_mm", {"mm", -1000.0, 1000.0}, false},
-    {"ring_radius_mm", {"mm", 0.0, 1000.0}, false},
-    {"sled_mass_kg", {"kg", 0.1, 200.0}, false},
-    {"link_pitch_mm", {"mm", 1.0, 50.0}, true},
-    {"chain_mass_kg_per_m", {"kg/m", 0.001, 10.0}, false},
-};
+const std::vector<ReadingKind>& reading_kinds() {
+  static const std::vector<ReadingKind> kKinds = {
+      {"motor_spacing_mm", {"mm", 500.0, 20000.0}},
+      {"beam_rise_mm", {"mm", -1000.0, 1000.0}},
+      {"ring_radius_mm", {"mm", 0.0, 1000.0}},
+      {"sled_mass_kg", {"kg", 0.1, 200.0}},
+      {"link_pitch_mm", {"mm", 1.0, 50.0}, {"left", "right", "both"}},
+      {"chain_mass_kg_per_m", {"kg/m", 0.001, 10.0}},
+      {"tape_error_mm_per_m", {"mm a metre", -50.0, 50.0}, {"x", "y", "both"}},
+  };
+  return kKinds;
+}
 
 std::vector<std::string> reading_names() {
   std::vector<std::string> names;
-  for (const ReadingKind& kind : kReadingKinds) names.emplace_back(kind.what);
+  for (const ReadingKind& kind : reading_kinds()) names.emplace_back(kind.what);
   return names;
 }
 
@@ -56,11 +60,14 @@ struct StatedGrid {
 };
 
 void check_reading(const Cursor& at, ExtraReading& reading) {
-  for (const ReadingKind& kind : kReadingKinds) {
+  for (const ReadingKind& kind : reading_kinds()) {
     if (reading.what != kind.what) continue;
     if (at.child("value").clean()) (void)at.child("value").number(kind.value);
-    if (!kind.has_side && !reading.side.empty()) {
-      at.child("side").expect(fmt::format("no side, {} has none", kind.what));
+    const auto& sides = kind.sides;
+    if (reading.side.empty() || !at.child("side").clean()) continue;
+    if (sides.empty()) at.child("side").expect(fmt::format("no side, {} has none", kind.what));
+    if (!sides.empty() && std::find(sides.begin(), sides.end(), reading.side) == sides.end()) {
+      at.child("side").expect(fmt::format("{} for {}", fmt::join(sides, ", "), kind.what));
     }
   }
 }
@@ -71,7 +78,7 @@ const Record<ExtraReading>& reading_record() {
   static const auto record =
       Record<ExtraReading>("a reading")
           .required("what", &ExtraReading::what, one_of(reading_names()))
-          .sparse("side", &ExtraReading::side, one_of({"left", "right", "both"}))
+          .sparse("side", &ExtraReading::side, one_of({"left", "right", "both", "x", "y"}))
           .required("value", &ExtraReading::value, number({"", -kAny, kAny}))
           .required("sigma", &ExtraReading::sigma, number({"", kSmallestSigma, kAny}))
           .check(check_reading);

@@ -38,7 +38,8 @@ const Record<Tape>& tape_record() {
   static const auto record =
       Record<Tape>("the tape")
           .optional("sigma_mm", &Tape::sigma_mm, number(kSigma))
-          .optional("hook_offset_mm", &Tape::hook_offset_mm, number({"mm", -1000.0, 1000.0}));
+          .optional("hook_offset_mm", &Tape::hook_offset_mm, number({"mm", -1000.0, 1000.0}))
+          .optional("hook_sigma_mm", &Tape::hook_sigma_mm, number({"mm", 0.0, 100.0}));
   return record;
 }
 
@@ -194,6 +195,7 @@ ReadHoles finish(StatedHoles stated,
   set.tape = stated.tape;
   set.tape.sigma_mm = options.tape_sigma_mm.value_or(set.tape.sigma_mm);
   set.tape.hook_offset_mm = options.hook_offset_mm.value_or(set.tape.hook_offset_mm);
+  if (options.hook_sigma_mm) set.tape.hook_sigma_mm = options.hook_sigma_mm;
   set.hole_sigma_mm = options.hole_sigma_mm.value_or(stated.hole_sigma_mm);
   set.noise_dof = stated.noise_dof;
   set.sheet = stated.sheet;

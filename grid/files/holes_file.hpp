@@ -42,6 +42,7 @@ struct HolesOptions {
   std::optional<model::Machine> machine;
   std::optional<double> tape_sigma_mm;
   std::optional<double> hook_offset_mm;
+  std::optional<double> hook_sigma_mm;
   std::optional<double> hole_sigma_mm;
   /// A handful that only checks a map passes 1.
   std::size_t fewest_distances = kFewestHoleDistances;

@@ -168,7 +168,7 @@ tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& m
   }
   readings.by_chain = geometry.by_mark * marks_by_chain;
   readings.covariance = readings.by_chain * at->covariance * readings.by_chain.transpose() +
-                        noise.holes_mm2 + noise.size_mm2;
+                        noise.holes_mm2 + noise.size_mm2 + noise.hook_mm2;
   readings.covariance.diagonal() += noise.tape_mm2;
   for (std::size_t k = 0; k < set.distances.size(); ++k) {
     readings.groups.push_back({static_cast<Eigen::Index>(k)});

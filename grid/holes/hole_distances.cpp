@@ -39,6 +39,16 @@ EdgeRow edge_row(const MeasuredHoles& set, SheetEdge edge) {
   return {height_mm, 1, 1.0};
 }
 
+Eigen::MatrixXd hook_covariance(const MeasuredHoles& set) {
+  const auto count = static_cast<Eigen::Index>(set.distances.size());
+  Eigen::VectorXd session(count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    session[k] = static_cast<double>(set.distances[static_cast<std::size_t>(k)].session);
+  const Eigen::MatrixXd all = session.replicate(1, count);
+  return std::pow(set.tape.hook_sigma_mm.value_or(0.0), 2) *
+         (all.array() == all.transpose().array()).cast<double>().matrix();
+}
+
 bool is_of_sheet(model::Setting setting) { return setting >= model::Setting::sheet_x_mm; }
 
 }  // namespace
@@ -84,6 +94,7 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
       set.hole_sigma_mm * set.hole_sigma_mm * geometry.by_mark * geometry.by_mark.transpose();
   noise.size_mm2 =
       std::pow(set.sheet.size_sigma_mm, 2) * geometry.by_size * geometry.by_size.transpose();
+  noise.hook_mm2 = hook_covariance(set);
   return noise;
 }
 
@@ -175,7 +186,7 @@ tl::expected<model::Linearisation, model::PoseFailure> HoleDistances::linearise(
   model::Linearisation line;
   line.residual = measured_mm_ - geometry.predicted_mm;
   line.setting_jacobian = geometry.by_mark * marks_by_setting;
-  line.covariance = noise.holes_mm2 + noise.size_mm2;
+  line.covariance = noise.holes_mm2 + noise.size_mm2 + noise.hook_mm2;
   line.covariance.diagonal() += noise.tape_mm2;
   return line;
 }

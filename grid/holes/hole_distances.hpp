@@ -7,9 +7,10 @@
 ///   q_i   where the machine puts the tool with them: f(q_i) = l_i
 ///   m_i   q_i on the sheet
 ///   d_k   |m_a - m_b|, or m_a's distance from an edge                                      (1)
-///   V     tape^2 I + hole^2 B B' + size^2 w w', B = dd/dm                                  (2)
+///   V     tape^2 I + hole^2 B B' + size^2 w w' + hook^2 1 1', B = dd/dm                    (2)
 ///
-/// Holes share their own error with every distance that ends there, so V is not diagonal. The frame
+/// Holes share their own error with every distance that ends there, readings of one session that of
+/// the hook, so V is not diagonal. The frame
 /// of the sheet matters to edges alone: distances between holes do not move with it.
 ///
 /// An effect of the catalogue is scored by secants: linearise with the machine that has it, and
@@ -42,11 +43,13 @@ struct DistanceGeometry {
 [[nodiscard]] DistanceGeometry distance_geometry(const MeasuredHoles& set,
                                                  const std::vector<model::BedPoint>& marks);
 
-/// (2) in its parts: the tape's alone (a diagonal), the holes', and that of the sheet's size.
+/// (2) in its parts: the tape's alone (a diagonal), the holes', that of the sheet's size and that
+/// of the hook.
 struct DistanceNoise {
   Eigen::VectorXd tape_mm2;
   Eigen::MatrixXd holes_mm2;
   Eigen::MatrixXd size_mm2;
+  Eigen::MatrixXd hook_mm2;
 };
 [[nodiscard]] DistanceNoise distance_noise(const MeasuredHoles& set,
                                            const DistanceGeometry& geometry);

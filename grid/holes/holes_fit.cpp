@@ -40,7 +40,8 @@ struct Solution {
   Eigen::VectorXd left_out;    ///< (2), every reading
   Eigen::VectorXd left_out_sigma;
   Eigen::VectorXd hole_shift;  ///< what the holes' own error is found to be, 2 N
-  double noise2 = 1.0;         ///< s^2
+  std::vector<FoundHook> hooks;
+  double noise2 = 1.0;  ///< s^2
   double log_evidence = 0.0;
 };
 
@@ -79,6 +80,9 @@ class HolesFitter {
     return {0, 1, 2, 3, 4, 5, columns.scale(Side::left), columns.scale(Side::right)};
   }
   [[nodiscard]] std::vector<Eigen::Index> used() const;
+  [[nodiscard]] std::vector<FoundHook> hooks_of(const std::vector<Eigen::Index>& rows,
+                                                const Eigen::MatrixXd& inverse,
+                                                const Eigen::VectorXd& pulled) const;
   [[nodiscard]] Solution solve(const Eigen::MatrixXd& prior) const;
   [[nodiscard]] double choose_noise2(const Eigen::MatrixXd& known,
                                      const Eigen::MatrixXd& noise,
@@ -159,11 +163,34 @@ double HolesFitter::choose_noise2(const Eigen::MatrixXd& known,
   return std::exp(0.5 * (low + high));
 }
 
+/// Of each session h = hook^2 1' K^-1 y, variance hook^2 - hook^4 1' K^-1 1.
+std::vector<FoundHook> HolesFitter::hooks_of(const std::vector<Eigen::Index>& rows,
+                                             const Eigen::MatrixXd& inverse,
+                                             const Eigen::VectorXd& pulled) const {
+  std::vector<FoundHook> hooks;
+  const double variance = std::pow(set_.tape.hook_sigma_mm.value_or(0.0), 2);
+  if (variance == 0.0) return hooks;
+  std::size_t sessions = 0;
+  for (const HoleDistance& distance : set_.distances)
+    sessions = std::max(sessions, distance.session + 1);
+  for (std::size_t session = 0; session < sessions; ++session) {
+    Eigen::VectorXd ones = Eigen::VectorXd::Zero(pulled.size());
+    for (Eigen::Index i = 0; i < ones.size(); ++i) {
+      const auto k = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
+      ones[i] = set_.distances[k].session == session ? 1.0 : 0.0;
+    }
+    hooks.push_back({variance * ones.dot(pulled),
+                     std::sqrt(variance - variance * variance * ones.dot(inverse * ones))});
+  }
+  return hooks;
+}
+
 Solution HolesFitter::solve(const Eigen::MatrixXd& prior) const {
   const std::vector<Eigen::Index> rows = used();
   const Eigen::MatrixXd by_v = now_.design * now_.follows;
   const Eigen::VectorXd response = now_.residual_mm + by_v * (u_ - mean_);
-  const Eigen::MatrixXd known = by_v * prior * by_v.transpose() + now_.noise.size_mm2;
+  const Eigen::MatrixXd known =
+      by_v * prior * by_v.transpose() + now_.noise.size_mm2 + now_.noise.hook_mm2;
   Eigen::MatrixXd noise = now_.noise.holes_mm2;
   noise.diagonal() += now_.noise.tape_mm2;
   Eigen::MatrixXd soft = noise;
@@ -185,6 +212,7 @@ Solution HolesFitter::solve(const Eigen::MatrixXd& prior) const {
   solution.covariance = prior - cross * inverse * cross.transpose();
   solution.hole_shift = solution.noise2 * set_.hole_sigma_mm * set_.hole_sigma_mm *
                         now_.geometry.by_mark(rows, Eigen::all).transpose() * pulled;
+  solution.hooks = hooks_of(rows, inverse, pulled);
   solution.left_out.resize(weights_.size());
   solution.left_out_sigma.resize(weights_.size());
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -319,6 +347,7 @@ HolesFit HolesFitter::result() const {
       has_surface_,
       {},
       {},
+      solution_.hooks,
       {},
       {},
       {}};

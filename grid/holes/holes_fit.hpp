@@ -65,6 +65,13 @@ struct FittedDistance {
   [[nodiscard]] double sigmas() const { return left_out_mm / left_out_sigma_mm; }
 };
 
+/// By how much the readings of a session are all too long, where the hook's offset was not known
+/// exactly.
+struct FoundHook {
+  double mm = 0.0;
+  double sigma_mm = 0.0;
+};
+
 struct FittedHole {
   model::ChainLengths lengths;  ///< paid out
   model::BedPoint as_stated;    ///< where the machine as stated puts it, in the sheet's frame
@@ -94,8 +101,9 @@ struct HolesFit {
   bool has_surface = false;
   std::vector<FittedDistance> distances;
   std::vector<FittedHole> holes;
-  ErrorSummary left_out_all;   ///< every reading
-  ErrorSummary left_out_good;  ///< those that fit
+  std::vector<FoundHook> hooks;  ///< by session; none where it was known
+  ErrorSummary left_out_all;     ///< every reading
+  ErrorSummary left_out_good;    ///< those that fit
   std::vector<std::string> notes;
 };
 

@@ -18,6 +18,8 @@ using model::BedPoint;
 constexpr double kOffSigmas = 3.0;
 /// A noise that the readings contradict by this much is worth a sentence.
 constexpr double kNoiseDisagreement = 1.5;
+/// A hook is spoken of from here on.
+constexpr double kHookSigmas = 2.0;
 
 void note_set_aside(const MeasuredHoles& set,
                     const HolesFit& fit,
@@ -79,6 +81,17 @@ std::vector<std::string> fit_notes(const MeasuredHoles& set, const HolesFit& fit
                     "ones: was the tape's hook offset left out or taken off twice?",
                     std::abs(*hook),
                     *hook > 0.0 ? "longer" : "shorter"));
+  }
+  for (std::size_t session = 0; session < fit.hooks.size(); ++session) {
+    const FoundHook& hook = fit.hooks[session];
+    if (std::abs(hook.mm) < kHookSigmas * hook.sigma_mm) continue;
+    notes.push_back(fmt::format(
+        "The readings{} seem to be {:.2f} +- {:.2f} mm too {}, all alike: look how the tape was "
+        "held to the holes.",
+        fit.hooks.size() > 1 ? fmt::format(" of set {}", session + 1) : std::string{},
+        std::abs(hook.mm),
+        hook.sigma_mm,
+        hook.mm > 0.0 ? "long" : "short"));
   }
   if (fit.noise_factor > kNoiseDisagreement) {
     notes.push_back(fmt::format(

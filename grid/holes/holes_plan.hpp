@@ -3,11 +3,13 @@
 /// Which holes to cut and which distances to measure, so that the map from them errs least over the
 /// bed.
 ///
-/// The criterion is the tool's expected variance, averaged over the bed with the sheet laid as well
-/// as it can be: trace(C S), S the unknowns' covariance after the measurement, C their mean squared
-/// effect on the tool. Distances are taken one by one, each time the one that lowers it most; then
-/// holes are moved and distances exchanged as long as that helps. Source: A. Atkinson, A. Donev and
-/// R. Tobias, Optimum Experimental Designs, with SAS (2007), sections 10.6 (I-optimality) and 12.3
+/// The criterion is the tool's expected variance, averaged over the bed: trace(C S), S the
+/// unknowns' covariance after the measurement, C their mean squared effect on the tool. Without
+/// distances to the sheet's edges the sheet is laid as well as it can be; with them its place is
+/// one of the unknowns, nothing is known of it beforehand, and the tool's whole error on the sheet
+/// counts. Distances are taken one by one, each time the one that lowers it most; then holes are
+/// moved and distances exchanged as long as that helps. Source: A. Atkinson, A. Donev and R.
+/// Tobias, Optimum Experimental Designs, with SAS (2007), sections 10.6 (I-optimality) and 12.3
 /// (exchange). The model is linear about the machine as stated.
 ///
 /// \code
@@ -31,8 +33,10 @@ inline constexpr int kMostPlannedHoles = 24;
 
 struct HolesPlanRequest {
   int holes = 9;
-  /// 0: twice the holes and two more, or all there are.
+  /// 0: twice the holes and two more, with edges six more, or all there are.
   int distances = 0;
+  /// To the sheet's edges as well: where the sheet lies counts.
+  bool edges = false;
   double tape_sigma_mm = 0.5;
   double hole_sigma_mm = 0.3;
   /// From the bed's edge to the outermost holes.
@@ -41,11 +45,15 @@ struct HolesPlanRequest {
   double longest_mm = 5000.0;
 };
 [[nodiscard]] int distances_of(const HolesPlanRequest& request);
+/// As many as there are unknowns that they tell of: the machine's, and the sheet's place.
+[[nodiscard]] int fewest_distances(bool edges);
+/// Between so many holes, and of each to one edge.
+[[nodiscard]] int most_distances(int holes, bool edges);
 
 /// One thing that the set tells: a combination of settings and scales, before and after.
 struct PlannedKnowledge {
   std::string what;     ///< "motor spacing", "left chain scale"
-  std::string unit;     ///< "mm" or "%"
+  std::string unit;     ///< "mm", "%" or "mm per metre"
   double before = 0.0;  ///< one sigma as stated
   double after = 0.0;
 };
@@ -64,9 +72,10 @@ struct SeenEffect {
 struct HolesPlan {
   /// With commanded distances where readings will stand.
   MeasuredHoles set;
-  /// Of the tool over the bed, one sigma, the sheet laid as well as it can be.
+  /// Of the tool over the bed, one sigma; without edges, the sheet laid as well as it can be.
   double expected_rms_mm = 0.0;
-  double expected_before_mm = 0.0;  ///< with nothing measured
+  /// With nothing measured and the sheet laid as well as it can be.
+  double expected_before_mm = 0.0;
   std::vector<PlannedKnowledge> knowledge;
   /// Of those effects that can act without drift, skips and hysteresis.
   std::vector<SeenEffect> effects;
@@ -80,9 +89,5 @@ struct HolesPlan {
 /// sheet laid as well as it can be; root mean square.
 [[nodiscard]] double tool_sigma_mm(const model::Machine& machine,
                                    const Eigen::MatrixXd& covariance);
-
-/// Settings and scales in words, from covariances before and after.
-[[nodiscard]] std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
-                                                         const Eigen::MatrixXd& after);
 
 }  // namespace chaintrue::grid

@@ -42,7 +42,8 @@ class Proposals {
     Proposal nothing = start("nothing", "", CheckVerdict::valid, p.nothing);
     add(std::move(nothing));
     for (const char* side : {"left", "right", "both"}) {
-      add(with_zeros(start("zero", side, CheckVerdict::valid_after_rezeroing, p.zeros / 3.0)));
+      const double zero = std::string_view(side) == "both" ? p.both_zeros : 0.5 * p.one_zero;
+      add(with_zeros(start("zero", side, CheckVerdict::valid_after_rezeroing, zero)));
       add(with_pitch(start("pitch", side, CheckVerdict::measure_again, p.pitch / 3.0), side));
       Proposal both =
           start("zeros_and_pitch", side, CheckVerdict::measure_again, p.zeros_and_pitch / 3.0);

@@ -64,7 +64,9 @@ inline constexpr double kBadReadingSigmaMm = 20.0;
 /// Probabilities beforehand; a group's share is divided evenly among its members.
 struct CheckPriors {
   double nothing = 0.50;
-  double zeros = 0.18;
+  /// Chains come off together more often than one alone.
+  double both_zeros = 0.10;
+  double one_zero = 0.08;
   double tooth = 0.10;
   double pitch = 0.15;
   double zeros_and_pitch = 0.01;

@@ -44,6 +44,8 @@ struct HoleDistance {
   double distance_mm = 0.0;
   /// One sigma; absent: the tape's.
   std::optional<double> sigma_mm = std::nullopt;
+  /// Readings of one session were held to the holes alike.
+  std::size_t session = 0;
 };
 
 struct Tape {
@@ -52,6 +54,9 @@ struct Tape {
   /// Every reading is longer than the distance by this much (the hook was not used, or a mark at
   /// 100 mm was held to the hole).
   double hook_offset_mm = 0.0;
+  /// How well that is known, one sigma: a hook with play, edges of holes taken for their centres.
+  /// All readings of a session share it. Absent: exactly.
+  std::optional<double> hook_sigma_mm = std::nullopt;
 };
 
 /// The sheet whose edges were measured. Absent sizes are the bed's.

@@ -7,8 +7,8 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "grid/holes/sets_together.hpp"
 #include "grid/synthetic/holes.hpp"
-#include "model/calibration/setting.hpp"
 #include "model/controllers/payout.hpp"
 
 namespace chaintrue::grid {
@@ -37,18 +37,6 @@ double as_cut_rms_mm(const MeasuredHoles& set, const std::vector<BedPoint>& want
   return count > 0 ? std::sqrt(squares / count) : 0.0;
 }
 
-/// A setting of one of the two machines is the other's as well.
-std::string difference_of(const model::Machine& a, const model::Machine& b) {
-  for (const model::Setting setting : model::kMachineSettings) {
-    if (model::stated_value(a, setting) == model::stated_value(b, setting)) continue;
-    return fmt::format("{} is {} in this file and {} in the first",
-                       model::name(setting),
-                       model::stated_value(b, setting),
-                       model::stated_value(a, setting));
-  }
-  return {};
-}
-
 }  // namespace
 
 HolesPasses::HolesPasses(model::Machine stated, double worthwhile_mm)
@@ -59,7 +47,8 @@ tl::expected<HolesPass, FitFailure> HolesPasses::add(const MeasuredHoles& set,
   if (!set.machine) {
     return tl::unexpected(FitFailure{FitFailure::Reason::no_machine, "the holes name no machine"});
   }
-  if (const std::string difference = difference_of(stated_, *set.machine); !difference.empty()) {
+  if (const std::string difference = difference_of_settings(stated_, *set.machine);
+      !difference.empty()) {
     return tl::unexpected(FitFailure{
         FitFailure::Reason::impossible_readings,
         fmt::format("{}: passes are of one machine as it was first stated; what changes from pass "

@@ -33,6 +33,15 @@ void take_link_pitch(Machine& machine, const ExtraReading& reading) {
                              {{"elongation", reading.value / machine.sprocket.pitch_mm - 1.0}}});
 }
 
+/// A tape's error that was read takes the place of one that was stated.
+void take_tape_error(Machine& machine, const ExtraReading& reading) {
+  const std::string side = reading.side.empty() ? "both" : reading.side;
+  std::erase_if(machine.effects, [&](const model::AppliedEffect& applied) {
+    return applied.effect == "tape_scale" && applied.side == side;
+  });
+  machine.effects.push_back({"tape_scale", side, {{"scale", 1e-3 * reading.value}}});
+}
+
 using TakeReading = std::function<void(Machine&, const ExtraReading&)>;
 
 const std::map<std::string, TakeReading>& machine_readings() {
@@ -42,6 +51,7 @@ const std::map<std::string, TakeReading>& machine_readings() {
        [](Machine& m, const ExtraReading& r) { m.chain.mass_kg_per_m = r.value; }},
       {"ring_radius_mm", take_ring_radius},
       {"link_pitch_mm", take_link_pitch},
+      {"tape_error_mm_per_m", take_tape_error},
   };
   return kReadings;
 }

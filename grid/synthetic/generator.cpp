@@ -86,23 +86,6 @@ std::vector<BedPoint> session_of(const std::vector<Mark>& marks, int repeats, Ra
   return session;
 }
 
-void offset_setting(Machine& machine, model::SheetPlacement& sheet, const SettingOffset& offset) {
-  switch (offset.setting) {
-    case Setting::sheet_x_mm:
-      sheet.x_mm += offset.offset;
-      break;
-    case Setting::sheet_y_mm:
-      sheet.y_mm += offset.offset;
-      break;
-    case Setting::sheet_rotation_rad:
-      sheet.rotation_rad += offset.offset;
-      break;
-    default:
-      machine = model::with_setting(
-          machine, offset.setting, model::stated_value(machine, offset.setting) + offset.offset);
-  }
-}
-
 std::vector<SettingOffset> drawn_offsets(const Machine& stated, const SyntheticSpec& spec) {
   std::vector<SettingOffset> offsets = spec.offsets;
   if (spec.draw_settings) {
@@ -182,6 +165,23 @@ std::optional<StatedNoise> stated_noise(const SyntheticSpec& spec) {
 }
 
 }  // namespace
+
+void offset_setting(Machine& machine, model::SheetPlacement& sheet, const SettingOffset& offset) {
+  switch (offset.setting) {
+    case Setting::sheet_x_mm:
+      sheet.x_mm += offset.offset;
+      break;
+    case Setting::sheet_y_mm:
+      sheet.y_mm += offset.offset;
+      break;
+    case Setting::sheet_rotation_rad:
+      sheet.rotation_rad += offset.offset;
+      break;
+    default:
+      machine = model::with_setting(
+          machine, offset.setting, model::stated_value(machine, offset.setting) + offset.offset);
+  }
+}
 
 Machine with_effects(const Machine& stated, const std::vector<model::AppliedEffect>& hidden) {
   Machine machine = stated;

@@ -56,6 +56,11 @@ struct SettingOffset {
   double offset = 0.0;
 };
 
+/// Puts an offset on the machine, or on the sheet where it is of the sheet.
+void offset_setting(model::Machine& machine,
+                    model::SheetPlacement& sheet,
+                    const SettingOffset& offset);
+
 struct SyntheticSpec {
   Design design;
   VisitingOrder order = VisitingOrder::rows;

@@ -61,7 +61,7 @@ tl::expected<SyntheticHoles, std::string> simulate_holes(
                                         design.holes[i].commanded.y_mm,
                                         model::explain(reading.error())));
     }
-    const model::BedPoint at = reading->pose.position;
+    const model::BedPoint at = spec.sheet.to_mark(reading->pose.position);
     const double dx = design.hole_sigma_mm * hole_noise.normal();
     const double dy = design.hole_sigma_mm * hole_noise.normal();
     made.places.push_back({at.x_mm + dx, at.y_mm + dy});

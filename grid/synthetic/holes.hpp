@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "grid/holes/measured_holes.hpp"
+#include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid::synthetic {
 
@@ -24,6 +25,8 @@ struct HolesSpec {
   /// Draw each chain's elongation with this sigma.
   double scale_sigma = 0.0;
   std::vector<model::AppliedEffect> hidden;
+  /// Where the sheet lies; edges alone tell.
+  model::SheetPlacement sheet;
   /// Round readings to whole multiples of this; 0: all digits.
   double rounding_mm = 0.0;
   /// So many readings are wrong by bad_size_mm, one way or the other.
@@ -35,7 +38,7 @@ struct HolesSpec {
 struct SyntheticHoles {
   MeasuredHoles set;                    ///< with the machine as stated
   model::Machine truth;                 ///< with what is hidden
-  std::vector<model::BedPoint> places;  ///< where the holes truly are
+  std::vector<model::BedPoint> places;  ///< where the holes truly are, on the sheet
 };
 
 /// `design` has holes and the pairs to measure; the tape's sigma and the holes' are those of the

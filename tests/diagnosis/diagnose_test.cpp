@@ -217,6 +217,24 @@ TEST(Diagnose, ALinkReadingPartsPitchFromTape) {
   ASSERT_EQ(after->data_corrections.size(), 1u);
 }
 
+TEST(Diagnose, AnotherTapePartsTapeFromPitch) {
+  MeasuredGrid grid = session({{"tape_scale", "both", {{"scale", 0.003}}}}, 9);
+  grid.readings.push_back({"tape_error_mm_per_m", "x", 3.1, 0.15});
+  grid.readings.push_back({"tape_error_mm_per_m", "y", 2.9, 0.15});
+  const auto tape = diagnose(grid, quick());
+  ASSERT_TRUE(tape);
+  ASSERT_EQ(tape->verdict, Verdict::named) << tape->sentence;
+  EXPECT_EQ(tape->causes.front().cause.effect->id, "tape_scale");
+  ASSERT_EQ(tape->data_corrections.size(), 1u);
+  for (auto& reading : grid.readings) reading.value -= 3.0;
+  const auto chain = diagnose(grid, quick());
+  ASSERT_TRUE(chain);
+  ASSERT_EQ(chain->verdict, Verdict::named) << chain->sentence;
+  EXPECT_EQ(chain->causes.front().cause.effect->id, "chain_pitch_error");
+  EXPECT_TRUE(chain->causes.front().same_as.empty()) << "the tape is known to be right";
+  ASSERT_EQ(chain->extended_machine.effects.size(), 1u);
+}
+
 TEST(Diagnose, WithoutOrderTheVisitsAreNotTestable) {
   MeasuredGrid grid = session({}, 11);
   for (MeasuredPoint& p : grid.points) p.order.reset();

@@ -4,12 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <fmt/format.h>
 
+#include <sstream>
+
+#include "grid/files/holes_file.hpp"
+#include "grid/files/map_file.hpp"
 #include "tests/cli/command_fixture.hpp"
+#include "tests/holes/hole_sets.hpp"
 
 namespace chaintrue {
 namespace {
@@ -53,6 +55,23 @@ TEST_F(HolesCommands, FitGivesAMapThatQueryAndCheckTake) {
   EXPECT_THAT(check.out, StartsWith("The map is still valid"));
 }
 
+TEST_F(HolesCommands, FitTakesSeveralSetsOfOneMachine) {
+  const std::string simulate = "simulate --machine " + classic_ + " --holes 9 --draw-settings ";
+  ASSERT_EQ(run(simulate + "--seed 3 -o first.json").code, 0);
+  ASSERT_EQ(run(simulate + "--seed 4 -o second.json").code, 0);
+  const Outcome fit = run("fit first.json --with second.json --hook-sigma-mm 0.5 -o map.json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.err, AllOf(HasSubstr("40 distances between 18 holes"), HasSubstr("A (2)-")));
+  const Outcome grid =
+      run("fit first.json --with " + fixtures_ + "/grids/seven_by_four.json -o none.json");
+  EXPECT_EQ(grid.code, 3);
+  EXPECT_THAT(grid.err, HasSubstr("--with takes sets of holes"));
+  const Outcome other =
+      run("fit " + fixtures_ + "/grids/seven_by_four.json --with first.json " + "-o none.json");
+  EXPECT_EQ(other.code, 3);
+  EXPECT_FALSE(exists("none.json"));
+}
+
 TEST_F(HolesCommands, CheckExitsWithOneWhereTheMapNoLongerHolds) {
   ASSERT_EQ(run("fit " + fixtures_ + "/grids/seven_by_four.json -o map.json").code, 0);
   write("marks.csv", "x_mm,y_mm\n-1100,500\n1100,500\n0,0\n-1100,-500\n1100,-500\n");
@@ -67,6 +86,29 @@ TEST_F(HolesCommands, CheckExitsWithOneWhereTheMapNoLongerHolds) {
   const Outcome json = run("check map.json later.json --json");
   EXPECT_EQ(json.code, 1);
   EXPECT_THAT(json.out, HasSubstr("\"verdict\": \"valid_after_rezeroing\""));
+}
+
+TEST_F(HolesCommands, PlanSetsThePointsOfACheck) {
+  ASSERT_EQ(run("fit " + fixtures_ + "/grids/seven_by_four.json -o map.json").code, 0);
+  const Outcome plan = run("plan --check map.json -o five.csv --svg five.svg");
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  EXPECT_THAT(plan.err, HasSubstr("5 points for chaintrue check"));
+  EXPECT_THAT(content_of(folder_ / "five.csv"), StartsWith("number,x_mm,y_mm\n1,"));
+  EXPECT_THAT(content_of(folder_ / "five.svg"), StartsWith("<svg "));
+  ASSERT_EQ(run("simulate --machine " + classic_ +
+                " --marks five.csv --draw-settings --length-noise-mm 0.3 --position-noise-mm 0 "
+                "--effect chain_pitch_error:left:elongation=0.001 --seed 1 -o later.json")
+                .code,
+            0);
+  const Outcome check = run("check map.json later.json");
+  EXPECT_EQ(check.code, 1);
+  EXPECT_THAT(check.out,
+              AllOf(StartsWith("The map is to be measured again"),
+                    HasSubstr("the links of the left chain have grown")));
+  const Outcome bad = run("plan --check map.json --points 99 --length-noise-mm 0 -o none.csv");
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_THAT(bad.err, AllOf(HasSubstr("--points"), HasSubstr("--length-noise-mm")));
+  EXPECT_FALSE(exists("none.csv"));
 }
 
 TEST_F(HolesCommands, ThePlannedProgramDrillsEveryHole) {
@@ -85,6 +127,80 @@ TEST_F(HolesCommands, ThePlannedProgramDrillsEveryHole) {
   EXPECT_THAT(content_of(folder_ / "h.svg"), StartsWith("<svg "));
   // The list is a holes file already: with the commanded distances in it, it fits at once.
   EXPECT_EQ(run("fit list.csv --machine " + classic_ + " -o map.json").code, 0);
+}
+
+TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
+  const Outcome plan =
+      run("plan --machine " + classic_ +
+          " --holes 9 --edges --tape-sigma-mm 0.5 -o list.csv --gcode holes.nc --svg h.svg");
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  EXPECT_THAT(plan.err,
+              AllOf(HasSubstr(" to the sheet's edges. With"),
+                    HasSubstr("the whole job, sideways"),
+                    HasSubstr("the whole job, turned"),
+                    HasSubstr("mm per metre")));
+  EXPECT_THAT(content_of(folder_ / "h.svg"), HasSubstr("green, square to an edge of the sheet"));
+  EXPECT_THAT(run("gcode check holes.nc").out, HasSubstr("9 straight cuts"));
+  // The owner: cuts the holes of the list on a sheet that lies 6 mm to the right, and writes what
+  // the tape says into the third column.
+  const std::string list = content_of(folder_ / "list.csv");
+  grid::files::HolesOptions with_machine;
+  with_machine.machine = grid::files::read_machine(classic_);
+  const grid::files::ReadHoles planned = grid::files::parse_holes(list, "list.csv", with_machine);
+  grid::synthetic::HolesSpec spec;
+  spec.draw_settings = true;
+  spec.sheet.x_mm = 6.0;
+  spec.rounding_mm = 0.5;
+  spec.seed = 4;
+  const auto made = grid::synthetic::simulate_holes(planned.holes, spec);
+  ASSERT_TRUE(made);
+  std::istringstream lines(list);
+  std::string filled;
+  std::size_t reading = 0;
+  bool in_distances = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (in_distances) {
+      line = fmt::format("{}{:.1f}",
+                         line.substr(0, line.rfind(',') + 1),
+                         made->set.distances.at(reading++).distance_mm);
+    }
+    in_distances = in_distances || line.starts_with("from,");
+    filled += line + "\n";
+  }
+  ASSERT_EQ(reading, made->set.distances.size());
+  write("readings.csv", filled);
+  const Outcome fit = run("fit readings.csv --machine " + classic_ + " -o map.json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.err, HasSubstr("24 distances between 9 holes"));
+  EXPECT_EQ(run("check map.json readings.csv --machine " + classic_).code, 0);
+  const grid::CompensationMap map = grid::files::read_map(folder_ / "map.json");
+  // Half a millimetre of tape and as much of the sheet's size; three times that would be a slip.
+  EXPECT_LT(testing_support::tool_rms_mm(map, made->truth, spec.sheet), 1.5);
+}
+
+TEST_F(HolesCommands, SimulateMeasuresToTheEdgesOfASheetThatLiesAskew) {
+  ASSERT_EQ(run("simulate --machine " + classic_ +
+                " --holes 9 --edges --offset sheet_x_mm=20 --tape-sigma-mm 0.01 --hole-sigma-mm 0 "
+                "-o holes.json")
+                .code,
+            0);
+  const grid::files::ReadHoles made = grid::files::read_holes(folder_ / "holes.json");
+  int edges = 0;
+  for (const grid::HoleDistance& distance : made.holes.distances) {
+    if (!distance.edge) continue;
+    ++edges;
+    const double longer = distance.edge == grid::SheetEdge::right  ? 20.0
+                          : distance.edge == grid::SheetEdge::left ? -20.0
+                                                                   : 0.0;
+    EXPECT_NEAR(distance.distance_mm - commanded_mm(made.holes, distance), longer, 0.05)
+        << "five sigmas of the tape";
+  }
+  EXPECT_GT(edges, 3);
+  const Outcome without =
+      run("simulate --machine " + classic_ + " --holes 9 --offset sheet_x_mm=20 -o none.json");
+  EXPECT_EQ(without.code, 3);
+  EXPECT_THAT(without.err, HasSubstr("without --edges"));
+  EXPECT_FALSE(exists("none.json"));
 }
 
 TEST_F(HolesCommands, PassesStopWhereTheNextWouldNotPay) {

@@ -9,6 +9,7 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/holes/holes_plan.hpp"
 #include "grid/synthetic/holes.hpp"
+#include "tests/map/synthetic_grid.hpp"
 
 namespace chaintrue::testing_support {
 
@@ -31,6 +32,16 @@ inline grid::synthetic::HolesSpec usual_holes(std::uint64_t seed) {
   spec.scale_sigma = 0.001;
   spec.seed = seed;
   return spec;
+}
+
+/// Root mean square over the bed of what a map errs on the sheet.
+inline double tool_rms_mm(const grid::CompensationMap& map,
+                          const model::Machine& truth,
+                          const model::SheetPlacement& sheet) {
+  grid::synthetic::SyntheticAnswer answer;
+  answer.machine = truth;
+  answer.sheet = sheet;
+  return true_tool_rms_mm(map, answer);
 }
 
 }  // namespace chaintrue::testing_support

@@ -60,12 +60,14 @@ TEST(HolesFile, CsvAndJsonSayTheSame) {
 TEST(HolesFile, KeepsAWholeSetWithItsMachine) {
   MeasuredHoles set = testing_support::nine_holes();
   set.tape.hook_offset_mm = 40.0;
+  set.tape.hook_sigma_mm = 0.5;
   for (HoleDistance& distance : set.distances) distance.distance_mm += 40.0;
   set.sheet.width_mm = 2440.0;
   const std::string text = write_holes(set);
   const ReadHoles read = parse_holes(text, "set.json");
   EXPECT_EQ(write_holes(read.holes), text);
   EXPECT_DOUBLE_EQ(read.holes.tape.hook_offset_mm, 40.0);
+  EXPECT_EQ(read.holes.tape.hook_sigma_mm, set.tape.hook_sigma_mm);
   EXPECT_EQ(read.holes.machine->motors.left.x_mm, set.machine->motors.left.x_mm);
 }
 

@@ -69,7 +69,8 @@ TEST(Ablation, WithoutTheNoisesAnchorWrongNoiseIsNotSeen) {
 TEST(Ablation, WithoutARobustStartSlipsMakeCauses) {
   TrialOptions o = options(Mix::bad_points);
   o.steps.robust = false;
-  EXPECT_GE(count(trials(o, 9400, 10), names_something), 5);
+  // Two sets of three are named so; of ten fewer than three once in 200 times.
+  EXPECT_GE(count(trials(o, 9400, 10), names_something), 3);
 }
 
 // Places that may be chosen freely fit noise better than they should: the best of many counts in

@@ -72,7 +72,8 @@ void add_check(CLI::App& app, Run& run) {
   verb->add_flag("--json", command->json, "All numbers, for scripts");
   verb->add_option("-o,--output", command->output, "- is standard output")->capture_default_str();
   verb->footer(
-      "Three to five points far from each other will do, or holes and distances between them.\n"
+      "Three to five points far from each other will do, or holes and distances between them;\n"
+      "chaintrue plan --check sets those points that tell best.\n"
       "The exit code is 1 where the map is not valid as it is.\n\n"
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"

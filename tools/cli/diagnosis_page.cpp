@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/diagnosis_checks.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/distance_charts.hpp"
@@ -290,6 +291,9 @@ report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
   if (!found.next_measurements.empty()) page.sections.push_back(next_section(found));
   if (has_readings) page.sections.push_back(residuals_section(found));
   if (!found.hypotheses.empty()) page.sections.push_back(probabilities_section(found));
+  if (found.stability) page.sections.push_back(stability_section(found));
+  if (waves_can_be_sought(found)) page.sections.push_back(waves_section(found));
+  if (found.normal_plot) page.sections.push_back(normal_section(found));
   if (!found.terms.empty()) page.sections.push_back(terms_section(found));
   if (!found.separations.empty()) page.sections.push_back(separation_section(found));
   if (!found.bad_points.empty()) page.sections.push_back(bad_points_section(found));

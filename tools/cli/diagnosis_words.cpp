@@ -38,7 +38,8 @@ constexpr ReadingUnit kReadings[] = {{"motor_spacing_mm", 1.0, "mm"},
                                      {"ring_radius_mm", 1.0, "mm"},
                                      {"sled_mass_kg", 1.0, "kg"},
                                      {"link_pitch_mm", 100.0, "mm"},
-                                     {"chain_mass_kg_per_m", 1.0, "kg"}};
+                                     {"chain_mass_kg_per_m", 1.0, "kg"},
+                                     {"tape_error_mm_per_m", 1.0, "mm a metre"}};
 
 std::string spaced(std::string_view id) {
   std::string text(id);

@@ -6,10 +6,12 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/holes/holes_fit.hpp"
+#include "grid/holes/sets_together.hpp"
 #include "grid/map/fit.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/holes_words.hpp"
@@ -23,6 +25,8 @@ namespace {
 struct FitCommand {
   GridInput input;
   TapeInput tape;
+  /// Further sets of holes of the same machine.
+  std::vector<std::string> with;
   std::string output;
   std::string surface = "residual";
   std::string ends = "not_a_knot";
@@ -76,10 +80,37 @@ int fit_the_holes(const FitCommand& command, const grid::MeasuredHoles& set) {
   return finish(command, grid::map_of(set, *fit), distances_in_words(set, *fit));
 }
 
+/// The sets of --with beside the first.
+tl::expected<grid::MeasuredHoles, std::string> with_further_sets(const FitCommand& command,
+                                                                 const grid::MeasuredHoles& first) {
+  std::vector<grid::MeasuredHoles> sets = {first};
+  for (const std::string& file : command.with) {
+    GridInput input = command.input;
+    input.grid = file;
+    const auto read = read_measured_input(input, command.tape, MeasuredUse::fit);
+    const auto* holes = std::get_if<grid::MeasuredHoles>(&read);
+    if (holes == nullptr) {
+      return tl::unexpected(grid::files::name_in_messages(file) + ": --with takes sets of holes");
+    }
+    sets.push_back(*holes);
+  }
+  return grid::sets_together(sets);
+}
+
 int run_fit(const FitCommand& command) {
   const auto input = read_measured_input(command.input, command.tape, MeasuredUse::fit);
   if (const auto* holes = std::get_if<grid::MeasuredHoles>(&input)) {
-    return fit_the_holes(command, *holes);
+    if (command.with.empty()) return fit_the_holes(command, *holes);
+    const auto all = with_further_sets(command, *holes);
+    if (all) return fit_the_holes(command, *all);
+    fmt::print(stderr, "chaintrue fit: {}\n", all.error());
+    return kBadInput;
+  }
+  if (!command.with.empty()) {
+    fmt::print(stderr,
+               "{}: --with takes sets of holes, and this is a grid\n",
+               grid::files::name_in_messages(command.input.grid));
+    return kBadInput;
   }
   const auto& measured = std::get<grid::MeasuredGrid>(input);
   grid::FitOptions options;
@@ -98,6 +129,10 @@ void add_fit(CLI::App& app, Run& run) {
   CLI::App* verb = app.add_subcommand("fit", "Measured points become a compensation map");
   add_grid_options(*verb, command->input);
   add_tape_options(*verb, command->tape);
+  verb->add_option("--with",
+                   command->with,
+                   "More chaintrue_holes files of the same machine, cut with other controller "
+                   "settings in force: all are fitted at once");
   verb->add_option("-o,--output", command->output, "The map file; - is standard output")
       ->required();
   verb->add_option("--surface",

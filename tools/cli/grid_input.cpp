@@ -59,6 +59,7 @@ void check_tape(const TapeInput& tape) {
   if (tape.sigma_mm) problems.require("--tape-sigma-mm", *tape.sigma_mm, 0.001, 100.0);
   if (tape.hook_offset_mm)
     problems.require("--hook-offset-mm", *tape.hook_offset_mm, -1000.0, 1000.0);
+  if (tape.hook_sigma_mm) problems.require("--hook-sigma-mm", *tape.hook_sigma_mm, 0.0, 100.0);
   if (tape.hole_sigma_mm) problems.require("--hole-sigma-mm", *tape.hole_sigma_mm, 0.0, 100.0);
   problems.throw_if_any();
 }
@@ -75,6 +76,9 @@ void add_tape_options(CLI::App& verb, TapeInput& input) {
   verb.add_option("--hook-offset-mm",
                   input.hook_offset_mm,
                   "Of holes: every reading is longer than the distance by this much");
+  verb.add_option("--hook-sigma-mm",
+                  input.hook_sigma_mm,
+                  "Of holes: how well that is known, one sigma; exactly where unsaid");
   verb.add_option("--hole-sigma-mm",
                   input.hole_sigma_mm,
                   "Of holes: one sigma of a hole beside where its chains put it, on each axis");
@@ -101,6 +105,7 @@ std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(const 
   options.machine = machine_of(input);
   options.tape_sigma_mm = tape.sigma_mm;
   options.hook_offset_mm = tape.hook_offset_mm;
+  options.hook_sigma_mm = tape.hook_sigma_mm;
   options.hole_sigma_mm = tape.hole_sigma_mm;
   if (use == MeasuredUse::check) options.fewest_distances = 1;
   files::ReadHoles read = files::parse_holes(text, files::name_in_messages(input.grid), options);

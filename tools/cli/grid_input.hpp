@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The grid, or the holes, that a verb works on: the file, and what the command line puts beside it.
+/// The grid, or the holes, that a verb works on: the file, and what the command line puts beside
+/// it.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -25,6 +26,7 @@ struct GridInput {
 struct TapeInput {
   std::optional<double> sigma_mm;
   std::optional<double> hook_offset_mm;
+  std::optional<double> hook_sigma_mm;
   std::optional<double> hole_sigma_mm;
 };
 
@@ -34,7 +36,7 @@ void add_grid_options(CLI::App& verb, GridInput& input);
 /// Reads it all; warnings go to standard error. \throws files::InputError.
 [[nodiscard]] grid::MeasuredGrid read_grid_input(const GridInput& input);
 
-/// Adds --tape-sigma-mm, --hook-offset-mm and --hole-sigma-mm to a verb.
+/// Adds --tape-sigma-mm, --hook-offset-mm, --hook-sigma-mm and --hole-sigma-mm to a verb.
 void add_tape_options(CLI::App& verb, TapeInput& input);
 
 /// Enough for a fit, or for a check of what a map says.

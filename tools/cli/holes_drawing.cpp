@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+
+#include "tools/cli/holes_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -30,11 +33,30 @@ class Sheet {
   double scale_;
 };
 
+/// The foot of the perpendicular on an edge of the bed.
+BedPoint on_edge(BedPoint from, grid::SheetEdge edge, const model::Bed& bed) {
+  switch (edge) {
+    case grid::SheetEdge::left:
+      return {-0.5 * bed.width_mm, from.y_mm};
+    case grid::SheetEdge::right:
+      return {0.5 * bed.width_mm, from.y_mm};
+    case grid::SheetEdge::top:
+      return {from.x_mm, 0.5 * bed.height_mm};
+    case grid::SheetEdge::bottom:
+      break;
+  }
+  return {from.x_mm, -0.5 * bed.height_mm};
+}
+
 }  // namespace
 
 std::string draw_holes_plan(const grid::HolesPlan& plan) {
   const model::Bed& bed = plan.set.machine->bed;
   const Sheet sheet(bed);
+  const bool has_edges =
+      std::any_of(plan.set.distances.begin(), plan.set.distances.end(), [](const auto& distance) {
+        return distance.edge.has_value();
+      });
   const double wide = kBedWide + 2.0 * kLeft;
   const double high = kTop + sheet.bed_high() + kBelow;
   std::string svg = fmt::format(
@@ -42,31 +64,33 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
       "0 "
       "{0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"14\">\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
-      "<text x=\"{2:.0f}\" y=\"32\" font-size=\"18\">{3} holes, {4} distances: {5:.2f} mm expected "
-      "at "
-      "the tool (rms, one sigma)</text>\n"
+      "<text x=\"{2:.0f}\" y=\"32\" font-size=\"18\">{3} holes, {4}: {5:.2f} mm expected at the "
+      "tool "
+      "(rms, one sigma)</text>\n"
       "<rect x=\"{2:.1f}\" y=\"{6:.1f}\" width=\"{7:.1f}\" height=\"{8:.1f}\" fill=\"#fff7ec\" "
       "stroke=\"#333333\"/>\n",
       wide,
       high,
       kLeft,
       plan.set.holes.size(),
-      plan.set.distances.size(),
+      distances_in_number(plan.set),
       plan.expected_rms_mm,
       kTop,
       kBedWide,
       sheet.bed_high());
   for (const grid::HoleDistance& distance : plan.set.distances) {
     const BedPoint from = plan.set.holes[distance.from].commanded;
-    const BedPoint to = plan.set.holes[distance.to].commanded;
+    const BedPoint to =
+        distance.edge ? on_edge(from, *distance.edge, bed) : plan.set.holes[distance.to].commanded;
     fmt::format_to(std::back_inserter(svg),
                    "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
-                   "stroke=\"#0072b2\" stroke-opacity=\"0.6\"><title>{}: about {:.0f} "
+                   "stroke=\"{}\" stroke-opacity=\"0.6\"><title>{}: about {:.0f} "
                    "mm</title></line>\n",
                    sheet.x(from),
                    sheet.y(from),
                    sheet.x(to),
                    sheet.y(to),
+                   distance.edge ? "#009e73\" stroke-width=\"4" : "#0072b2",
                    words_of(plan.set, distance),
                    distance.distance_mm);
   }
@@ -92,9 +116,10 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
   fmt::format_to(
       std::back_inserter(svg),
       "<text x=\"{:.0f}\" y=\"{:.1f}\">Seen from the front; the origin is the middle of "
-      "the bed. Each line is one reading of the tape, centre to centre.</text>\n</svg>\n",
+      "the bed. Each line is one reading of the tape, centre to centre{}.</text>\n</svg>\n",
       kLeft,
-      high - 18.0);
+      high - 18.0,
+      has_edges ? "; green, square to an edge of the sheet" : "");
   return svg;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <vector>
@@ -67,7 +68,7 @@ std::string workshop_list(const grid::HolesPlan& plan) {
     fmt::format_to(std::back_inserter(text),
                    "{},{},{:.0f}\n",
                    plan.set.holes[distance.from].name,
-                   plan.set.holes[distance.to].name,
+                   distance.edge ? name(*distance.edge) : plan.set.holes[distance.to].name,
                    distance.distance_mm);
   }
   return text;
@@ -75,16 +76,17 @@ std::string workshop_list(const grid::HolesPlan& plan) {
 
 std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequest& request) {
   std::string text = fmt::format(
-      "{} holes, {} distances. With {:g} mm of tape and {:g} mm of hole (one sigma) the tool is "
-      "expected {:.2f} mm beside, rms over the bed, the sheet laid as well as it can be; with "
-      "nothing measured it is {:.2f} mm.\n\nWhat the set tells                 as stated     "
-      "after\n",
+      "{} holes, {}. With {:g} mm of tape and {:g} mm of hole (one sigma) the tool is expected "
+      "{:.2f} mm beside, rms over the bed, {}; with nothing measured it is {:.2f} mm{}.\n\n"
+      "What the set tells                 as stated     after\n",
       plan.set.holes.size(),
-      plan.set.distances.size(),
+      distances_in_number(plan.set),
       request.tape_sigma_mm,
       request.hole_sigma_mm,
       plan.expected_rms_mm,
-      plan.expected_before_mm);
+      request.edges ? "where the sheet lies counted in" : "the sheet laid as well as it can be",
+      plan.expected_before_mm,
+      request.edges ? " with the sheet laid as well as it can be" : "");
   std::vector<std::string> untold;
   constexpr double kHardlyBetter = 0.7;
   for (const grid::PlannedKnowledge& known : plan.knowledge) {
@@ -96,9 +98,11 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
                    known.unit);
     if (known.after > kHardlyBetter * known.before) untold.push_back(known.what);
   }
-  fmt::format_to(std::back_inserter(text),
-                 "It tells little of: {}. Where the sheet lies takes distances to its edges.\n",
-                 listed(untold));
+  fmt::format_to(
+      std::back_inserter(text),
+      "It tells little of: {}.{}\n",
+      listed(untold),
+      request.edges ? "" : " Where the sheet lies takes distances to its edges: --edges.");
   std::vector<std::string> clear;
   std::vector<std::string> doubtful;
   std::vector<std::string> unseen;

@@ -13,6 +13,8 @@ namespace chaintrue::cli {
 /// Each distance: measured, commanded, and what the others make of it.
 [[nodiscard]] std::string distances_in_words(const grid::MeasuredHoles& set,
                                              const grid::HolesFit& fit);
+/// "20 distances", "18 distances and 6 to the sheet's edges".
+[[nodiscard]] std::string distances_in_number(const grid::MeasuredHoles& set);
 /// The holes and what to measure, as a list for the workshop.
 [[nodiscard]] std::string workshop_list(const grid::HolesPlan& plan);
 /// What the plan's set will tell, and what it cannot tell apart.

@@ -23,6 +23,7 @@
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/follow_up.hpp"
 #include "tools/cli/follow_up_holes.hpp"
+#include "tools/cli/plan_check.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/plan_holes.hpp"
 #include "tools/cli/verb.hpp"
@@ -39,6 +40,10 @@ struct PlanOptions {
   std::string machine;
   grid::PlanRequest request;
   HolesPlanOptions holes;
+  CheckPlanOptions check;
+  std::optional<int> points;
+  std::optional<double> length_noise_mm;
+  std::optional<double> position_noise_mm;
   std::optional<double> margin_mm;
   std::string output = "-";
   std::string drawing;
@@ -53,18 +58,6 @@ void check_options(const PlanOptions& options, const model::Bed& bed) {
   problems.require("--length-noise-mm", request.noise.length_mm, 0.001, 50.0);
   problems.require("--position-noise-mm", request.noise.position_mm, 0.001, 50.0);
   problems.throw_if_any();
-}
-
-std::string as_csv(const grid::MeasurementPlan& plan) {
-  std::string text = "number,x_mm,y_mm\n";
-  for (std::size_t i = 0; i < plan.marks.size(); ++i) {
-    fmt::format_to(std::back_inserter(text),
-                   "{},{:.0f},{:.0f}\n",
-                   i + 1,
-                   plan.marks[i].x_mm + 0.0,
-                   plan.marks[i].y_mm + 0.0);
-  }
-  return text;
 }
 
 std::string in_words(const grid::MeasurementPlan& plan,
@@ -191,16 +184,31 @@ int run_follow_up(const PlanOptions& options) {
   return kDone;
 }
 
+/// What was said on the command line takes the place of a plan's own usual values.
+void take(std::optional<double> said, double& value) { value = said.value_or(value); }
+
+int run_check_plan(PlanOptions options) {
+  grid::CheckPlanRequest& request = options.check.request;
+  request.points = options.points.value_or(request.points);
+  take(options.length_noise_mm, request.length_mm);
+  take(options.position_noise_mm, request.position_mm);
+  take(options.margin_mm, request.margin_mm);
+  return plan_the_check(options.check, options.output, options.drawing);
+}
+
 int run_plan(PlanOptions options) {
   if (!options.after.empty()) return run_follow_up(options);
+  if (!options.check.map.empty()) return run_check_plan(std::move(options));
   const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
   for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
   if (options.holes.request.holes != 0) {
-    options.holes.request.margin_mm =
-        options.margin_mm.value_or(grid::HolesPlanRequest{}.margin_mm);
+    take(options.margin_mm, options.holes.request.margin_mm);
     return plan_the_holes(options.holes, read.machine, options.output, options.drawing);
   }
-  options.request.margin_mm = options.margin_mm.value_or(options.request.margin_mm);
+  options.request.points = options.points.value_or(options.request.points);
+  take(options.margin_mm, options.request.margin_mm);
+  take(options.length_noise_mm, options.request.noise.length_mm);
+  take(options.position_noise_mm, options.request.noise.position_mm);
   check_options(options, read.machine.bed);
   const auto plan = grid::plan_measurement(read.machine, options.request);
   if (!plan) {
@@ -211,7 +219,7 @@ int run_plan(PlanOptions options) {
   if (!options.drawing.empty()) {
     files::write_whole_file(options.drawing, draw_plan(*plan, read.machine.bed, errors));
   }
-  files::write_whole_file(options.output, as_csv(*plan));
+  files::write_whole_file(options.output, marks_csv(plan->marks));
   fmt::print(stderr, "{}", in_words(*plan, options, errors));
   return kDone;
 }
@@ -225,30 +233,48 @@ void add_plan(CLI::App& app, Run& run) {
   verb->add_option("--machine",
                    options->machine,
                    "chaintrue_machine file; - is standard input. With --after only where the grid "
-                   "names none");
+                   "names none, with --check not at all");
   auto* grid = verb->add_option("grid", options->grid, "With --after: the points measured so far");
   verb->add_option("--after",
                    options->after,
                    "A chaintrue_diagnosis of them: what to measure next, and the lines to add to "
                    "the grid's file")
       ->needs(grid);
+  const grid::PlanRequest usual;
+  const grid::CheckPlanRequest usual_check;
   auto* points =
       verb->add_option("--points",
-                       options->request.points,
-                       fmt::format("How many, {} to {}", grid::kFewestPlanned, grid::kMostPlanned))
-          ->capture_default_str();
+                       options->points,
+                       fmt::format("How many, {} to {}; {} where unsaid. With --check {} "
+                                   "to {}; {} where unsaid",
+                                   grid::kFewestPlanned,
+                                   grid::kMostPlanned,
+                                   usual.points,
+                                   grid::kFewestCheckPoints,
+                                   grid::kMostCheckPoints,
+                                   usual_check.points));
+  verb->add_option("--check",
+                   options->check.map,
+                   "Plan the few points that tell best, later, whether this chaintrue_map still "
+                   "holds")
+      ->excludes("--after");
   verb->add_option("--margin-mm",
                    options->margin_mm,
                    "From the bed's edge to the outermost marks; 10 for points, 50 for holes");
   add_plan_holes_options(*verb, options->holes, points);
+  const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
+    return fmt::format("Noise of {}, one sigma; {:g} where unsaid, with --check {:g}",
+                       what,
+                       usually_mm,
+                       in_check_mm);
+  };
   verb->add_option("--length-noise-mm",
-                   options->request.noise.length_mm,
-                   "Noise of a chain length, one sigma")
-      ->capture_default_str();
-  verb->add_option("--position-noise-mm",
-                   options->request.noise.position_mm,
-                   "Noise of a mark's position, one sigma")
-      ->capture_default_str();
+                   options->length_noise_mm,
+                   noise_words("a chain length", usual.noise.length_mm, usual_check.length_mm));
+  verb->add_option(
+      "--position-noise-mm",
+      options->position_noise_mm,
+      noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm));
   verb->add_option("-o,--output", options->output, "The list (CSV); - is standard output")
       ->capture_default_str();
   verb->add_option("--svg",
@@ -266,10 +292,13 @@ void add_plan(CLI::App& app, Run& run) {
       "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
       "  build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json\n"
       "  build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 "
-      "--tape-sigma-mm 0.5 -o holes.csv --gcode holes.nc --svg holes.svg");
+      "--tape-sigma-mm 0.5 -o holes.csv --gcode holes.nc --svg holes.svg\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
+      "  build/chaintrue plan --check map.json -o five.csv --svg five.svg");
   verb->callback([options, &run] {
     if (options->after.empty() && !options->grid.empty()) throw CLI::RequiredError("--after");
-    if (options->after.empty() && options->machine.empty()) throw CLI::RequiredError("--machine");
+    if (options->after.empty() && options->check.map.empty() && options->machine.empty())
+      throw CLI::RequiredError("--machine");
     run = [options] { return run_plan(*options); };
   });
 }

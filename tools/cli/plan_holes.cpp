@@ -25,8 +25,8 @@ void check(const HolesPlanOptions& options, const model::Bed& bed) {
   if (request.distances != 0) {
     problems.require("--distances",
                      request.distances,
-                     static_cast<double>(grid::kFewestHoleDistances),
-                     request.holes * (request.holes - 1) / 2);
+                     grid::fewest_distances(request.edges),
+                     grid::most_distances(request.holes, request.edges));
   }
   problems.require("--tape-sigma-mm", request.tape_sigma_mm, 0.001, 100.0);
   problems.require("--hole-sigma-mm", request.hole_sigma_mm, 0.0, 100.0);
@@ -50,7 +50,12 @@ void add_plan_holes_options(CLI::App& verb, HolesPlanOptions& options, CLI::Opti
       ->excludes(points);
   verb.add_option("--distances",
                   request.distances,
-                  "Of --holes: how many to measure; twice the holes and two more where unsaid");
+                  "Of --holes: how many to measure; where unsaid twice the holes and two more, "
+                  "with --edges six more");
+  verb.add_flag("--edges",
+                request.edges,
+                "Of --holes: measure to the sheet's edges as well, so that jobs come out where "
+                "they belong on the sheet, not only true in themselves");
   verb.add_option(
           "--tape-sigma-mm", request.tape_sigma_mm, "Of --holes: one sigma of a tape reading")
       ->capture_default_str();

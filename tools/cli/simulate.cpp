@@ -284,19 +284,18 @@ int run_simulate(const SimulateOptions& options) {
     spec.hidden = parse_effects(options.effects, read.machine, problems);
     const std::vector<synthetic::SettingOffset> offsets = parse_offsets(options.offsets, problems);
     for (const synthetic::SettingOffset& offset : offsets) {
-      if (offset.setting < model::Setting::sheet_x_mm) continue;
+      if (offset.setting < model::Setting::sheet_x_mm || options.holes.edges) continue;
       problems.add("--offset",
                    std::string(model::name(offset.setting)),
-                   "a setting of the machine; holes know their distances, not the sheet");
+                   "a setting of the machine; without --edges holes know their distances, not the "
+                   "sheet");
     }
     problems.throw_if_any();
     spec.draw_settings = options.draw_settings;
     spec.seed = options.seed;
     model::Machine truth = synthetic::hidden_truth(read.machine, spec);
     for (const synthetic::SettingOffset& offset : offsets) {
-      truth = model::with_setting(std::move(truth),
-                                  offset.setting,
-                                  model::stated_value(truth, offset.setting) + offset.offset);
+      synthetic::offset_setting(truth, spec.sheet, offset);
     }
     return simulate_the_holes(options.holes, read.machine, truth, spec, options.output);
   }
@@ -362,6 +361,7 @@ void add_noise_options(CLI::App& verb, SimulateOptions& o) {
 
 void add_holes_options(CLI::App& verb, HolesOptions& o) {
   verb.add_option("--distances", o.distances, "Of --holes: how many are measured");
+  verb.add_flag("--edges", o.edges, "Of --holes: some of them to the sheet's edges");
   verb.add_option("--tape-sigma-mm", o.tape_sigma_mm, "Of --holes: one sigma of a reading")
       ->capture_default_str();
   verb.add_option("--hole-sigma-mm",

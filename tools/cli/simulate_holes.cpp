@@ -23,8 +23,8 @@ int simulate_the_holes(const HolesOptions& options,
   if (options.distances != 0) {
     problems.require("--distances",
                      options.distances,
-                     static_cast<double>(grid::kFewestHoleDistances),
-                     options.holes * (options.holes - 1) / 2);
+                     grid::fewest_distances(options.edges),
+                     grid::most_distances(options.holes, options.edges));
   }
   problems.require("--tape-sigma-mm", options.tape_sigma_mm, 0.001, 100.0);
   problems.require("--hole-sigma-mm", options.hole_sigma_mm, 0.0, 100.0);
@@ -38,6 +38,7 @@ int simulate_the_holes(const HolesOptions& options,
   auto plan = grid::plan_holes(stated,
                                {.holes = options.holes,
                                 .distances = options.distances,
+                                .edges = options.edges,
                                 .tape_sigma_mm = options.tape_sigma_mm,
                                 .hole_sigma_mm = options.hole_sigma_mm});
   if (!plan) {

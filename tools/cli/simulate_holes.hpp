@@ -12,6 +12,7 @@ namespace chaintrue::cli {
 struct HolesOptions {
   int holes = 0;
   int distances = 0;
+  bool edges = false;
   double tape_sigma_mm = 0.5;
   double hole_sigma_mm = 0.3;
   double hook_offset_mm = 0.0;

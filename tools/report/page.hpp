@@ -91,6 +91,8 @@ using Block = std::variant<Paragraph, Figures, Table, Chart, ChartRow>;
 struct Section {
   std::string title{};
   std::vector<Block> blocks{};
+  /// Shows its title alone until somebody opens it; on paper it is open.
+  bool is_folded = false;
 };
 
 struct Page {

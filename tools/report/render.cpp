@@ -162,7 +162,12 @@ class Writer {
   }
 
   void write_section(const Section& section) {
-    add("<section>\n<h2>{}</h2>\n", escaped(section.title));
+    const std::string heading = fmt::format("<h2>{}</h2>", escaped(section.title));
+    if (section.is_folded) {
+      add("<section>\n<details>\n<summary>{}</summary>\n", heading);
+    } else {
+      add("<section>\n{}\n", heading);
+    }
     for (const Block& block : section.blocks) {
       std::visit(Overloaded{
                      [&](const Paragraph& text) { add("<p>{}</p>\n", escaped(text.text)); },
@@ -177,7 +182,7 @@ class Writer {
                  },
                  block);
     }
-    add("</section>\n");
+    add("{}</section>\n", section.is_folded ? "</details>\n" : "");
   }
 
   void write_figures(const Figures& figures) {

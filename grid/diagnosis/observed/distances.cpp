@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "grid/diagnosis/observed/observed.hpp"
@@ -55,8 +56,10 @@ class Distances final : public Observed {
       rows.points.push_back(
           {(*places)[i].reading, (*places)[i].by_mark, Eigen::Matrix2d::Identity()});
     }
+    const Eigen::MatrixXd by_hook = hook_columns(session);
     rows.by_setting.block(0, settings, count, 2) = tape_factor(state.machine) * geometry.by_size;
-    rows.by_setting.block(0, settings + 2, count, by_mark.cols()) = by_mark;
+    rows.by_setting.block(0, settings + 2, count, by_hook.cols()) = by_hook;
+    rows.by_setting.block(0, settings + 2 + by_hook.cols(), count, by_mark.cols()) = by_mark;
     set_sigmas(set, steps, rows);
     for (Eigen::Index k = 0; k < count; ++k) rows.units.push_back(unit_of(rows, by_mark, k));
     return {};
@@ -79,6 +82,19 @@ class Distances final : public Observed {
   }
 
  private:
+  /// A distance by the hook of its session.
+  static Eigen::MatrixXd hook_columns(const Session& session) {
+    const std::vector<HoleDistance>& distances = session.distances->set().distances;
+    const auto& known = session.tape_sessions;
+    Eigen::MatrixXd columns =
+        Eigen::MatrixXd::Zero(session.observed_rows(), static_cast<Eigen::Index>(known.size()));
+    for (std::size_t k = 0; k < distances.size(); ++k) {
+      const auto at = std::find(known.begin(), known.end(), distances[k].session);
+      if (at != known.end()) columns(static_cast<Eigen::Index>(k), at - known.begin()) = 1.0;
+    }
+    return columns;
+  }
+
   static void set_sigmas(const MeasuredHoles& set, const Steps& steps, Rows& rows) {
     const auto count = static_cast<Eigen::Index>(set.distances.size());
     rows.row_sigma_mm.resize(count);

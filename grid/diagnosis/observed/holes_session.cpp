@@ -86,7 +86,8 @@ Ordered in_order(const MeasuredHoles& set) {
     const HoleDistance& d = set.distances[k];
     const std::size_t a = place[d.from];
     const std::size_t b = d.edge ? a : place[d.to];
-    return std::tuple(std::min(a, b), std::max(a, b), d.edge, d.distance_mm, sigma_of(set, d));
+    return std::tuple(
+        std::min(a, b), std::max(a, b), d.edge, d.distance_mm, d.session, sigma_of(set, d));
   };
   result.distance.resize(set.distances.size());
   std::iota(result.distance.begin(), result.distance.end(), std::size_t{0});
@@ -102,7 +103,8 @@ Ordered in_order(const MeasuredHoles& set) {
   return result;
 }
 
-/// The machine's settings, where the sheet lies, how large it is, and each hole's own error.
+/// The machine's settings, where the sheet lies, how large it is, the hook of each session of
+/// the tape, and each hole's own error.
 void state_unknowns(const MeasuredHoles& set, Session& session) {
   session.settings.assign(model::kMachineSettings.begin(), model::kMachineSettings.end());
   session.settings.insert(
@@ -110,8 +112,9 @@ void state_unknowns(const MeasuredHoles& set, Session& session) {
   constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
   constexpr auto kSettings = kOfMachine + static_cast<Eigen::Index>(model::kSheetSettings.size());
   const Eigen::Index of_holes = 2 * static_cast<Eigen::Index>(set.holes.size());
-  session.stated_value = Eigen::VectorXd::Zero(kSettings + 2 + of_holes);
-  session.stated_sigma.resize(kSettings + 2 + of_holes);
+  const auto hooks = static_cast<Eigen::Index>(session.tape_sessions.size());
+  session.stated_value = Eigen::VectorXd::Zero(kSettings + 2 + hooks + of_holes);
+  session.stated_sigma.resize(session.stated_value.size());
   for (Eigen::Index k = 0; k < kOfMachine; ++k) {
     const model::Setting setting = session.settings[static_cast<std::size_t>(k)];
     session.stated_value(k) = model::stated_value(session.stated, setting);
@@ -120,6 +123,8 @@ void state_unknowns(const MeasuredHoles& set, Session& session) {
   session.stated_sigma.segment<3>(kOfMachine) << kSheetShiftMm, kSheetShiftMm, kSheetTurnRad;
   session.stated_sigma.segment<2>(kSettings).setConstant(
       std::max(set.sheet.size_sigma_mm, kKnownSigmaMm));
+  session.stated_sigma.segment(kSettings + 2, hooks)
+      .setConstant(std::max(set.tape.hook_sigma_mm.value_or(0.0), kKnownSigmaMm));
   session.stated_sigma.tail(of_holes).setConstant(std::max(set.hole_sigma_mm, kKnownSigmaMm));
 }
 
@@ -158,6 +163,11 @@ tl::expected<Session, DiagnosisFailure> make_session(const MeasuredHoles& set) {
   session.stated = *set.machine;
   session.distance_index = ordered.distance;
   session.noise_dof = set.noise_dof;
+  if (set.tape.hook_sigma_mm) {
+    std::set<std::size_t> sessions;
+    for (const HoleDistance& d : set.distances) sessions.insert(d.session);
+    session.tape_sessions.assign(sessions.begin(), sessions.end());
+  }
   take_holes(*std::move(distances), ordered.hole, session);
   return session;
 }

@@ -42,8 +42,9 @@ class HoleCandidates {
         });
   }
 
-  void add(const HoleDistance& distance) {
+  void add(HoleDistance distance) {
     if (is_measured(distance)) return;
+    distance.session = measured_.distances.front().session;
     NextMeasurement next{MeasurementKind::distance,
                          fmt::format("the distance {}", words_of(measured_, distance)),
                          "",
@@ -104,7 +105,9 @@ class HoleCandidates {
     Candidate candidate{{MeasurementKind::distance, "", "", place, measured_.tape.sigma_mm}, {}, 1};
     for (std::size_t k = 0; k < std::min(kArms, others.size()); ++k) {
       candidate.rows.push_back(static_cast<Eigen::Index>(set_.distances.size()));
-      set_.distances.push_back({.from = set_.holes.size(), .to = others[k]});
+      set_.distances.push_back({.from = set_.holes.size(),
+                                .to = others[k],
+                                .session = measured_.distances.front().session});
       candidate.measurement.to.push_back(measured_.holes[others[k]].name);
     }
     candidate.measurement.what = fmt::format(

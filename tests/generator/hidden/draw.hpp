@@ -145,5 +145,7 @@ struct SealedSet {
 [[nodiscard]] std::vector<Visit> fresh_session(const HiddenMachine& machine,
                                                double beside_mm,
                                                Dice& dice);
+/// Places over the rectangle that the marks span, one at random in each cell of a grid.
+[[nodiscard]] std::vector<Visit> area_session(const HiddenMachine& machine, Dice& dice);
 
 }  // namespace chaintrue::generator

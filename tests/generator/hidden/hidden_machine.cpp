@@ -52,6 +52,15 @@ std::optional<HiddenMachine::Reading> HiddenMachine::read(std::string_view what,
   if (what == "ring_radius_mm") return noisy(with.ring_radius_mm, 0.3);
   if (what == "sled_mass_kg") return noisy(with.sled_mass_kg, 0.1);
   if (what == "chain_mass_kg_per_m") return noisy(with.chain_mass_kg_per_m, 0.002);
+  if (what == "tape_error_mm_per_m") {
+    double scale = 0.0;
+    for (const Hidden& e : hidden_) {
+      const bool other =
+          (e.where == Where::x && side == "y") || (e.where == Where::y && side == "x");
+      if (e.cause == Cause::tape_scale && !other) scale += e.size;
+    }
+    return noisy(1000.0 * scale, 0.15);
+  }
   if (what == "link_pitch_mm") {
     const std::size_t chain = side == "right" ? 1 : 0;
     double elongation = 0.0;
@@ -73,6 +82,30 @@ std::vector<Visit> fresh_session(const HiddenMachine& machine, double beside_mm,
     const Vec2 place{std::clamp(v.place.x + dice.uniform(-beside_mm, beside_mm), -1200.0, 1200.0),
                      std::clamp(v.place.y + dice.uniform(-beside_mm, beside_mm), -600.0, 600.0)};
     if (come_to_rest(with, place)) v.place = place;
+  }
+  return fresh;
+}
+
+std::vector<Visit> area_session(const HiddenMachine& machine, Dice& dice) {
+  constexpr int kColumns = 14;
+  constexpr int kRows = 8;
+  Vec2 low = machine.visits().front().place;
+  Vec2 high = low;
+  for (const Visit& v : machine.visits()) {
+    low = {std::min(low.x, v.place.x), std::min(low.y, v.place.y)};
+    high = {std::max(high.x, v.place.x), std::max(high.y, v.place.y)};
+  }
+  const TrueMachine with = altered(machine.truth(), machine.hidden());
+  std::vector<Visit> fresh;
+  for (int j = 0; j < kRows; ++j) {
+    for (int i = 0; i < kColumns; ++i) {
+      const double x = (i + dice.uniform(0.0, 1.0)) / kColumns;
+      const double y = (j + dice.uniform(0.0, 1.0)) / kRows;
+      Visit v = machine.visits().front();
+      v.place = {low.x + x * (high.x - low.x), low.y + y * (high.y - low.y)};
+      v.number = j * kColumns + i;
+      if (come_to_rest(with, v.place)) fresh.push_back(v);
+    }
   }
   return fresh;
 }

@@ -35,6 +35,7 @@ struct TrueErrors {
   double extended = 0.0;       ///< as the diagnosis would have it
   double oracle = 0.0;         ///< told the cause
   double reported_drop = 0.0;  ///< of the mean square, as the diagnosis states it
+  double reported_share = 0.0;
 };
 
 struct FollowUp {

@@ -23,6 +23,15 @@ std::vector<Hidden> lasting(std::vector<Hidden> effects) {
   return effects;
 }
 
+bool hangs_on_visits(const generator::SealedSet& set) {
+  using generator::Cause;
+  const auto& hidden = set.machine.hidden();
+  return std::any_of(hidden.begin(), hidden.end(), [](const Hidden& h) {
+    return h.cause == Cause::drift || h.cause == Cause::tooth_skip ||
+           h.cause == Cause::direction_hysteresis;
+  });
+}
+
 struct Fresh {
   std::vector<Visit> visits;
   std::vector<Vec2> marks;
@@ -34,7 +43,9 @@ struct Fresh {
 std::optional<Fresh> fresh_of(const generator::SealedSet& set) {
   generator::Dice dice(1, "fresh session");
   Fresh fresh;
-  fresh.visits = generator::fresh_session(set.machine, 150.0, dice);
+  // What hangs on the visits is seen where they were; anything else over the whole area.
+  fresh.visits = hangs_on_visits(set) ? generator::fresh_session(set.machine, 150.0, dice)
+                                      : generator::area_session(set.machine, dice);
   const auto hidden = lasting(set.machine.hidden());
   generator::HiddenMachine later(set.machine.stated(), set.machine.truth(), hidden);
   if (set.answer.unlisted) later.suffers(*set.answer.unlisted);
@@ -121,8 +132,11 @@ std::optional<TrueErrors> true_errors(const generator::SealedSet& set,
   const auto calibrated = told(set, *fresh, {});
   const auto oracle = told(set, *fresh, set.answer.hidden);
   if (!predicted || !calibrated || !oracle) return std::nullopt;
-  TrueErrors errors{*calibrated, tool_rms_mm(*fresh, *predicted), *oracle, 0.0};
-  if (found.gain) errors.reported_drop = found.gain->drop_mm2;
+  TrueErrors errors{*calibrated, tool_rms_mm(*fresh, *predicted), *oracle};
+  if (found.gain) {
+    errors.reported_drop = found.gain->drop_mm2;
+    errors.reported_share = found.gain->drop_share;
+  }
   return errors;
 }
 

@@ -54,7 +54,8 @@
     const canvas = document.getElementById(chart.id);
     try {
       const spec = filled(specification, chart);
-      spec.width = canvas.clientWidth;
+      // Folded away a chart has no width of its own yet: it is drawn anew once it is opened.
+      spec.width = canvas.clientWidth || 600;
       const view = new vega["vega-view"].View(vega["vega-parser"].parse(spec, look), {
         renderer: "svg", container: canvas, hover: true, tooltip: show_tip,
       });
@@ -71,6 +72,11 @@
       console.error(`${chart.spec}: ${error.message}`);
     }
   }
+
+  // On paper nothing is folded.
+  window.addEventListener("beforeprint", () => {
+    for (const folded of document.querySelectorAll("details")) folded.open = true;
+  });
 
   const specifications = read("specifications");
   Promise.all(read("data").charts.map((chart) => draw(chart, specifications[chart.spec]))).then(() => {

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What naming gains, as expected from the points at hand: no noise of held-out points blurs it.
+#pragma once
+
+#include "grid/diagnosis/analysis.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+struct ExpectedGain {
+  /// By how much the mean square of the tool's error falls. The causes' estimate is the mean of
+  /// what the truth may be, so the mean square of what naming moves the tool by is the expected
+  /// drop.
+  double drop_mm2 = 0.0;
+  /// Of the mean square before it: what remains is the doubt about settings and sizes.
+  double share = 0.0;
+};
+
+/// Over the measured area, places alike; of distances those that were read; at the points
+/// themselves where a cause depends on the visits.
+[[nodiscard]] ExpectedGain expected_gain(const Session& session,
+                                         const Analysis& analysis,
+                                         const Steps& steps);
+
+/// The space of the judgement with the points set aside that causes at one visit alone account for:
+/// whoever calibrates without these causes still sees that the points are out.
+[[nodiscard]] Space without_slips(const Session& session,
+                                  const Rows& rows,
+                                  const Space& space,
+                                  const std::vector<int>& directions,
+                                  const Steps& steps);
+
+}  // namespace chaintrue::grid::diagnosis

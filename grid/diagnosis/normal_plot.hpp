@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Is what is left over as normal noise would leave it? Ordered whitened residuals against draws of
+/// normal noise that went through the same fit of settings and causes.
+///
+/// Each set is divided by its own rms, so that the shape alone is judged; the size of the noise is
+/// the noise factor's business. The band is of all ranks together: it holds 95 of 100 draws whole
+/// (global envelope of extreme ranks, M. Myllymaki et al., J. R. Stat. Soc. B 79 (2017) 381,
+/// section 4), and the chance is the draws' share whose most extreme rank is as extreme as the
+/// data's.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "grid/diagnosis/analysis.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Of the points that were not set aside; empty where fewer than kFewestPoints are left.
+[[nodiscard]] std::optional<NormalPlot> normal_plot(const Session& session,
+                                                    const Analysis& analysis,
+                                                    std::uint64_t seed);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/reweighing.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "grid/diagnosis/leading.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// Models so far below the best are not followed, nor more than so many in all.
+constexpr double kNegligible = 14.0;
+constexpr std::size_t kMostModels = 160;
+/// Share of the probability from which a pattern is followed, and the most of them.
+constexpr double kPatternShare = 0.01;
+constexpr std::size_t kMostPatterns = 4;
+
+using LensKey = std::pair<std::size_t, int>;  ///< space, pattern
+
+/// The models that may lead once some points are gone: the best, and in each space of these
+/// nothing, and every cause alone at its best place.
+std::map<LensKey, std::vector<Model>> followed(const Rows& rows, const Contest& contest) {
+  std::map<LensKey, double> share;
+  for (const Model& model : contest.models) {
+    share[{model.space, model.pattern}] += contest.probability(model);
+  }
+  std::vector<std::pair<double, LensKey>> patterns;
+  for (const auto& [key, p] : share) {
+    if (key.second >= 0 && p >= kPatternShare) patterns.emplace_back(-p, key);
+  }
+  std::sort(patterns.begin(), patterns.end());
+  if (patterns.size() > kMostPatterns) patterns.resize(kMostPatterns);
+  const auto is_followed = [&](const LensKey& key) {
+    return key.second < 0 || std::any_of(patterns.begin(), patterns.end(), [&](const auto& p) {
+             return p.second == key;
+           });
+  };
+  const double best = contest.best().log_weight;
+  std::map<LensKey, std::vector<Model>> result;
+  std::map<LensKey, std::vector<CauseId>> alone;
+  std::size_t taken = 0;
+  // Best first, so that a space is known before the rest of what is asked for in it.
+  for (const Model& model : contest.models) {
+    const LensKey key{model.space, model.pattern};
+    if (!is_followed(key)) continue;
+    const bool leads = model.log_weight > best - kNegligible && taken < kMostModels;
+    bool first_alone = model.directions.empty();
+    if (model.directions.size() == 1) {
+      const CauseId& cause = rows.directions[static_cast<std::size_t>(model.directions[0])].cause;
+      auto& known = alone[key];
+      first_alone = std::find(known.begin(), known.end(), cause) == known.end();
+      if (first_alone) known.push_back(cause);
+    }
+    if (!leads && !(first_alone && result.contains(key))) continue;
+    taken += leads ? 1 : 0;
+    result[key].push_back(model);
+  }
+  return result;
+}
+
+/// Rows of these points in a space.
+std::vector<Eigen::Index> rows_of(const Space& space, const std::vector<std::size_t>& points) {
+  std::vector<Eigen::Index> result;
+  for (const std::size_t point : points) {
+    const auto row = 2 * static_cast<Eigen::Index>(point);
+    const auto at = std::lower_bound(space.kept.begin(), space.kept.end(), row);
+    if (at == space.kept.end() || *at != row) continue;
+    const auto first = static_cast<Eigen::Index>(at - space.kept.begin());
+    result.insert(result.end(), {first, first + 1});
+  }
+  return result;
+}
+
+std::vector<bool> with_points_out(std::vector<bool> bad, const std::vector<std::size_t>& points) {
+  for (const std::size_t point : points) bad[point] = true;
+  return bad;
+}
+
+/// The contest's space with these points set aside, made where there is none.
+std::size_t home_of(Contest& contest, std::vector<bool> bad) {
+  const auto same = std::find_if(contest.spaces.begin(),
+                                 contest.spaces.end(),
+                                 [&](const Space& space) { return space.bad == bad; });
+  if (same != contest.spaces.end()) return static_cast<std::size_t>(same - contest.spaces.begin());
+  contest.spaces.emplace_back().bad = std::move(bad);
+  return contest.spaces.size() - 1;
+}
+
+}  // namespace
+
+Reweighing::Reweighing(const Session& session,
+                       const Analysis& analysis,
+                       const DiagnosisOptions& options)
+    : session_(session),
+      a_(analysis),
+      options_(options),
+      dof_(options.steps.anchor_noise ? session.noise_dof : 1e-3),
+      score_(analysis.rows, analysis.contest.spaces[analysis.contest.best().space], dof_) {
+  for (auto& [key, models] : followed(a_.rows, a_.contest)) {
+    add_lens(key.first, key.second, std::move(models));
+  }
+}
+
+void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Model> models) {
+  const Space& space = a_.contest.spaces[number];
+  Lens lens;
+  lens.space = number;
+  lens.pattern = pattern;
+  std::vector<int> columns;
+  for (const Model& model : models) {
+    columns.insert(columns.end(), model.directions.begin(), model.directions.end());
+  }
+  std::sort(columns.begin(), columns.end());
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  const auto n = static_cast<Eigen::Index>(space.kept.size());
+  const auto lower = space.factor.triangularView<Eigen::Lower>();
+  lens.inverse = lower.solve(Eigen::MatrixXd::Identity(n, n));
+  Eigen::MatrixXd e(n, static_cast<Eigen::Index>(columns.size()) + 1);
+  e.col(0) = space.e;
+  e.rightCols(e.cols() - 1) = space.g(Eigen::all, columns);
+  double log_det = space.log_det;
+  if (pattern >= 0) {
+    const Pattern shape = pattern_of(space, pattern);
+    Eigen::MatrixXd k = pattern_covariance(session_, a_.rows, space.kept, shape.shape);
+    lower.solveInPlace(k);
+    k = lower.solve(k.transpose()).eval() * (shape.sigma_mm * shape.sigma_mm);
+    k.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> llt(k);
+    llt.matrixL().solveInPlace(lens.inverse);
+    llt.matrixL().solveInPlace(e);
+    log_det += 2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
+  }
+  lens.precision = lens.inverse.transpose() * e;
+  const Eigen::MatrixXd gram = e.transpose() * e;
+  const Eigen::Index c = e.cols() - 1;
+  lens.metric = {columns, gram(0, 0), gram.col(0).tail(c), gram.bottomRightCorner(c, c), log_det};
+  const NoiseDensity noise(dof_, n);
+  for (const Model& model : models) {
+    std::vector<Eigen::Index> set;
+    for (const int k : model.directions) set.push_back(lens.metric.position(k));
+    const double evidence = set_evidence(lens.metric, a_.rows.directions, set, noise).log_evidence;
+    lens.prior.push_back(model.log_weight - evidence - space.log_bad);
+    lens.sets.push_back(std::move(set));
+  }
+  lens.models = std::move(models);
+  lenses_.push_back(std::move(lens));
+}
+
+Metric Reweighing::metric_without(const Lens& lens, const std::vector<Eigen::Index>& out) {
+  Metric metric = lens.metric;
+  if (out.empty()) return metric;
+  const Eigen::MatrixXd half = lens.inverse(Eigen::all, out);
+  const Eigen::LLT<Eigen::MatrixXd> block(half.transpose() * half);
+  Eigen::MatrixXd seen = lens.precision(out, Eigen::all);
+  block.matrixL().solveInPlace(seen);
+  const Eigen::Index c = seen.cols() - 1;
+  metric.ee -= seen.col(0).squaredNorm();
+  metric.ge.noalias() -= seen.rightCols(c).transpose() * seen.col(0);
+  metric.gg.noalias() -= seen.rightCols(c).transpose() * seen.rightCols(c);
+  metric.log_det += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
+  return metric;
+}
+
+Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) const {
+  const double price = log_price_of_bad(a_.rows);
+  Without result;
+  Contest& contest = result.contest;
+  std::set<std::tuple<std::size_t, int, std::vector<int>>> known;
+  std::vector<std::pair<double, std::size_t>> strongest;  // score, by space
+  for (const Lens& lens : lenses_) {
+    const Space& whole = a_.contest.spaces[lens.space];
+    const auto out = rows_of(whole, points);
+    const Metric metric = metric_without(lens, out);
+    const Eigen::Index rows = lens.inverse.rows() - static_cast<Eigen::Index>(out.size());
+    const NoiseDensity noise(dof_, rows);
+    // Spaces that differ in the points left out alone are one.
+    const std::size_t home = home_of(contest, with_points_out(whole.bad, points));
+    const auto bad = static_cast<double>(
+        std::count(whole.bad.begin(), whole.bad.end(), true) -
+        std::count_if(points.begin(), points.end(), [&](std::size_t i) { return whole.bad[i]; }));
+    for (std::size_t k = 0; k < lens.models.size(); ++k) {
+      const Model& model = lens.models[k];
+      if (!known.emplace(home, lens.pattern, model.directions).second) continue;
+      const SetEvidence evidence = set_evidence(metric, a_.rows.directions, lens.sets[k], noise);
+      if (!std::isfinite(evidence.log_evidence)) continue;
+      contest.models.push_back({model.directions,
+                                lens.pattern,
+                                home,
+                                lens.prior[k] + evidence.log_evidence + bad * price,
+                                noise.larger_share(evidence.quadratic),
+                                evidence.quadratic});
+    }
+    if (lens.pattern < 0) strongest.emplace_back(score_.largest(metric, rows), home);
+  }
+  std::stable_sort(contest.models.begin(),
+                   contest.models.end(),
+                   [](const Model& a, const Model& b) { return a.log_weight > b.log_weight; });
+  double sum = 0.0;
+  for (const Model& model : contest.models) {
+    sum += std::exp(model.log_weight - contest.best().log_weight);
+  }
+  contest.log_total = contest.best().log_weight + std::log(sum);
+  for (const auto& [score, space] : strongest) {
+    if (space == contest.best().space) {
+      result.seen = result.seen || a_.null.p_value(score) < kFalseAlarm;
+    }
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

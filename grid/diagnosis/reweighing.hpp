@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A contest's models weighed again without some of the points, at a small part of what a contest
+/// of their own would cost.
+///
+/// Notation
+///   V     covariance of a space's rows, settings and pattern integrated out; V = L L', P = V^-1
+///   E     residual and columns of the models, whitened by L
+///   O     rows of the points left out
+///   U     P times the residual and the columns
+///
+/// Inner products without O need no new factorisation:
+///   a' V_kept^-1 b = a' P b - (P a)_O' (P_OO)^-1 (P b)_O,   det V_kept = det V det P_OO
+/// which are the inverse of a partitioned matrix and Schur's determinant (G. Golub and C. Van Loan,
+/// Matrix Computations (2013), section 3.2.11; F. Zhang, The Schur Complement (2005), theorem 1.1).
+///
+/// Exact for each model that the contest kept; models that it let go, sets of bad points that it
+/// never met, and patterns that hold less than a hundredth of the probability are not looked at.
+#pragma once
+
+#include <vector>
+
+#include "grid/diagnosis/analysis.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+class Reweighing {
+ public:
+  /// Both arguments are kept by reference.
+  Reweighing(const Session& session, const Analysis& analysis, const DiagnosisOptions& options);
+
+  struct Without {
+    /// Best first; its spaces bear the points set aside, those left out among them, and no rows.
+    Contest contest;
+    /// The strongest effect is still beyond what noise does.
+    bool seen = false;
+  };
+  /// Points are positions in the session.
+  [[nodiscard]] Without without(const std::vector<std::size_t>& points) const;
+
+ private:
+  /// One space with one pattern or none.
+  struct Lens {
+    std::size_t space = 0;
+    int pattern = -1;
+    Metric metric;              ///< with all points
+    Eigen::MatrixXd inverse;    ///< L^-1
+    Eigen::MatrixXd precision;  ///< U: first column the residual
+    std::vector<Model> models;
+    std::vector<std::vector<Eigen::Index>> sets;  ///< of each: its columns in the metric
+    std::vector<double> prior;                    ///< of each: weight less evidence
+  };
+
+  void add_lens(std::size_t space, int pattern, std::vector<Model> models);
+  /// Inner products with these rows of the lens' space gone.
+  [[nodiscard]] static Metric metric_without(const Lens& lens,
+                                             const std::vector<Eigen::Index>& out);
+
+  const Session& session_;
+  const Analysis& a_;
+  const DiagnosisOptions& options_;
+  double dof_;
+  SingleScore score_;
+  std::vector<Lens> lenses_;
+};
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/reweighing.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr std::size_t kFewestLines = 3;
+constexpr std::size_t kFewestOnLine = 3;  // on average
+/// Of the logarithm of odds where nothing else is left: as much as a double can hold.
+constexpr double kMostOdds = 700.0;
+
+/// Runs of points along a coordinate; empty where the marks do not lie in lines.
+std::vector<LeftOut> lines_along(const Session& session,
+                                 Removal::What what,
+                                 double model::BedPoint::*coordinate) {
+  const auto at = [&](std::size_t i) { return session.points[i].mark.*coordinate; };
+  std::vector<std::size_t> order(session.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(
+      order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
+  std::vector<LeftOut> lines;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGap_mm) lines.push_back({what, 0.0, {}});
+    lines.back().points.push_back(order[k]);
+    lines.back().at_mm += at(order[k]);
+  }
+  if (lines.size() < kFewestLines || order.size() < kFewestOnLine * lines.size()) return {};
+  for (LeftOut& line : lines) {
+    line.at_mm /= static_cast<double>(line.points.size());
+    std::sort(line.points.begin(), line.points.end());
+  }
+  return lines;
+}
+
+/// Whether a model has what the verdict says: every cause named, or one of the set.
+class Statement {
+ public:
+  explicit Statement(const Analysis& a) : a_(a) {}
+
+  [[nodiscard]] bool holds(const Model& model) const {
+    const auto acts = [&](std::size_t index) {
+      const CauseClass& members = a_.judgement.classes[index];
+      return std::any_of(model.directions.begin(), model.directions.end(), [&](int k) {
+        return std::find(members.begin(), members.end(), direction(a_, k).cause) != members.end();
+      });
+    };
+    const auto& listed = a_.judgement.listed;
+    return a_.judgement.verdict == Verdict::named_set
+               ? std::any_of(listed.begin(), listed.end(), acts)
+               : std::all_of(listed.begin(), listed.end(), acts);
+  }
+
+  /// Logarithm of its odds.
+  [[nodiscard]] double log_odds(const Contest& contest) const {
+    double with = 0.0;
+    double against = 0.0;
+    const double best = contest.best().log_weight;
+    // Of what holds and of what does not the larger one first: neither may vanish beside the other.
+    double best_with = -std::numeric_limits<double>::infinity();
+    double best_against = best_with;
+    for (const Model& model : contest.models) {
+      double& highest = holds(model) ? best_with : best_against;
+      highest = std::max(highest, model.log_weight - best);
+    }
+    for (const Model& model : contest.models) {
+      const double weight = model.log_weight - best;
+      if (holds(model)) {
+        with += std::exp(weight - best_with);
+      } else {
+        against += std::exp(weight - best_against);
+      }
+    }
+    return std::clamp(
+        best_with + std::log(with) - best_against - std::log(against), -kMostOdds, kMostOdds);
+  }
+
+ private:
+  const Analysis& a_;
+};
+
+double probability_of(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
+
+}  // namespace
+
+std::vector<LeftOut> groups_to_leave_out(const Session& session) {
+  std::vector<LeftOut> groups;
+  for (std::size_t i = 0; i < session.points.size(); ++i) {
+    groups.push_back({Removal::What::point, 0.0, {i}});
+  }
+  std::sort(groups.begin(), groups.end(), [&](const LeftOut& a, const LeftOut& b) {
+    return session.points[a.points.front()].index < session.points[b.points.front()].index;
+  });
+  for (const auto& [what, coordinate] : {std::pair(Removal::What::column, &model::BedPoint::x_mm),
+                                         std::pair(Removal::What::row, &model::BedPoint::y_mm)}) {
+    const auto lines = lines_along(session, what, coordinate);
+    groups.insert(groups.end(), lines.begin(), lines.end());
+  }
+  std::erase_if(groups, [&](const LeftOut& group) {
+    return session.points.size() - group.points.size() < kFewestPoints;
+  });
+  return groups;
+}
+
+bool still_named(const Judgement& all, const Judgement& without) {
+  const auto is_listed = [&](std::size_t index) {
+    const CauseClass& members = all.classes[index];
+    return std::any_of(without.listed.begin(), without.listed.end(), [&](std::size_t other) {
+      const CauseId& leader = without.classes[other].front();
+      return std::find(members.begin(), members.end(), leader) != members.end();
+    });
+  };
+  const bool set_without = without.verdict == Verdict::named_set;
+  if (all.verdict == Verdict::named_set) return is_listed(all.listed.front());
+  if (set_without) {
+    const CauseId& leader = without.classes[without.listed.front()].front();
+    const CauseClass& members = all.classes[all.listed.front()];
+    return all.listed.size() == 1 &&
+           std::find(members.begin(), members.end(), leader) != members.end();
+  }
+  return std::all_of(all.listed.begin(), all.listed.end(), is_listed);
+}
+
+std::optional<Stability> examine_stability(const Session& session,
+                                           const Analysis& a,
+                                           const DiagnosisOptions& options) {
+  // So few distances that the gain's folds, hole by hole, tell the same.
+  if (a.judgement.listed.empty() || session.distances) return std::nullopt;
+  const std::vector<LeftOut> groups = groups_to_leave_out(session);
+  if (groups.empty()) return std::nullopt;
+  const Reweighing reweighing(session, a, options);
+  const Statement statement(a);
+  const double all = statement.log_odds(reweighing.without({}).contest);
+  Stability result;
+  result.probability = probability_of(all);
+  for (const LeftOut& group : groups) {
+    const auto without = reweighing.without(group.points);
+    std::vector<bool> excluded(session.points.size(), false);
+    for (const std::size_t i : group.points) excluded[i] = true;
+    const bool seen = without.seen || options.told.has_value();
+    const Judgement judged = judge(a.rows, without.contest, excluded, seen, a.judgement.classes);
+    const double log_odds = statement.log_odds(without.contest);
+    Removal removal;
+    removal.what = group.what;
+    if (group.what == Removal::What::point) {
+      removal.index = session.points[group.points.front()].index;
+    }
+    removal.at_mm = group.at_mm;
+    removal.points = group.points.size();
+    removal.verdict = judged.verdict;
+    for (const std::size_t index : judged.listed) {
+      removal.causes.push_back(judged.classes[index].front());
+    }
+    removal.stands = still_named(a.judgement, judged);
+    removal.probability = probability_of(log_odds);
+    removal.support = all - log_odds;
+    result.removals.push_back(std::move(removal));
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "grid/diagnosis/stability.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// Points of which the numbers are given; of more their count and the first of them.
+constexpr std::size_t kMostNumbers = 5;
+
+struct Kind {
+  Removal::What what;
+  std::string_view one;
+  std::string_view many;
+};
+constexpr std::array kKinds = {Kind{Removal::What::point, "point", "points"},
+                               Kind{Removal::What::column, "column of marks", "columns of marks"},
+                               Kind{Removal::What::row, "row of marks", "rows of marks"}};
+
+std::vector<const Removal*> of_kind(const Stability& stability, Removal::What what, bool changing) {
+  std::vector<const Removal*> found;
+  for (const Removal& removal : stability.removals) {
+    if (removal.what == what && !(changing && removal.stands)) found.push_back(&removal);
+  }
+  return found;
+}
+
+std::string listed(const std::vector<std::string>& parts, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) text += i + 1 == parts.size() ? fmt::format(" {} ", last) : ", ";
+    text += parts[i];
+  }
+  return text;
+}
+
+std::string place(const Removal& removal) {
+  switch (removal.what) {
+    case Removal::What::column:
+      return fmt::format("x = {:.0f} mm", removal.at_mm);
+    case Removal::What::row:
+      return fmt::format("y = {:.0f} mm", removal.at_mm);
+    case Removal::What::point:
+      break;
+  }
+  return fmt::format("{}", removal.index + 1);
+}
+
+/// "point 17", "points 3, 9 and 17", "the column of marks at x = 1200 mm".
+std::string named_places(const Kind& kind, const std::vector<const Removal*>& removals) {
+  std::vector<std::string> places;
+  for (const Removal* one : removals) {
+    if (places.size() < kMostNumbers) places.push_back(place(*one));
+  }
+  if (removals.size() > kMostNumbers) places.emplace_back("others");
+  const bool single = removals.size() == 1;
+  const std::string where = listed(places, "and");
+  const std::string_view noun = single ? kind.one : kind.many;
+  return kind.what == Removal::What::point ? fmt::format("{} {}", noun, where)
+                                           : fmt::format("the {} at {}", noun, where);
+}
+
+std::string fate(const Removal& removal) {
+  if (removal.causes.empty()) return "nothing would be named";
+  std::vector<std::string> names;
+  for (const CauseId& cause : removal.causes) {
+    const std::string_view side = model::effects::name(cause.side);
+    names.push_back(fmt::format("{}{}{}", cause.effect->id, side.empty() ? "" : " ", side));
+    std::replace(names.back().begin(), names.back().end(), '_', ' ');
+  }
+  return fmt::format("the verdict would be {}",
+                     listed(names, removal.verdict == Verdict::named_set ? "or" : "and"));
+}
+
+std::string percent(double probability) {
+  if (probability > 0.995) return "more than 99 %";
+  return fmt::format("{:.0f} %", 100.0 * probability);
+}
+
+}  // namespace
+
+std::string stability_in_words(const Diagnosis& diagnosis) {
+  const Stability& stability = *diagnosis.stability;
+  std::vector<std::string> tried;
+  std::size_t changes = 0;
+  for (const Kind& kind : kKinds) {
+    const auto all = of_kind(stability, kind.what, false);
+    if (all.empty()) continue;
+    changes += of_kind(stability, kind.what, true).size();
+    tried.push_back(fmt::format("{} {}", all.size(), all.size() == 1 ? kind.one : kind.many));
+  }
+  const auto weakest = std::min_element(
+      stability.removals.begin(), stability.removals.end(), [](const auto& a, const auto& b) {
+        return a.probability < b.probability;
+      });
+  const Kind& kind = kKinds[static_cast<std::size_t>(weakest->what)];
+  return fmt::format(
+      "Left out one at a time and judged anew: {}. {} What is named is least sure without {}: its "
+      "probability is then {}, with all points {}.",
+      listed(tried, "and"),
+      changes == 0   ? "The verdict names the same without any of them."
+      : changes == 1 ? "Without one of them it does not name the same."
+                     : fmt::format("Without any of {} of them it does not name the same.", changes),
+      named_places(kind, {&*weakest}),
+      percent(weakest->probability),
+      percent(stability.probability));
+}
+
+std::string rests_on(const Diagnosis& diagnosis) {
+  if (!diagnosis.stability) return "";
+  std::string text;
+  for (const Kind& kind : kKinds) {
+    const auto changes = of_kind(*diagnosis.stability, kind.what, true);
+    if (changes.empty()) continue;
+    text += fmt::format(" {} rests on {}{}: without {} {}.",
+                        diagnosis.causes.size() == 1 ? "The name" : "What is named",
+                        changes.size() == 1 ? "" : "each of ",
+                        named_places(kind, changes),
+                        changes.size() == 1 ? "it" : "the first of these",
+                        fate(*changes.front()));
+  }
+  return text;
+}
+
+}  // namespace chaintrue::grid::diagnosis

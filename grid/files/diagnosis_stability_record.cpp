@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a diagnosis rests on, in a chaintrue_diagnosis file: what it would say without some of its
+// points, and whether what is left has the shape of noise.
+#include "grid/files/diagnosis_keys.hpp"
+#include "grid/files/diagnosis_record.hpp"
+
+namespace chaintrue::grid::files {
+
+using diagnosis::NormalPlot;
+using diagnosis::Removal;
+using diagnosis::Stability;
+using diagnosis::Verdict;
+
+Value<diagnosis::Verdict> verdict_word() {
+  std::vector<std::pair<std::string, Verdict>> names;
+  for (const Verdict verdict : {Verdict::named,
+                                Verdict::named_set,
+                                Verdict::several_causes,
+                                Verdict::unknown_pattern,
+                                Verdict::noise_larger_than_stated,
+                                Verdict::bad_points,
+                                Verdict::nothing_found}) {
+    names.emplace_back(diagnosis::name(verdict), verdict);
+  }
+  return choice<Verdict>(std::move(names));
+}
+
+namespace {
+
+constexpr Range kMm{"mm", -1e6, 1e6};
+constexpr Range kAny{"", -1e12, 1e12};
+constexpr Range kShare{"", 0.0, 1.0};
+constexpr int kMostPoints = 1000000;
+
+/// A place in the points: where it is one that is left out.
+void index_key(Record<Removal>& record) {
+  static const Value<int> whole = integer(0, kMostPoints);
+  record.custom(
+      "point",
+      false,
+      whole.expected,
+      [](const Cursor& at, Removal& object) {
+        if (const auto value = whole.read(at)) object.index = static_cast<std::size_t>(*value);
+      },
+      [](const Removal& object) {
+        return std::optional<Json>(object.what == Removal::What::point ? Json(object.index)
+                                                                       : Json(nullptr));
+      });
+}
+
+/// Where a column or row lies.
+void line_key(Record<Removal>& record) {
+  record.custom(
+      "at_mm",
+      false,
+      "a number in mm",
+      [](const Cursor& at, Removal& object) {
+        if (const auto value = at.number(kMm)) object.at_mm = *value;
+      },
+      [](const Removal& object) {
+        return std::optional<Json>(object.what == Removal::What::point ? Json(nullptr)
+                                                                       : Json(object.at_mm));
+      });
+}
+
+const Record<Removal>& removal_record() {
+  static const auto record = [] {
+    Record<Removal> removal("points left out");
+    removal.required("what",
+                     &Removal::what,
+                     choice<Removal::What>({{"point", Removal::What::point},
+                                            {"column", Removal::What::column},
+                                            {"row", Removal::What::row}}));
+    index_key(removal);
+    line_key(removal);
+    static const Value<int> count = integer(1, kMostPoints);
+    removal
+        .custom(
+            "points",
+            true,
+            count.expected,
+            [](const Cursor& at, Removal& object) {
+              if (const auto value = count.read(at))
+                object.points = static_cast<std::size_t>(*value);
+            },
+            [](const Removal& object) { return std::optional<Json>(object.points); })
+        .required("verdict", &Removal::verdict, verdict_word())
+        .required("causes", &Removal::causes, list(object(cause_id_record())))
+        .required("stands", &Removal::stands, boolean())
+        .required("probability", &Removal::probability, number(kShare))
+        .required("support", &Removal::support, number(kAny))
+        .check([](const Cursor& at, Removal& object) {
+          if (!at.clean() || !at.has("what")) return;
+          const bool is_point = object.what == Removal::What::point;
+          const Cursor place = at.child(is_point ? "point" : "at_mm");
+          if (place.json().is_null()) {
+            place.missing(is_point ? "a point's index" : "a number in mm");
+          }
+        });
+    return removal;
+  }();
+  return record;
+}
+
+}  // namespace
+
+const Record<Stability>& stability_record() {
+  static const auto record =
+      Record<Stability>("whether the name stands")
+          .required("probability", &Stability::probability, number(kShare))
+          .required("removals", &Stability::removals, list(object(removal_record())));
+  return record;
+}
+
+const Record<NormalPlot>& normal_plot_record() {
+  static const auto record = [] {
+    Record<NormalPlot> plot("a normal plot");
+    const Value<std::vector<double>> values = list(number(kAny));
+    plot.required("values", &NormalPlot::values, values)
+        .required("expected", &NormalPlot::expected, values)
+        .required("low", &NormalPlot::low, values)
+        .required("high", &NormalPlot::high, values)
+        .required("p_value", &NormalPlot::p_value, number(kShare))
+        .check([](const Cursor& at, NormalPlot& object) {
+          for (const auto& [key, list] : {std::pair("expected", &object.expected),
+                                          std::pair("low", &object.low),
+                                          std::pair("high", &object.high)}) {
+            if (at.clean() && list->size() != object.values.size()) {
+              at.child(key).expect("as many numbers as there are values");
+            }
+          }
+        });
+    return plot;
+  }();
+  return record;
+}
+
+}  // namespace chaintrue::grid::files

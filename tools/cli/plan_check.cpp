@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/plan_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "grid/files/map_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "grid/holes/map_check.hpp"
+#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+
+void check_options(const grid::CheckPlanRequest& request, const grid::CompensationMap& map) {
+  OptionProblems problems;
+  problems.require("--points", request.points, grid::kFewestCheckPoints, grid::kMostCheckPoints);
+  problems.require("--length-noise-mm", request.length_mm, 0.001, 50.0);
+  problems.require("--position-noise-mm", request.position_mm, 0.0, 50.0);
+  if (const model::Machine* machine = map.machine()) {
+    const double half = 0.5 * std::min(machine->bed.width_mm, machine->bed.height_mm);
+    problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 50.0));
+  }
+  problems.throw_if_any();
+}
+
+std::string draw(const grid::CheckPlan& plan, const grid::CompensationMap& map) {
+  FollowUpDrawing drawing;
+  for (const grid::MapPoint& point : map.contents().points) drawing.measured.push_back(point.mark);
+  for (std::size_t i = 0; i < plan.marks.size(); ++i)
+    drawing.next.push_back({fmt::format("{}", i + 1), plan.marks[i]});
+  return draw_follow_up(drawing, map.machine()->bed);
+}
+
+}  // namespace
+
+int plan_the_check(const CheckPlanOptions& options,
+                   const std::string& output,
+                   const std::string& drawing) {
+  const grid::CompensationMap map = files::read_map(options.map);
+  check_options(options.request, map);
+  const auto plan = grid::plan_check(map, options.request);
+  if (!plan) {
+    fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence);
+    return kNotSupportedOrOutside;
+  }
+  std::vector<files::OutputFile> outputs;
+  if (!drawing.empty()) outputs.push_back({drawing, draw(*plan, map)});
+  outputs.push_back({output, marks_csv(plan->marks)});
+  files::write_whole_files(outputs);
+  fmt::print(
+      stderr,
+      "{} points for chaintrue check. Links of one chain that grew by {:g} % would stand out "
+      "there, beyond what a shifted zero can imitate, by {:.1f} sigmas (left chain) and "
+      "{:.1f} (right).\n",
+      plan->marks.size(),
+      100.0 * grid::kPitchGrowthSigma,
+      plan->told_sigmas.left,
+      plan->told_sigmas.right);
+  return kDone;
+}
+
+}  // namespace chaintrue::cli

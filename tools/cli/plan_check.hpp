@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The part of chaintrue plan that sets the few points of a check.
+#pragma once
+
+#include <string>
+
+#include "grid/holes/check_plan.hpp"
+
+namespace chaintrue::cli {
+
+struct CheckPlanOptions {
+  /// The map to check later; empty: something else is planned.
+  std::string map;
+  grid::CheckPlanRequest request;
+};
+
+/// Writes the list and the drawing; returns the exit code. \throws files::InputError for values out
+/// of range.
+[[nodiscard]] int plan_the_check(const CheckPlanOptions& options,
+                                 const std::string& output,
+                                 const std::string& drawing);
+
+}  // namespace chaintrue::cli
