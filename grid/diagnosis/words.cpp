@@ -134,10 +134,13 @@ std::string several_words(const Diagnosis& d) {
 }
 
 std::string unknown_words(const Diagnosis& d) {
-  std::string text = fmt::format(
-      "The {} show a pattern that repeats over the bed and that no cause in the catalogue "
-      "explains",
-      name(d.observations));
+  std::string text =
+      d.observations == Observations::points
+          ? "The points show a pattern that repeats over the bed and that no cause in the "
+            "catalogue "
+            "explains"
+          : "The holes lie beside where their chain lengths put them, neighbours alike and farther "
+            "than noise takes them, and no cause in the catalogue explains it";
   if (!d.left_over.follows.empty()) {
     text += fmt::format("; it follows {} best ({:.0f} % of it)",
                         coordinate_words(d.left_over.follows),

@@ -29,6 +29,7 @@ DiagnosisOptions quick() {
   DiagnosisOptions options;
   options.gain = false;
   options.next_measurements = false;
+  options.stability = false;
   return options;
 }
 
@@ -295,7 +296,7 @@ TEST(HolesDiagnosis, ADistanceThatIsOffIsNamedWithItsAmount) {
 }
 
 TEST(HolesDiagnosis, WhereNothingIsHiddenNothingIsNamed) {
-  const int sets = is_long() ? 1000 : 100;
+  const int sets = is_long() ? 1000 : 60;
   int named = 0;
   for (int seed = 1; seed <= sets; ++seed) {
     named += names_something(diagnosed(holes({}, static_cast<std::uint64_t>(seed))));
@@ -305,35 +306,30 @@ TEST(HolesDiagnosis, WhereNothingIsHiddenNothingIsNamed) {
   EXPECT_LE(named, most_of(sets, 0.01));
 }
 
-/// An effect planted with a size that a workshop would know.
-struct Planted {
-  model::AppliedEffect effect;
-  int least_of_20;
-};
-
 TEST(HolesDiagnosis, ACauseAloneIsNamed) {
-  const std::vector<Planted> all = {
-      {{"chain_pitch_error", "left", {{"elongation", 0.0015}}}, 18},
-      {{"chain_pitch_error", "right", {{"elongation", 0.0015}}}, 18},
-      {{"chain_pitch_error", "both", {{"elongation", 0.002}}}, 18},
-      {{"tape_scale", "both", {{"scale", 0.002}}}, 18},
-      {{"ring_radius", "", {{"offset_mm", 10.0}}}, 0},
-      {{"chain_sag", "", {{"relative_weight", 0.5}}}, 0},
-      {{"side_pull", "", {{"force_n", 8.0}}}, 0},
-      {{"chain_stretch", "", {{"compliance_per_n", 2e-5}}}, 0},
-      {{"beam_flex", "", {{"flexibility_mm_per_n", 0.03}}}, 0},
-      {{"angular_kink", "left", {{"slope_mm_per_rad", 20.0}, {"knee_rad", 0.6}}}, 0},
+  // Each of a size that a workshop would know: seven units of noise and more.
+  const std::vector<model::AppliedEffect> all = {
+      {"chain_pitch_error", "left", {{"elongation", 0.0015}}},
+      {"chain_pitch_error", "right", {{"elongation", 0.0015}}},
+      {"chain_pitch_error", "both", {{"elongation", 0.002}}},
+      {"tape_scale", "both", {{"scale", 0.002}}},
+      {"ring_radius", "", {{"offset_mm", 10.0}}},
+      {"chain_sag", "", {{"relative_weight", 0.5}}},
+      {"side_pull", "", {{"force_n", 8.0}}},
+      {"chain_stretch", "", {{"compliance_per_n", 2e-5}}},
+      {"beam_flex", "", {{"flexibility_mm_per_n", 0.03}}},
+      {"angular_kink", "left", {{"slope_mm_per_rad", 20.0}, {"knee_rad", 0.6}}},
   };
-  for (const Planted& planted : all) {
+  for (const model::AppliedEffect& planted : all) {
     int right = 0;
     int in_set = 0;
     int wrong = 0;
-    const int sets = is_long() ? 100 : 20;
+    const int sets = is_long() ? 100 : 8;
     for (int seed = 1; seed <= sets; ++seed) {
-      const Diagnosis found = diagnosed(holes({planted.effect}, static_cast<std::uint64_t>(seed)));
+      const Diagnosis found = diagnosed(holes({planted}, static_cast<std::uint64_t>(seed)));
       if (!names_something(found)) continue;
       const auto is_it = [&](const Cause& cause) {
-        return speaks_of(cause, planted.effect.effect, planted.effect.side);
+        return speaks_of(cause, planted.effect, planted.side);
       };
       right += is_it(found.causes.front());
       const bool held = std::any_of(found.causes.begin(), found.causes.end(), is_it);
@@ -341,14 +337,14 @@ TEST(HolesDiagnosis, ACauseAloneIsNamed) {
       wrong += !held;
     }
     std::printf("%s %s: first %d, in the set %d, misnamed %d of %d\n",
-                planted.effect.effect.c_str(),
-                planted.effect.side.c_str(),
+                planted.effect.c_str(),
+                planted.side.c_str(),
                 right,
                 in_set,
                 wrong,
                 sets);
-    EXPECT_GE(20 * right, planted.least_of_20 * sets) << planted.effect.effect;
-    EXPECT_LE(wrong, most_of(sets, 0.05)) << planted.effect.effect;
+    EXPECT_GE(right, sets - most_of(sets, 0.1)) << planted.effect;
+    EXPECT_LE(wrong, most_of(sets, 0.05)) << planted.effect;
   }
 }
 

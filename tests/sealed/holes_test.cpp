@@ -81,7 +81,7 @@ grid::MeasuredHoles hidden_holes(const std::vector<Hidden>& effects, std::uint64
 
 grid::diagnosis::Diagnosis opened(const grid::MeasuredHoles& set) {
   grid::diagnosis::DiagnosisOptions options;
-  options.gain = options.next_measurements = false;
+  options.gain = options.next_measurements = options.stability = false;
   const auto found = grid::diagnosis::diagnose(set, options);
   EXPECT_TRUE(found) << found.error().sentence;
   return *found;

@@ -51,7 +51,8 @@ Chart probability_chart(const Diagnosis& found) {
 
 Chart gain_chart(const Diagnosis& found) {
   Chart chart{.specification = "gain_bars",
-              .title = "Error of the tool at points held out, rms",
+              .title = is_of_distances(found) ? "Error of distances held out, rms"
+                                              : "Error of the tool at points held out, rms",
               .caption = "The thin line on a bar is its 90 % interval. Held out: " +
                          found.gain->scheme + "."};
   DataTable table{"rows", {"what", "rms_mm", "low_mm", "high_mm", "most_mm", "color"}, {}};
