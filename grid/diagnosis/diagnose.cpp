@@ -84,6 +84,12 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredHoles& set,
   auto found = diagnose(make_session(set), options);
   if (!found) return found;
   found->grid_name = set.name;
+  if (set.machine->controller.kind == model::ControllerKind::ideal) {
+    found->notes.emplace_back(
+        "The controller is stated as ideal: it believes the machine that its file states. These "
+        "holes were cut believing the machine as it is stated now; fit them on that, and use the "
+        "extended machine for what is cut with it.");
+  }
   found->stated_tape = StatedTape{set.tape.sigma_mm, set.hole_sigma_mm, set.noise_dof};
   return found;
 }

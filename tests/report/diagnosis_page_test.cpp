@@ -125,18 +125,17 @@ TEST_F(DiagnosisPage, OfHolesDrawsDistances) {
   made->set.distances[3].distance_mm += 15.0;
   Diagnosis found = *grid::diagnosis::diagnose(made->set);
   found.grid_name = "nine holes";
-  found.next_measurements = {{.kind = grid::diagnosis::MeasurementKind::distance,
-                              .what = "a new hole at (0, -500), measured to A, C",
-                              .mark = model::BedPoint{0.0, -500.0},
-                              .sigma = 0.5,
-                              .raises_probability_to = 0.99,
-                              .to = {"A", "C"}},
-                             {.kind = grid::diagnosis::MeasurementKind::distance,
-                              .what = "the distance A-G",
-                              .sigma = 0.5,
-                              .raises_probability_to = 0.995,
-                              .from = "A",
-                              .to = {"G"}}};
+  grid::diagnosis::NextMeasurement hole;
+  hole.kind = grid::diagnosis::MeasurementKind::distance;
+  hole.what = "a new hole at (0, -500), measured to A, C";
+  hole.mark = model::BedPoint{0.0, -500.0};
+  hole.to = {"A", "C"};
+  grid::diagnosis::NextMeasurement pair;
+  pair.kind = grid::diagnosis::MeasurementKind::distance;
+  pair.what = "the distance A-G";
+  pair.from = "A";
+  pair.to = {"G"};
+  found.next_measurements = {hole, pair};
   ASSERT_EQ(found.bad_points.size(), 1u);
   const std::string html = page_of(found);
   for (const char* text : {"What it does to the distances",
