@@ -268,7 +268,9 @@ TEST_F(RealSets, WhatADiagnosisSaysOfEach) {
     // what the fit shows as a bend of the bed.
     EXPECT_TRUE(found->causes.empty()) << found->sentence;
     EXPECT_TRUE(found->bad_points.empty());
-    if (set.name == "a to d") EXPECT_EQ(found->verdict, diagnosis::Verdict::unknown_pattern);
+    if (set.name == "a to d") {
+      EXPECT_EQ(found->verdict, diagnosis::Verdict::unknown_pattern);
+    }
     fmt::print("{} ({} distances): {}\n", set.name, set.distances.size(), found->sentence);
     for (const auto& bad : found->bad_points)
       fmt::print("  bad: {} {:+.1f} mm\n", words_of(set, set.distances[bad.index]), bad.off_mm);
