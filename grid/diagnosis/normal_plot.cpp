@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "grid/diagnosis/leading.hpp"
 #include "grid/synthetic/random.hpp"
@@ -13,7 +12,8 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr int kDraws = 499;
-constexpr int kInside = 474;  // 95 % of them
+constexpr int kInside = 475;    // 95 % of them
+constexpr int kOutermost = 12;  // 2.5 % of them
 
 /// Rows of the space that are points' rows: readings of the machine are none of the plot's.
 Eigen::Index rows_of_points(const Session& session, const Space& space) {
@@ -56,19 +56,33 @@ std::vector<double> shape_of(Eigen::VectorXd values) {
   return {values.begin(), values.end()};
 }
 
-/// At each rank the draws' values, ascending.
-using Ranks = std::vector<std::vector<double>>;
+/// How far the draws go at one rank.
+struct Reach {
+  double mean = 0.0;
+  double below = 0.0;  ///< from the mean down to what 2.5 % are below
+  double above = 0.0;
+};
 
-/// How deep inside the draws a curve lies at its shallowest rank: 0 outside of all.
-int depth(const Ranks& ranks, const std::vector<double>& curve) {
-  auto least = static_cast<std::ptrdiff_t>(kDraws);
-  for (std::size_t i = 0; i < curve.size(); ++i) {
-    const std::vector<double>& at = ranks[i];
-    const auto below = std::lower_bound(at.begin(), at.end(), curve[i]) - at.begin();
-    const auto above = at.end() - std::upper_bound(at.begin(), at.end(), curve[i]);
-    least = std::min({least, below, above});
+Reach reach_at(const std::vector<std::vector<double>>& curves, std::size_t rank) {
+  std::vector<double> draws;
+  double sum = 0.0;
+  for (const auto& curve : curves) {
+    draws.push_back(curve[rank]);
+    sum += curve[rank];
   }
-  return static_cast<int>(least);
+  std::sort(draws.begin(), draws.end());
+  const double mean = sum / static_cast<double>(draws.size());
+  return {mean, mean - draws[kOutermost], draws[draws.size() - 1 - kOutermost] - mean};
+}
+
+/// Largest deviation of a curve over all ranks, in units of the reach there.
+double largest_deviation(const std::vector<Reach>& reaches, const std::vector<double>& curve) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const double off = curve[i] - reaches[i].mean;
+    largest = std::max(largest, off < 0.0 ? -off / reaches[i].below : off / reaches[i].above);
+  }
+  return largest;
 }
 
 }  // namespace
@@ -88,28 +102,21 @@ std::optional<NormalPlot> normal_plot(const Session& session,
   for (Eigen::Index draw = 0; draw < kDraws; ++draw) {
     curves.push_back(shape_of(noise.col(draw).head(rows)));
   }
-  Ranks ranks(plot.values.size());
-  for (std::size_t i = 0; i < ranks.size(); ++i) {
-    double sum = 0.0;
-    for (const auto& curve : curves) {
-      ranks[i].push_back(curve[i]);
-      sum += curve[i];
-    }
-    std::sort(ranks[i].begin(), ranks[i].end());
-    plot.expected.push_back(sum / kDraws);
-  }
-  std::vector<int> depths;
-  for (const auto& curve : curves) depths.push_back(depth(ranks, curve));
-  const int own = depth(ranks, plot.values);
-  // The data count as one draw; of draws as deep as the data half are counted.
-  double shallower = 0.0;
-  for (const int d : depths) shallower += d < own ? 1.0 : d == own ? 0.5 : 0.0;
-  plot.p_value = (shallower + 1.0) / (kDraws + 1.0);
-  std::sort(depths.begin(), depths.end(), std::greater<>());
-  const auto edge = static_cast<std::size_t>(depths[kInside - 1]);
-  for (const auto& at : ranks) {
-    plot.low.push_back(at[edge]);
-    plot.high.push_back(at[at.size() - 1 - edge]);
+  std::vector<Reach> reaches;
+  for (std::size_t i = 0; i < plot.values.size(); ++i) reaches.push_back(reach_at(curves, i));
+  std::vector<double> deviations;
+  for (const auto& curve : curves) deviations.push_back(largest_deviation(reaches, curve));
+  std::sort(deviations.begin(), deviations.end());
+  const double own = largest_deviation(reaches, plot.values);
+  const auto as_far =
+      deviations.end() - std::lower_bound(deviations.begin(), deviations.end(), own);
+  // The data count as one draw.
+  plot.p_value = (static_cast<double>(as_far) + 1.0) / (kDraws + 1.0);
+  const double band = deviations[kInside - 1];
+  for (const Reach& reach : reaches) {
+    plot.expected.push_back(reach.mean);
+    plot.low.push_back(reach.mean - band * reach.below);
+    plot.high.push_back(reach.mean + band * reach.above);
   }
   return plot;
 }

@@ -4,10 +4,10 @@
 /// normal noise that went through the same fit of settings and causes.
 ///
 /// Each set is divided by its own rms, so that the shape alone is judged; the size of the noise is
-/// the noise factor's business. The band is of all ranks together: it holds 95 of 100 draws whole
-/// (global envelope of extreme ranks, M. Myllymaki et al., J. R. Stat. Soc. B 79 (2017) 381,
-/// section 4), and the chance is the draws' share whose most extreme rank is as extreme as the
-/// data's.
+/// the noise factor's business. Deviations are measured, rank by rank and to either side, in units
+/// of what 2.5 % of the draws exceed there; the largest over all ranks decides. The band is that of
+/// the 95 % of draws with the smallest largest deviation (directional quantiles: M. Myllymaki et
+/// al., Spatial Statistics 11 (2015) 19, section 3).
 #pragma once
 
 #include <cstdint>
