@@ -20,20 +20,24 @@ constexpr double kSettled_mm = 1e-4;
 DiagnosisFailure unreachable(const Session& session, const model::VisitFailure& failure) {
   const SessionPoint& point = session.points[failure.index];
   return {DiagnosisFailure::Reason::point_unreachable,
-          fmt::format("point {} at ({:.1f}, {:.1f}) mm: {}",
-                      point.index + 1,
+          fmt::format("{} {} at ({:.1f}, {:.1f}) mm: {}",
+                      session.distances ? "hole" : "point",
+                      session.distances ? session.distances->set().holes[failure.index].name
+                                        : fmt::format("{}", point.index + 1),
                       point.mark.x_mm,
                       point.mark.y_mm,
                       model::explain(failure.reason))};
 }
 
-DiagnosisFailure impossible(const model::MachineProblem& problem) {
+DiagnosisFailure impossible(const Session& session, const model::MachineProblem& problem) {
   return {DiagnosisFailure::Reason::contradictory_settings,
-          fmt::format("no machine near the stated one fits these points: calibrating leads to {} = "
+          fmt::format("no machine near the stated one fits these {}: calibrating leads to {} = "
                       "{}. Check the feed, the attachment and the motors' positions, and that the "
-                      "lengths are those of this machine",
+                      "{} are those of this machine",
+                      session.distances ? "distances" : "points",
                       problem.parameter,
-                      problem.value)};
+                      problem.value,
+                      session.distances ? "distances" : "lengths")};
 }
 
 /// Settings moved to where the points put them, no effect at work.
@@ -41,18 +45,19 @@ tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const St
   State state = stated_state(session);
   Steps projected = steps;
   projected.project_settings = true;
-  const std::vector<bool> none(session.points.size(), false);
+  const std::vector<bool> none(session.units(), false);
   for (int pass = 0; pass < kCalibrations; ++pass) {
     auto rows = base_rows(session, state, steps);
     if (!rows) return tl::unexpected(unreachable(session, rows.error()));
     rows->g.resize(session.rows(), 0);
-    const auto bad = bad_point_sets(*rows, none, {{}}, session.noise_dof, projected).front();
+    const auto bad = bad_point_sets(session, *rows, none, {{}}, projected).front();
     const Space space = make_space(*rows, bad, projected);
     const Eigen::VectorXd change = estimate(session, *rows, space, {}, -1).setting_change;
     state = with_settings(session, state, rows->setting + change);
     const auto problems = model::problems_of(state.machine);
-    if (!problems.empty()) return tl::unexpected(impossible(problems.front()));
-    if (change.cwiseAbs().maxCoeff() < kSettled_mm) break;
+    if (!problems.empty()) return tl::unexpected(impossible(session, problems.front()));
+    const auto settings = static_cast<Eigen::Index>(session.settings.size());
+    if (change.head(settings).cwiseAbs().maxCoeff() < kSettled_mm) break;
   }
   return state;
 }
@@ -140,8 +145,8 @@ Judgement decide(const Session& session,
   const Space& space = contest.spaces[judged.space];
   const auto unexplained = [&](const std::vector<int>& directions) {
     const Estimate fitted = estimate(session, rows, space, directions, -1);
-    const double quadratic = Eigen::VectorXd(fitted.left(space.kept)).squaredNorm();
-    return quadratic - static_cast<double>(space.kept.size());
+    const Eigen::VectorXd left = left_of_machine(rows, fitted, fitted.left);
+    return square_in_noise(rows, space.kept, left) - static_cast<double>(space.kept.size());
   };
   const double before = unexplained({});
   const double after = unexplained(judged.directions);
@@ -155,7 +160,7 @@ void contest_and_judge(const Session& session,
                        const ContestOptions& options,
                        bool seen,
                        Analysis& a) {
-  const std::vector<bool> none(session.points.size(), false);
+  const std::vector<bool> none(session.units(), false);
   a.contest = hold_contest(session, a.rows, none, options);
   a.judgement = decide(session, a.rows, a.contest, none, seen);
   a.estimate = estimate(session,
@@ -169,7 +174,7 @@ void test_significance(const Session& session, const DiagnosisOptions& options, 
   const Space& space = a.contest.spaces[a.contest.best().space];
   const SingleScore score(a.rows, space, options.steps.anchor_noise ? session.noise_dof : 1e-3);
   // Enough draws for a family-wise 1 in 100; fewer where one draw is long.
-  const int draws = session.points.size() > 150 ? 2000 : 4000;
+  const int draws = session.units() > 150 ? 2000 : 4000;
   a.null = draw_null(score, space.e.size(), draws, options.seed);
   a.score = score.by_cause(space.e).maxCoeff();
   a.family_wise_p = a.null.p_value(a.score);
@@ -192,7 +197,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     if (!rows) return tl::unexpected(unreachable(session, rows.error()));
     a.rows = std::move(*rows);
     add_directions(session, a.state, a.candidates.testable, known, a.rows);
-    const std::vector<bool> none(session.points.size(), false);
+    const std::vector<bool> none(session.units(), false);
     const Space space = make_space(a.rows, none, options.steps);
     share_out_links(space, a.rows);
     if (pass == 0) drop_invisible(space, a);
@@ -207,7 +212,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
   }
   test_significance(session, options, a);
   if (a.family_wise_p >= kFalseAlarm && !options.told) {
-    const std::vector<bool> none(session.points.size(), false);
+    const std::vector<bool> none(session.units(), false);
     a.judgement = decide(session, a.rows, a.contest, none, false);
     a.estimate = estimate(session,
                           a.rows,

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "grid/diagnosis/contest.hpp"
 
@@ -59,38 +58,46 @@ Seen seen_by(const Seen& nothing,
   return seen;
 }
 
-/// Blocks of two rows in `space` that are one point, with the point's number.
+/// Blocks of rows in `space` that are one unit, with the unit's number.
 std::vector<std::pair<Eigen::Index, std::size_t>> blocks(const Rows& rows, const Space& space) {
   std::vector<std::pair<Eigen::Index, std::size_t>> result;
-  for (std::size_t a = 0; a + 1 < space.kept.size(); ++a) {
-    const auto point = static_cast<std::size_t>(space.kept[a] / 2);
-    if (space.kept[a] % 2 == 0 && point < rows.points.size()) {
-      result.emplace_back(static_cast<Eigen::Index>(a), point);
+  for (std::size_t a = 0; a < space.kept.size(); ++a) {
+    const auto unit = static_cast<std::size_t>(space.kept[a] / rows.unit_rows);
+    if (space.kept[a] % rows.unit_rows == 0 && unit < rows.units.size()) {
+      result.emplace_back(static_cast<Eigen::Index>(a), unit);
     }
   }
   return result;
 }
 
-/// Mean shifts one after the other; the best of the nested sets.
-Found search(
-    Seen seen, const Rows& rows, const Space& space, double log_prior_of_set, double noise_dof) {
+/// When to stop, and what a hypothesis weighs.
+struct Search {
+  double log_prior = 0.0;
+  double noise_dof = 0.0;
+  std::size_t fewest_units = 0;
+};
+
+/// Mean shifts one after the other; the best of the nested sets. kRows in a unit.
+template <int kRows>
+Found search(Seen seen, const Rows& rows, const Space& space, const Search& by) {
+  using Shift = Eigen::Matrix<double, kRows, 1>;
+  using Block = Eigen::Matrix<double, kRows, kRows>;
   auto free = blocks(rows, space);
   const auto count = static_cast<double>(free.size());
   const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostBadShare * count)));
   auto n = static_cast<Eigen::Index>(space.kept.size());
-  const double price = std::log(kBadPointPrior) -
-                       std::log(2.0 * std::numbers::pi * kBadPointSpread * kBadPointSpread);
+  const double price = log_price_of_bad(rows);
   Found best{space.bad,
-             NoiseDensity(noise_dof, n).log_density(seen.quadratic) - 0.5 * seen.log_det +
-                 log_prior_of_set};
+             NoiseDensity(by.noise_dof, n).log_density(seen.quadratic) - 0.5 * seen.log_det +
+                 by.log_prior};
   std::vector<bool> bad = space.bad;
-  for (std::size_t step = 1; step <= most && free.size() > kFewestPoints; ++step) {
+  for (std::size_t step = 1; step <= most && free.size() > by.fewest_units; ++step) {
     std::size_t worst = 0;
     double drop = -1.0;
     for (std::size_t k = 0; k < free.size(); ++k) {
       const Eigen::Index at = free[k].first;
-      const Eigen::Vector2d u = seen.u.segment<2>(at);
-      const Eigen::Matrix2d block = seen.precision.block<2, 2>(at, at);
+      const Shift u = seen.u.template segment<kRows>(at);
+      const Block block = seen.precision.template block<kRows, kRows>(at, at);
       const double d = u.dot(block.inverse() * u);
       if (d > drop) {
         drop = d;
@@ -98,18 +105,18 @@ Found search(
       }
     }
     const Eigen::Index at = free[worst].first;
-    const Eigen::Matrix2d block = seen.precision.block<2, 2>(at, at);
-    const Eigen::MatrixXd columns = seen.precision.middleCols<2>(at) * block.inverse();
-    const Eigen::Vector2d u = seen.u.segment<2>(at);
+    const Block block = seen.precision.template block<kRows, kRows>(at, at);
+    const Eigen::MatrixXd columns = seen.precision.template middleCols<kRows>(at) * block.inverse();
+    const Shift u = seen.u.template segment<kRows>(at);
     seen.quadratic -= drop;
     seen.log_det += std::log(block.determinant());
     seen.u -= columns * u;
-    seen.precision.noalias() -= columns * seen.precision.middleRows<2>(at).eval();
+    seen.precision.noalias() -= columns * seen.precision.template middleRows<kRows>(at).eval();
     bad[free[worst].second] = true;
     free.erase(free.begin() + static_cast<std::ptrdiff_t>(worst));
-    n -= 2;
-    const double weight = NoiseDensity(noise_dof, n).log_density(std::max(seen.quadratic, 0.0)) -
-                          0.5 * seen.log_det + log_prior_of_set + static_cast<double>(step) * price;
+    n -= kRows;
+    const double weight = NoiseDensity(by.noise_dof, n).log_density(std::max(seen.quadratic, 0.0)) -
+                          0.5 * seen.log_det + by.log_prior + static_cast<double>(step) * price;
     if (weight > best.log_weight) best = {bad, weight};
   }
   return best;
@@ -117,10 +124,10 @@ Found search(
 
 }  // namespace
 
-std::vector<std::vector<bool>> bad_point_sets(const Rows& rows,
+std::vector<std::vector<bool>> bad_point_sets(const Session& session,
+                                              const Rows& rows,
                                               const std::vector<bool>& excluded,
                                               const std::vector<std::vector<int>>& hypotheses,
-                                              double noise_dof,
                                               const Steps& steps) {
   if (!steps.robust) return {excluded};
   const Space space = make_space(rows, excluded, steps);
@@ -132,11 +139,10 @@ std::vector<std::vector<bool>> bad_point_sets(const Rows& rows,
   nothing.log_det = space.log_det;
   std::vector<Found> found;
   for (const auto& set : hypotheses) {
-    Found one = search(seen_by(nothing, space, rows, set),
-                       rows,
-                       space,
-                       log_prior(rows.directions, set, false),
-                       noise_dof);
+    const Search by{
+        log_prior(rows.directions, set, false), session.noise_dof, session.fewest_units()};
+    const auto look = rows.unit_rows == 2 ? search<2> : search<1>;
+    Found one = look(seen_by(nothing, space, rows, set), rows, space, by);
     const auto same =
         std::find_if(found.begin(), found.end(), [&](const Found& f) { return f.bad == one.bad; });
     if (same == found.end()) {

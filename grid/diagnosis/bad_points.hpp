@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Sets of points that some hypothesis would rather do without.
+/// Sets of units (points, or distances) that some hypothesis would rather do without.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// At most this share of the points is set aside, or three where there are few.
+/// At most this share of them is set aside, or three where there are few.
 inline constexpr double kMostBadShare = 0.12;
 
-/// Flags per point, the most probable set first; points that are excluded beforehand stay flagged
-/// in all of them. `hypotheses` are sets of directions.
+/// Flags per unit, the most probable set first; units that are excluded beforehand stay flagged in
+/// all of them. `hypotheses` are sets of directions.
 [[nodiscard]] std::vector<std::vector<bool>> bad_point_sets(
+    const Session& session,
     const Rows& rows,
     const std::vector<bool>& excluded,
     const std::vector<std::vector<int>>& hypotheses,
-    double noise_dof,
     const Steps& steps);
 
 }  // namespace chaintrue::grid::diagnosis

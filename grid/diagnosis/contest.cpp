@@ -130,13 +130,14 @@ std::vector<std::vector<bool>> sets_without_links(const Session& session,
   std::vector<std::vector<bool>> result;
   for (std::size_t i = 0; i < space.bad.size(); ++i) {
     if (!space.bad[i] || excluded[i]) continue;
-    const auto row = 2 * static_cast<Eigen::Index>(i);
+    const auto row = rows.unit_rows * static_cast<Eigen::Index>(i);
     bool links = false;
     for (std::size_t k = 0; k < rows.directions.size() && !links; ++k) {
       if (!rows.directions[k].fixed) continue;
-      const auto g = rows.g.col(static_cast<Eigen::Index>(k)).segment<2>(row);
-      links = g.squaredNorm() > 0.0 &&
-              (fitted.left.segment<2>(row) - g).squaredNorm() < kAlike * fitted.noise_square;
+      const auto g = rows.g.col(static_cast<Eigen::Index>(k)).segment(row, rows.unit_rows);
+      links =
+          g.squaredNorm() > 0.0 && (fitted.left.segment(row, rows.unit_rows) - g).squaredNorm() <
+                                       kAlike * fitted.noise_square;
     }
     if (!links) continue;
     std::vector<bool> without = space.bad;
@@ -187,11 +188,8 @@ Contest hold_contest(const Session& session,
     }
     finish(contest);
   };
-  hold_with(bad_point_sets(rows,
-                           excluded,
-                           first_hypotheses(session, rows, excluded, options),
-                           session.noise_dof,
-                           options.steps));
+  hold_with(bad_point_sets(
+      session, rows, excluded, first_hypotheses(session, rows, excluded, options), options.steps));
   const auto more = sets_without_links(session, rows, excluded, contest);
   if (!more.empty()) hold_with(more);
   return contest;

@@ -33,14 +33,20 @@ std::string_view name(Verdict verdict) {
   return "nothing_found";
 }
 
-tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
-                                                   const DiagnosisOptions& options) {
-  const auto session = make_session(grid);
+std::string_view name(Observations observations) {
+  return observations == Observations::points ? "points" : "distances";
+}
+
+namespace {
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(
+    const tl::expected<Session, DiagnosisFailure>& session, const DiagnosisOptions& options) {
   if (!session) return tl::unexpected(session.error());
   if (const auto slip = suspected_slip(*session)) return tl::unexpected(*slip);
   const auto analysis = analyse(*session, options);
   if (!analysis) return tl::unexpected(analysis.error());
   Diagnosis d;
+  d.observations = session->distances ? Observations::distances : Observations::points;
   d.seed = options.seed;
   d.verdict = analysis->judgement.verdict;
   d.noise_factor = std::sqrt(analysis->estimate.noise_square);
@@ -54,6 +60,8 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
   d.bad_points = bad_points_found(*session, *analysis);
   d.separations = separations(*analysis);
   d.points = pictures(*session, *analysis);
+  d.holes = hole_pictures(*session, *analysis);
+  d.distances = distance_pictures(*session, *analysis);
   d.left_over = left_over(*session, *analysis, options.seed);
   d.normal_plot = normal_plot(*session, *analysis, options.seed);
   if (options.gain) d.gain = measure_gain(*session, *analysis, options);
@@ -62,6 +70,28 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
   if (options.stability) d.stability = examine_stability(*session, *analysis, options);
   put_into_words(*session, d);
   return d;
+}
+
+}  // namespace
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
+                                                   const DiagnosisOptions& options) {
+  return diagnose(make_session(grid), options);
+}
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredHoles& set,
+                                                   const DiagnosisOptions& options) {
+  auto found = diagnose(make_session(set), options);
+  if (!found) return found;
+  found->grid_name = set.name;
+  if (set.machine->controller.kind == model::ControllerKind::ideal) {
+    found->notes.emplace_back(
+        "The controller is stated as ideal: it believes the machine that its file states. These "
+        "holes were cut believing the machine as it is stated now; fit them on that, and use the "
+        "extended machine for what is cut with it.");
+  }
+  found->stated_tape = StatedTape{set.tape.sigma_mm, set.hole_sigma_mm, set.noise_dof};
+  return found;
 }
 
 }  // namespace chaintrue::grid::diagnosis

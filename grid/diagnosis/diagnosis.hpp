@@ -8,6 +8,9 @@
 ///   delta  length of an effect's whitened signature after the settings have taken their share: its
 ///          strength in units of noise
 ///
+/// What was measured may be a grid, or holes with a tape's distances between them: the same answer
+/// of the same engine, whose points are then distances.
+///
 /// \code
 ///   const auto answer = diagnose(grid);
 ///   if (answer) fmt::print("{}\n", answer->sentence);
@@ -23,6 +26,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/holes/measured_holes.hpp"
 #include "grid/measured_grid.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/effect.hpp"
@@ -39,6 +43,10 @@ enum class Verdict {
   nothing_found,
 };
 [[nodiscard]] std::string_view name(Verdict verdict);
+
+/// What was read: chains at points, or a tape between holes.
+enum class Observations { points, distances };
+[[nodiscard]] std::string_view name(Observations observations);
 
 /// An effect of the catalogue at a side.
 struct CauseId {
@@ -92,10 +100,12 @@ struct LeftOver {
 };
 
 struct BadPoint {
-  std::size_t index = 0;  ///< into the grid's points
+  std::size_t index = 0;  ///< into the grid's points, or the holes' distances
   /// Where the tool would have to have been, less where the mark is.
   Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
   double distance = 0.0;  ///< in sigmas
+  /// Of a distance: read less what all the others make of it.
+  double off_mm = 0.0;
 };
 
 struct NotTestable {
@@ -154,17 +164,22 @@ struct Gain {
   int folds_agree = 0;
 };
 
-enum class MeasurementKind { point, revisit, reading };
+enum class MeasurementKind { point, revisit, reading, distance };
 
 struct NextMeasurement {
   MeasurementKind kind = MeasurementKind::point;
-  /// point and revisit: a sentence; reading: the word that `readings` use (motor_spacing_mm, ...).
+  /// point, revisit and distance: a sentence; reading: the word that `readings` use
+  /// (motor_spacing_mm, ...).
   std::string what;
   std::string side;                     ///< of a reading, where it has one
-  std::optional<model::BedPoint> mark;  ///< of a point or a revisit
+  std::optional<model::BedPoint> mark;  ///< of a point or a revisit, and of a hole to be cut
   double sigma = 0.0;                   ///< of a reading: how well it has to be read
   /// Probability that the right cause is then named alone, this and all above it done.
   double raises_probability_to = 0.0;
+  /// Of a distance: its ends, as in the holes' file. A hole to be cut has no name yet and is left
+  /// out; to several holes the distances are measured one by one.
+  std::string from{};
+  std::vector<std::string> to{};
 };
 
 /// A point of the grid in the pictures: shifts of the tool [mm], measured less predicted.
@@ -190,6 +205,38 @@ struct PointPicture {
   /// +1 where the chain was paid out to get here, -1 where it was taken in; 0 without an order.
   int direction_left = 0;
   int direction_right = 0;
+};
+
+/// A hole in the pictures, where the calibrated machine puts it.
+struct HolePicture {
+  std::string name;
+  model::BedPoint commanded;
+  model::BedPoint mark;
+};
+
+/// A distance in the pictures: residuals are read less predicted [mm], the holes where the machine
+/// puts them.
+struct DistancePicture {
+  std::size_t index = 0;  ///< into the set's distances
+  std::string from;       ///< a hole's name
+  std::string to;         ///< a hole's name, or an edge: left, right, top, bottom
+  bool bad = false;
+  double read_mm = 0.0;  ///< without the hook
+  double before_mm = 0.0;
+  double after_mm = 0.0;
+  double noise_sigma_mm = 0.0;  ///< of the tape and of the holes at its ends
+  double best_mm = 0.0;         ///< what the best cause explains, settings refitted
+  double rival_mm = 0.0;
+};
+
+/// "A-B", "A to the top edge".
+[[nodiscard]] std::string words_of_ends(const DistancePicture& distance);
+
+/// The noise of holes and a tape, as stated.
+struct StatedTape {
+  double tape_sigma_mm = 0.0;
+  double hole_sigma_mm = 0.0;
+  double dof = 0.0;
 };
 
 /// A line of the table of terms: every effect that these data can test.
@@ -283,9 +330,13 @@ struct Diagnosis {
   std::vector<Term> terms;
   std::vector<Separation> separations;  ///< of the leading causes and their nearest rivals
   std::vector<PointPicture> points;
+  Observations observations = Observations::points;
+  std::vector<HolePicture> holes;          ///< of distances
+  std::vector<DistancePicture> distances;  ///< in the order of the set
   std::uint64_t seed = 1;
   std::string grid_name;
   std::optional<StatedNoise> stated_noise;
+  std::optional<StatedTape> stated_tape;
   /// Empty where no cause is named or too few points would be left.
   std::optional<Stability> stability;
   std::optional<NormalPlot> normal_plot;
@@ -319,8 +370,8 @@ struct DiagnosisFailure {
   enum class Reason {
     no_machine,
     no_lengths,
-    too_few_points,
-    no_noise,  ///< neither stated nor in repeats
+    too_few_points,  ///< or distances
+    no_noise,        ///< neither stated nor in repeats
     point_unreachable,
     contradictory_settings,  ///< the machine and the grid's readings of it cannot both be
   } reason;
@@ -329,6 +380,10 @@ struct DiagnosisFailure {
 
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
     const MeasuredGrid& grid, const DiagnosisOptions& options = {});
+
+/// Distances between holes. An order of visits is unknown: `order_assumed` is not used.
+[[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
+    const MeasuredHoles& set, const DiagnosisOptions& options = {});
 
 [[nodiscard]] tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
                                                                 const Diagnosis& diagnosis,

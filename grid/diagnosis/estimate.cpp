@@ -120,13 +120,7 @@ Estimate estimate(const Session& session,
     result.pattern = shape;
     result.pattern_weights = noise.solve(kept);
     quadratic = kept.dot(result.pattern_weights);
-    for (std::size_t i = 0; i < session.points.size(); ++i) {
-      const auto row = 2 * static_cast<Eigen::Index>(i);
-      result.left_beside_pattern.segment<2>(row) -=
-          rows.points[i].whitening *
-          pattern_at(
-              session, rows, space, result, {session.points[i].mark, rows.points[i].by_mark});
-    }
+    result.left_beside_pattern -= pattern_in_rows(session, rows, space, result);
   }
   const Eigen::VectorXd off =
       (result.setting_change - rows.expected_change).cwiseQuotient(rows.sigma);
@@ -155,15 +149,42 @@ Eigen::Vector2d pattern_at(const Session& session,
                            const Estimate& estimate,
                            const PatternPlace& place) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
-  for (Eigen::Index a = 0; a + 1 < estimate.pattern_weights.size(); a += 2) {
+  const Eigen::Index size = rows.unit_rows;
+  for (Eigen::Index a = 0; a + size <= estimate.pattern_weights.size(); a += size) {
     const Eigen::Index row = space.kept[static_cast<std::size_t>(a)];
-    if (row >= session.point_rows()) break;
-    const auto i = static_cast<std::size_t>(row / 2);
-    mm += pattern_block(
-              estimate.pattern.shape, place, {session.points[i].mark, rows.points[i].by_mark}) *
-          rows.points[i].whitening.transpose() * estimate.pattern_weights.segment<2>(a);
+    if (row >= session.observed_rows()) break;
+    const auto weights = estimate.pattern_weights.segment(a, size);
+    for (const SeenPlace& seen : rows.units[static_cast<std::size_t>(row / size)]) {
+      mm += pattern_block(estimate.pattern.shape, place, pattern_place(session, rows, seen.place)) *
+            seen.by_chain.topRows(size).transpose() * weights;
+    }
   }
   return estimate.pattern.sigma_mm * estimate.pattern.sigma_mm * mm;
+}
+
+Eigen::VectorXd pattern_in_rows(const Session& session,
+                                const Rows& rows,
+                                const Space& space,
+                                const Estimate& estimate) {
+  std::vector<Eigen::Vector2d> chains;
+  for (std::size_t i = 0; i < rows.points.size(); ++i) {
+    chains.push_back(pattern_at(session, rows, space, estimate, pattern_place(session, rows, i)));
+  }
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(session.rows());
+  for (std::size_t u = 0; u < rows.units.size(); ++u) {
+    for (const SeenPlace& seen : rows.units[u]) {
+      all.segment(rows.unit_rows * static_cast<Eigen::Index>(u), rows.unit_rows) +=
+          (seen.by_chain * chains[seen.place]).head(rows.unit_rows);
+    }
+  }
+  return all;
+}
+
+Eigen::VectorXd left_of_machine(const Rows& rows,
+                                const Estimate& estimate,
+                                const Eigen::VectorXd& left) {
+  if (rows.nuisances == 0) return left;
+  return left + nuisance_columns(rows) * estimate.setting_change.tail(rows.nuisances);
 }
 
 std::vector<Eigen::Vector2d> chain_residuals(const Rows& rows, const Eigen::VectorXd& whitened) {
@@ -173,6 +194,26 @@ std::vector<Eigen::Vector2d> chain_residuals(const Rows& rows, const Eigen::Vect
                         whitened.segment<2>(2 * static_cast<Eigen::Index>(i)));
   }
   return result;
+}
+
+Eigen::Vector2d error_of_unit(const Rows& rows, const Eigen::VectorXd& whitened, std::size_t unit) {
+  const auto at = static_cast<Eigen::Index>(unit);
+  if (rows.unit_rows == 1) return {whitened(at) * rows.row_sigma_mm(at), 0.0};
+  const PointState& state = rows.points[unit];
+  const Eigen::Vector2d chain = state.whitening.inverse() * whitened.segment<2>(2 * at);
+  return tool_shift(state, chain);
+}
+
+double noise_of_unit_mm2(const Session& session, const Rows& rows, std::size_t unit) {
+  const auto at = static_cast<Eigen::Index>(unit);
+  if (rows.unit_rows == 1) {
+    const Eigen::RowVectorXd nuisance =
+        nuisance_columns(rows).row(at) * rows.sigma.tail(rows.nuisances).asDiagonal();
+    return std::pow(rows.row_sigma_mm(at), 2) * (1.0 + nuisance.squaredNorm());
+  }
+  const Eigen::Matrix2d inverse = rows.points[unit].by_mark.inverse();
+  return 2.0 * std::pow(session.noise.position_mm, 2) +
+         (inverse * inverse.transpose()).trace() * std::pow(session.noise.length_mm, 2);
 }
 
 Eigen::Vector2d tool_shift(const PointState& point, const Eigen::Vector2d& chain_mm) {

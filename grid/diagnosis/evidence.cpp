@@ -77,17 +77,21 @@ double NoiseDensity::noise_square(double quadratic) const {
   return sum;
 }
 
+double log_price_of_bad(const Rows& rows) {
+  return std::log(kBadPointPrior) -
+         0.5 * static_cast<double>(rows.unit_rows) *
+             std::log(2.0 * std::numbers::pi * kBadPointSpread * kBadPointSpread);
+}
+
 Space make_space(const Rows& rows, const std::vector<bool>& bad, const Steps& steps) {
   Space space;
   space.bad = bad;
   for (Eigen::Index row = 0; row < rows.e.size(); ++row) {
-    const auto point = static_cast<std::size_t>(row / 2);
-    if (point >= bad.size() || !bad[point]) space.kept.push_back(row);
+    const auto unit = static_cast<std::size_t>(row / rows.unit_rows);
+    if (unit >= bad.size() || !bad[unit]) space.kept.push_back(row);
   }
   const auto set_aside = static_cast<double>(std::count(bad.begin(), bad.end(), true));
-  space.log_bad =
-      set_aside * (std::log(kBadPointPrior) -
-                   std::log(2.0 * std::numbers::pi * kBadPointSpread * kBadPointSpread));
+  space.log_bad = set_aside * log_price_of_bad(rows);
   const Eigen::MatrixXd a = rows.by_setting(space.kept, Eigen::all);
   Eigen::MatrixXd v = Eigen::MatrixXd::Identity(a.rows(), a.rows());
   if (steps.project_settings) {
@@ -104,6 +108,30 @@ Space make_space(const Rows& rows, const std::vector<bool>& bad, const Steps& st
   space.g = rows.g(space.kept, Eigen::all);
   lower.solveInPlace(space.g);
   return space;
+}
+
+Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const Rows& rows,
+                                           const std::vector<Eigen::Index>& kept) {
+  if (rows.nuisances == 0) return {};
+  const Eigen::MatrixXd scaled =
+      nuisance_columns(rows)(kept, Eigen::all) * rows.sigma.tail(rows.nuisances).asDiagonal();
+  Eigen::MatrixXd covariance = scaled * scaled.transpose();
+  covariance.diagonal().array() += 1.0;
+  return Eigen::LLT<Eigen::MatrixXd>(covariance);
+}
+
+double square_in_noise(const Rows& rows,
+                       const std::vector<Eigen::Index>& kept,
+                       const Eigen::VectorXd& column) {
+  Eigen::VectorXd own = column(kept);
+  if (rows.nuisances > 0) nuisance_noise(rows, kept).matrixL().solveInPlace(own);
+  return own.squaredNorm();
+}
+
+double length_in_noise(const Rows& rows,
+                       const std::vector<Eigen::Index>& kept,
+                       const Eigen::VectorXd& column) {
+  return std::sqrt(square_in_noise(rows, kept, column));
 }
 
 Eigen::VectorXd reduced(const Space& space, const Eigen::VectorXd& column) {

@@ -22,6 +22,7 @@
 /// beside a process.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <span>
 #include <vector>
@@ -58,7 +59,7 @@ class NoiseDensity {
 
 /// The rows with the settings integrated out and some points set aside.
 struct Space {
-  std::vector<bool> bad;           ///< per point
+  std::vector<bool> bad;           ///< per unit
   std::vector<Eigen::Index> kept;  ///< rows
   Eigen::MatrixXd factor;          ///< lower L of V = L L'
   Eigen::VectorXd e;               ///< L^-1
@@ -68,7 +69,20 @@ struct Space {
   /// Per shape: trace of its covariance in this space, for a pattern of 1 mm.
   std::vector<double> pattern_trace;
 };
+/// Prior and density of one unit set aside.
+[[nodiscard]] double log_price_of_bad(const Rows& rows);
 [[nodiscard]] Space make_space(const Rows& rows, const std::vector<bool>& bad, const Steps& steps);
+/// Square root of the kept rows' covariance with the nuisances unknown but for their sigmas: the
+/// noise as a person sees it. Empty where there are none.
+[[nodiscard]] Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const Rows& rows,
+                                                         const std::vector<Eigen::Index>& kept);
+/// Square, and length, of a column's kept rows in units of that noise.
+[[nodiscard]] double square_in_noise(const Rows& rows,
+                                     const std::vector<Eigen::Index>& kept,
+                                     const Eigen::VectorXd& column);
+[[nodiscard]] double length_in_noise(const Rows& rows,
+                                     const std::vector<Eigen::Index>& kept,
+                                     const Eigen::VectorXd& column);
 /// L^-1 of a column of all rows.
 [[nodiscard]] Eigen::VectorXd reduced(const Space& space, const Eigen::VectorXd& column);
 

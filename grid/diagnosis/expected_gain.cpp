@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "model/effects/catalogue.hpp"
 
@@ -64,7 +65,40 @@ Space without_slips(const Session& session,
   return bad == space.bad ? space : make_space(rows, bad, steps);
 }
 
+namespace {
+
+/// Over the distances as they were read: what is between them has no place of its own.
+ExpectedGain gain_of_distances(const Session& session, const Analysis& a) {
+  const Space& space = a.contest.spaces[a.judgement.space];
+  const Estimate plain = estimate(session, a.rows, space, {}, -1);
+  const Estimate named = estimate(session, a.rows, space, a.judgement.directions, -1);
+  const Eigen::VectorXd moved =
+      left_of_machine(a.rows, plain, plain.left) - left_of_machine(a.rows, named, named.left);
+  const Eigen::Index settings = a.rows.by_setting.cols() - a.rows.nuisances;
+  const auto free = static_cast<Eigen::Index>(named.free.size());
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(moved.size(), named.covariance.rows());
+  design.leftCols(settings) = a.rows.by_setting.leftCols(settings);
+  for (Eigen::Index k = 0; k < free; ++k) {
+    design.col(a.rows.by_setting.cols() + k) =
+        a.rows.g.col(named.directions[named.free[static_cast<std::size_t>(k)]]);
+  }
+  double drop = 0.0;
+  double doubt = 0.0;
+  for (std::size_t i = 0; i < session.units(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const Eigen::RowVectorXd by_unknown = design.row(row);
+    drop += error_of_unit(a.rows, moved, i).squaredNorm();
+    doubt += std::pow(a.rows.row_sigma_mm(row), 2) *
+             by_unknown.dot(named.covariance * by_unknown.transpose());
+  }
+  const auto count = static_cast<double>(session.units());
+  return {drop / count, drop > 0.0 ? drop / (drop + doubt) : 0.0};
+}
+
+}  // namespace
+
 ExpectedGain expected_gain(const Session& session, const Analysis& a, const Steps& steps) {
+  if (session.distances) return gain_of_distances(session, a);
   const Session area = hangs_on_visits(a) ? session : over_the_area(session, a);
   const auto there = base_rows(area, a.state, steps);
   if (!there || area.points.empty()) return {};

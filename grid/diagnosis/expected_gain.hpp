@@ -16,8 +16,8 @@ struct ExpectedGain {
   double share = 0.0;
 };
 
-/// Over the measured area, places alike; at the points themselves where a cause depends on the
-/// visits.
+/// Over the measured area, places alike; of distances those that were read; at the points
+/// themselves where a cause depends on the visits.
 [[nodiscard]] ExpectedGain expected_gain(const Session& session,
                                          const Analysis& analysis,
                                          const Steps& steps);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/findings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,7 +21,7 @@ constexpr double kSettingOff = 3.0;    // sigmas: 1 in 370 for each setting
 
 /// Length of a column before the settings take their share.
 double raw_length(const Analysis& a, int column) {
-  return a.rows.g(space_of(a).kept, column).norm();
+  return length_in_noise(a.rows, space_of(a).kept, a.rows.g.col(column));
 }
 
 double circular(double difference, const EffectParameter& p) {
@@ -227,7 +229,9 @@ std::vector<Bound> bounds(const Session& session,
                                  std::abs(fitted.coefficient(at) - kQuantile95 * s));
     const double upper = std::abs(size_at(direction(a, column), most));
     if (upper >= std::max(std::abs(size.lower), std::abs(size.upper))) {
-      not_testable.push_back({cause, "any size that it may have could hide in these points"});
+      not_testable.push_back({cause,
+                              fmt::format("any size that it may have could hide in these {}",
+                                          session.distances ? "distances" : "points")});
     } else {
       result.push_back({cause, std::string(size.name), upper});
     }
@@ -239,6 +243,7 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
   std::vector<CalibratedSetting> result;
   for (std::size_t k = 0; k < session.settings.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
+    if (!session.knows(session.settings[k])) continue;
     CalibratedSetting one;
     one.setting = session.settings[k];
     one.stated = session.stated_value(at);
@@ -256,6 +261,7 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
 }
 
 std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a) {
+  if (session.distances) return bad_distances_found(session, a);
   const auto residuals = chain_residuals(a.rows, a.estimate.left_beside_pattern);
   std::vector<bool> bad = space_of(a).bad;
   // A link counted wrong is a bad point with a name.

@@ -23,6 +23,13 @@ namespace chaintrue::grid::diagnosis {
                                                             const Analysis& analysis);
 [[nodiscard]] std::vector<BadPoint> bad_points_found(const Session& session,
                                                      const Analysis& analysis);
+/// The same of distances; distance_findings.cpp.
+[[nodiscard]] std::vector<BadPoint> bad_distances_found(const Session& session,
+                                                        const Analysis& analysis);
+[[nodiscard]] std::vector<HolePicture> hole_pictures(const Session& session,
+                                                     const Analysis& analysis);
+[[nodiscard]] std::vector<DistancePicture> distance_pictures(const Session& session,
+                                                             const Analysis& analysis);
 [[nodiscard]] std::vector<Separation> separations(const Analysis& analysis);
 [[nodiscard]] std::vector<PointPicture> pictures(const Session& session, const Analysis& analysis);
 [[nodiscard]] LeftOver left_over(const Session& session,

@@ -40,7 +40,7 @@ class Folds {
       : session_(session), a_(analysis), options_(options) {}
 
   [[nodiscard]] Fold hold_out(const std::vector<std::size_t>& points) const {
-    std::vector<bool> excluded(session_.points.size(), false);
+    std::vector<bool> excluded(session_.units(), false);
     for (const std::size_t i : points) excluded[i] = true;
     const ContestOptions contest_options{options_.steps, true, options_.told};
     const Contest contest = hold_contest(session_, a_.rows, excluded, contest_options);
@@ -58,13 +58,13 @@ class Folds {
     for (const std::size_t index : judged.listed) fold.named.push_back(judged.classes[index]);
     const Space plain =
         without_slips(session_, a_.rows, space, a_.judgement.directions, options_.steps);
-    fold.errors.calibrated = errors(fit(plain, {}).left, fold.points);
+    fold.errors.calibrated = errors(fit(plain, {}), fold.points);
     fold.errors.surface_only = beside_pattern(contest, judged.space, {}, fold.points);
-    fold.errors.extended = errors(fit(space, judged.directions).left, fold.points);
+    fold.errors.extended = errors(fit(space, judged.directions), fold.points);
     fold.errors.extended_and_surface =
         beside_pattern(contest, judged.space, judged.directions, fold.points);
     const std::vector<int>& all = a_.judgement.directions;
-    fold.errors.held_fast = errors(fit(space, all).left, fold.points);
+    fold.errors.held_fast = errors(fit(space, all), fold.points);
     fold.errors.held_fast_and_surface = beside_pattern(contest, judged.space, all, fold.points);
     return fold;
   }
@@ -92,7 +92,7 @@ class Folds {
       const std::vector<int>& directions,
       const std::vector<std::size_t>& points) const {
     const int pattern = preferred_pattern(contest, space, directions);
-    return errors(fit(contest.spaces[space], directions, pattern).left_beside_pattern, points);
+    return errors(fit(contest.spaces[space], directions, pattern), points);
   }
 
   /// The pattern that the points prefer beside these causes; none where they would rather have
@@ -106,15 +106,12 @@ class Folds {
     return -1;
   }
 
-  [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Eigen::VectorXd& whitened,
+  /// What the model leaves, the pattern that it may have taken out.
+  [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Estimate& model,
                                                     const std::vector<std::size_t>& points) const {
+    const Eigen::VectorXd left = left_of_machine(a_.rows, model, model.left_beside_pattern);
     std::vector<Eigen::Vector2d> result;
-    for (const std::size_t i : points) {
-      const PointState& state = a_.rows.points[i];
-      const Eigen::Vector2d chain =
-          state.whitening.inverse() * whitened.segment<2>(2 * static_cast<Eigen::Index>(i));
-      result.push_back(tool_shift(state, chain));
-    }
+    for (const std::size_t i : points) result.push_back(error_of_unit(a_.rows, left, i));
     return result;
   }
 
@@ -133,6 +130,28 @@ std::vector<LengthPoint> as_length_points(const Session& session) {
   std::vector<LengthPoint> result;
   for (const SessionPoint& p : session.points) result.push_back({p.index, p.mark, p.lengths});
   return result;
+}
+
+/// Blocks of the bed; or each hole with all distances that end there.
+std::vector<std::vector<std::size_t>> held_out_blocks(const Session& session) {
+  if (!session.distances) return spatial_blocks(as_length_points(session));
+  const MeasuredHoles& set = session.distances->set();
+  std::vector<std::vector<std::size_t>> blocks(set.holes.size());
+  for (std::size_t k = 0; k < set.distances.size(); ++k) {
+    blocks[set.distances[k].from].push_back(k);
+    if (!set.distances[k].edge) blocks[set.distances[k].to].push_back(k);
+  }
+  std::erase_if(blocks, [](const auto& block) { return block.empty(); });
+  return blocks;
+}
+
+/// Three blocks, and twice the fewest points; of distances the fewest without any of the blocks.
+bool are_enough(const Session& session, const std::vector<std::vector<std::size_t>>& blocks) {
+  if (blocks.size() < 3) return false;
+  if (!session.distances) return session.points.size() >= 2 * kFewestPoints;
+  return std::all_of(blocks.begin(), blocks.end(), [&](const auto& block) {
+    return session.units() - block.size() >= kFewestDistances;
+  });
 }
 
 /// Points beyond kBorderShare of the measured half width or half height.
@@ -179,9 +198,7 @@ double noise_floor(const Session& session,
                    const std::vector<std::size_t>& points) {
   double sum = 0.0;
   for (const std::size_t i : points) {
-    const Eigen::Matrix2d inverse = a.rows.points[i].by_mark.inverse();
-    sum += 2.0 * std::pow(session.noise.position_mm, 2) +
-           (inverse * inverse.transpose()).trace() * std::pow(session.noise.length_mm, 2);
+    sum += noise_of_unit_mm2(session, a.rows, i);
   }
   return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(points.size()));
 }
@@ -197,25 +214,25 @@ Delivered delivered(const Session& session,
   Delivered result;
   const auto stated = base_rows(session, stated_state(session), {});
   if (!stated) return result;
-  const auto machine_settings = static_cast<Eigen::Index>(model::kMachineSettings.size());
-  const auto sheet = stated->setting.size() - machine_settings;
+  constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
+  const auto sheet = static_cast<Eigen::Index>(session.settings.size()) - kOfMachine;
   Eigen::VectorXd placed = stated->e;
-  if (sheet > 0) {
+  const Eigen::MatrixXd by_sheet = stated->by_setting.middleCols(kOfMachine, sheet);
+  const bool moves = sheet > 0 && (session.knows(model::Setting::sheet_x_mm) ||
+                                   session.knows(model::Setting::sheet_y_mm));
+  if (moves) {
     const auto& kept = a.contest.spaces[a.judgement.space].kept;
-    const Eigen::MatrixXd by_sheet = stated->by_setting.rightCols(sheet);
-    const Eigen::MatrixXd scaled =
-        by_sheet(kept, Eigen::all) * stated->sigma.tail(sheet).asDiagonal();
+    const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);
+    const Eigen::MatrixXd scaled = by_sheet(kept, Eigen::all) * sigma.asDiagonal();
     Eigen::MatrixXd normal = scaled.transpose() * scaled;
     normal.diagonal().array() += 1.0;
     const Eigen::VectorXd x =
         normal.llt().solve(scaled.transpose() * Eigen::VectorXd(stated->e(kept)));
-    placed -= by_sheet * stated->sigma.tail(sheet).cwiseProduct(x);
+    placed -= by_sheet * sigma.cwiseProduct(x);
   }
-  const auto chain = chain_residuals(*stated, stated->e);
-  const auto chain_placed = chain_residuals(*stated, placed);
   for (const std::size_t i : points) {
-    result.as_stated.push_back(tool_shift(stated->points[i], chain[i]));
-    if (sheet > 0) result.placed.push_back(tool_shift(stated->points[i], chain_placed[i]));
+    result.as_stated.push_back(error_of_unit(*stated, stated->e, i));
+    if (moves) result.placed.push_back(error_of_unit(*stated, placed, i));
   }
   return result;
 }
@@ -251,6 +268,17 @@ Extension extension_of(const Analysis& a, const Errors& errors) {
     return {&errors.held_fast, &errors.held_fast_and_surface, true, false};
   }
   return {&errors.calibrated, &errors.surface_only, false, true};
+}
+
+std::string scheme_of(const Session& session, std::size_t blocks, bool naming_repeated) {
+  return fmt::format(
+      "{}, each held out in turn, {}",
+      session.distances ? fmt::format("all the distances of each of {} holes", blocks)
+                        : fmt::format("{} blocks of the bed", blocks),
+      naming_repeated ? "the naming repeated without it"
+                      : fmt::format("the causes that all {} name fitted without it, since not "
+                                    "every block left out leaves the same name",
+                                    session.distances ? "distances" : "points"));
 }
 
 }  // namespace
@@ -297,8 +325,8 @@ HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
 std::optional<Gain> measure_gain(const Session& session,
                                  const Analysis& a,
                                  const DiagnosisOptions& options) {
-  const auto blocks = spatial_blocks(as_length_points(session));
-  if (blocks.size() < 3 || session.points.size() < 2 * kFewestPoints) return std::nullopt;
+  const auto blocks = held_out_blocks(session);
+  if (!are_enough(session, blocks)) return std::nullopt;
   const Folds folds(session, a, options);
   Gain gain;
   std::vector<std::size_t> points;
@@ -319,12 +347,7 @@ std::optional<Gain> measure_gain(const Session& session,
   gain.calibrated = summarise(all.calibrated, number, options.seed);
   gain.surface_only = summarise(all.surface_only, number, options.seed);
   const Extension extension = extension_of(a, all);
-  gain.scheme = fmt::format("{} blocks of the bed, each held out in turn, {}",
-                            blocks.size(),
-                            extension.naming_repeated
-                                ? "the naming repeated without it"
-                                : "the causes that all points name fitted without it, since not "
-                                  "every block left out leaves the same name");
+  gain.scheme = scheme_of(session, blocks.size(), extension.naming_repeated);
   gain.extended = summarise(*extension.machine, number, options.seed);
   gain.extended_and_surface = summarise(*extension.and_surface, number, options.seed);
   gain.noise_floor_mm = noise_floor(session, a, points);
@@ -333,6 +356,8 @@ std::optional<Gain> measure_gain(const Session& session,
     gain.drop_mm2 = expected.drop_mm2;
     gain.drop_share = expected.share;
   }
+  // Nearly all distances reach the border.
+  if (session.distances) return gain;
   const auto edge = border(session);
   if (session.points.size() - edge.size() >= kFewestPoints) {
     const Errors outer = folds.hold_out(edge).errors;

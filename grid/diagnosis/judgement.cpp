@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/judgement.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -278,18 +279,36 @@ class Judge {
   Judgement result_;
 };
 
+/// An orthonormal basis of what the settings can do. Distances hardly feel some of them, and what
+/// no setting does within reason does not count.
+Eigen::MatrixXd range_of_settings(const Rows& rows, const Eigen::MatrixXd& columns) {
+  constexpr double kFelt = 1e-4;
+  if (rows.nuisances == 0) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+    return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns *
+                                                 rows.sigma.head(columns.cols()).asDiagonal());
+  qr.setThreshold(kFelt);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+}
+
 }  // namespace
 
 std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
   // Free settings: what a class shares must not hang on how well the settings were stated.
-  const Eigen::MatrixXd settings = rows.by_setting(space.kept, Eigen::all);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(settings);
+  const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(rows, space.kept);
+  const auto seen = [&](Eigen::MatrixXd columns) {
+    if (rows.nuisances > 0) noise.matrixL().solveInPlace(columns);
+    return columns;
+  };
+  const Eigen::Index settings = rows.by_setting.cols() - rows.nuisances;
   const Eigen::MatrixXd basis =
-      qr.householderQ() * Eigen::MatrixXd::Identity(settings.rows(), settings.cols());
+      range_of_settings(rows, seen(rows.by_setting.leftCols(settings)(space.kept, Eigen::all)));
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
   for (const auto& [cause, column] : leading_directions(rows, space)) {
-    Representative own{rows.g(space.kept, column),
+    Representative own{seen(rows.g(space.kept, column)),
                        space.g.col(column),
                        rows.directions[static_cast<std::size_t>(column)].fixed};
     const double whole = own.free.norm();

@@ -45,6 +45,25 @@ bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
   return x == y;
 }
 
+Shown shown(const Analysis& a) {
+  Shown result{a.judgement.directions, {}};
+  if (result.best.empty() && !a.judgement.marginal.empty()) {
+    result.best = {
+        best_direction(a, a.judgement.classes[a.judgement.marginal.front().index].front())};
+  }
+  for (const ClassProbability& one : a.judgement.marginal) {
+    const int column = best_direction(a, a.judgement.classes[one.index].front());
+    const bool new_one = std::none_of(result.best.begin(), result.best.end(), [&](int k) {
+      return same_class(a, direction(a, k).cause, direction(a, column).cause);
+    });
+    if (column >= 0 && new_one) {
+      result.rival = {column};
+      break;
+    }
+  }
+  return result;
+}
+
 Estimate estimate_with(const Session& session, const Analysis& a, std::vector<int> directions) {
   std::sort(directions.begin(), directions.end());
   return estimate(session,

@@ -22,6 +22,14 @@ namespace chaintrue::grid::diagnosis {
 /// Whether no points tell the two apart.
 [[nodiscard]] bool same_class(const Analysis& analysis, const CauseId& x, const CauseId& y);
 
+/// What is named, or else leads, and the first that is no part of it: for pictures beside each
+/// other.
+struct Shown {
+  std::vector<int> best;
+  std::vector<int> rival;
+};
+[[nodiscard]] Shown shown(const Analysis& analysis);
+
 /// Estimate with these columns, beside the pattern where the judgement holds one.
 [[nodiscard]] Estimate estimate_with(const Session& session,
                                      const Analysis& analysis,

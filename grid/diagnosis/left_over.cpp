@@ -24,9 +24,15 @@ double p_of_structure(const Session& session,
                       const std::vector<Eigen::Index>& kept,
                       const Eigen::VectorXd& left,
                       std::uint64_t seed) {
-  const Eigen::VectorXd e = left(kept);
-  const Eigen::MatrixXd k =
-      pattern_covariance(session, rows, kept, {PatternKind::chains, kSmooth_mm});
+  Eigen::VectorXd e = left(kept);
+  Eigen::MatrixXd k = pattern_covariance(session, rows, kept, {PatternKind::chains, kSmooth_mm});
+  if (rows.nuisances > 0) {
+    const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(rows, kept);
+    noise.matrixL().solveInPlace(e);
+    noise.matrixL().solveInPlace(k);
+    k.transposeInPlace();
+    noise.matrixL().solveInPlace(k);
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(k, Eigen::EigenvaluesOnly);
   const Eigen::ArrayXd values = eigen.eigenvalues().array();
   const double seen = e.dot(k * e) / std::max(e.squaredNorm(), 1e-300);
@@ -108,14 +114,16 @@ double share_along(const Session& session,
 LeftOver left_over(const Session& session, const Analysis& a, std::uint64_t seed) {
   const Space& space = a.contest.spaces[a.judgement.space];
   LeftOver result;
-  result.p_value = p_of_structure(session, a.rows, space.kept, a.estimate.left, seed);
+  const Eigen::VectorXd left = left_of_machine(a.rows, a.estimate, a.estimate.left);
+  result.p_value = p_of_structure(session, a.rows, space.kept, left, seed);
   if (a.judgement.best_pattern >= 0) {
     const Estimate beside =
         estimate(session, a.rows, space, a.judgement.directions, a.judgement.best_pattern);
     const Eigen::VectorXd pattern = beside.left - beside.left_beside_pattern;
-    result.delta = pattern(space.kept).norm() / std::sqrt(beside.noise_square);
+    result.delta = length_in_noise(a.rows, space.kept, pattern) / std::sqrt(beside.noise_square);
   }
-  if (result.p_value >= kFalseAlarm) return result;
+  // A distance has no place to follow, and a few holes draw no curve.
+  if (result.p_value >= kFalseAlarm || session.distances) return result;
   const auto chain = chain_residuals(a.rows, a.estimate.left);
   for (const Coordinate& coordinate : kCoordinates) {
     if (coordinate.name == std::string_view("order") && !session.ordered) continue;

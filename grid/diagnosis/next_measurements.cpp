@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/next_measurements.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
+#include "grid/diagnosis/next_candidates.hpp"
 #include "grid/diagnosis/normal.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -17,36 +16,8 @@ namespace {
 
 constexpr std::size_t kMostAlternatives = 6;
 constexpr double kLeastProbability = 0.01;
-constexpr int kColumns = 20;
-constexpr int kRows = 12;
 constexpr double kEnough = 0.97;
 constexpr double kPays = 0.002;  // a measurement that helps less is not worth the way
-
-/// One candidate: some rows of the candidate session.
-struct Candidate {
-  NextMeasurement measurement;
-  std::vector<Eigen::Index> rows;
-  int times = 1;  ///< it may be chosen
-};
-
-/// Readings of the machine, with the sigma that care with usual tools reaches.
-struct MachineReading {
-  const char* what;
-  const char* side;
-  double sigma;
-};
-constexpr double kLinkPitchSigmaMm = 0.001;     // 100 links to 0.1 mm
-constexpr double kTapeErrorSigmaMmPerM = 0.15;  // two metres to 0.3 mm, a good tape's tolerance
-constexpr MachineReading kReadings[] = {
-    {"motor_spacing_mm", "", 1.0},
-    {"beam_rise_mm", "", 1.0},
-    {"ring_radius_mm", "", 0.5},
-    {"link_pitch_mm", "left", kLinkPitchSigmaMm},
-    {"link_pitch_mm", "right", kLinkPitchSigmaMm},
-    {"chain_mass_kg_per_m", "", 0.002},
-    {"tape_error_mm_per_m", "x", kTapeErrorSigmaMmPerM},
-    {"tape_error_mm_per_m", "y", kTapeErrorSigmaMmPerM},
-};
 
 struct Alternative {
   std::vector<int> directions;
@@ -117,89 +88,6 @@ void add_link_reading(const Session& session,
   list.push_back(std::move(reading));
 }
 
-/// A session of everything that might be measured, as one more visit each.
-class CandidateSession {
- public:
-  CandidateSession(const Session& session, const Analysis& a) : session_(session) {
-    session_.points.clear();
-    session_.readings.clear();
-    const model::ReadingModel model(a.state.machine);
-    int last = 0;
-    for (const SessionPoint& p : session.points) last = std::max(last, p.order);
-    add_points(session, a, model, last + 1);
-    add_revisits(session, last + 1);
-    session_.ordered = false;  // each is a next visit; only their order among them is arbitrary
-    add_readings(session);
-  }
-
-  [[nodiscard]] const Session& session() const { return session_; }
-  [[nodiscard]] std::vector<Candidate>& all() { return candidates_; }
-
- private:
-  void add(model::BedPoint mark, int order, MeasurementKind kind, std::string what) {
-    const auto row = 2 * static_cast<Eigen::Index>(session_.points.size());
-    session_.points.push_back({0, mark, {}, order});
-    candidates_.push_back({{kind, std::move(what), "", mark, 0.0}, {row, row + 1}, 2});
-  }
-
-  /// Over the bed, as far as the sheet was measured and a little beyond.
-  void add_points(const Session& session,
-                  const Analysis& a,
-                  const model::ReadingModel& model,
-                  int order) {
-    double x = 0.0;
-    double y = 0.0;
-    for (const SessionPoint& p : session.points) {
-      x = std::max(x, std::abs(p.mark.x_mm));
-      y = std::max(y, std::abs(p.mark.y_mm));
-    }
-    x = std::min(1.1 * x, 0.49 * session.stated.bed.width_mm);
-    y = std::min(1.1 * y, 0.49 * session.stated.bed.height_mm);
-    for (int j = 0; j < kRows; ++j) {
-      for (int i = 0; i < kColumns; ++i) {
-        // Whole millimetres: the list is for a person with a tape.
-        const model::BedPoint mark{std::round(x * (2.0 * i / (kColumns - 1) - 1.0)),
-                                   std::round(y * (2.0 * j / (kRows - 1) - 1.0))};
-        if (model.at(a.state.sheet.to_bed(mark))) {
-          add(mark, order, MeasurementKind::point, "a new point");
-        }
-      }
-    }
-  }
-
-  void add_revisits(const Session& session, int order) {
-    if (!session.ordered) return;
-    const SessionPoint& first = session.points.front();
-    add(first.mark,
-        order,
-        MeasurementKind::revisit,
-        fmt::format("point {}, the first of the session, once more", first.index + 1));
-    const SessionPoint& middle = session.points[session.points.size() / 2];
-    add(middle.mark,
-        order,
-        MeasurementKind::revisit,
-        fmt::format("point {} once more, coming from the other side", middle.index + 1));
-  }
-
-  void add_readings(const Session& session) {
-    Eigen::Index row = session_.point_rows();
-    for (const MachineReading& r : kReadings) {
-      const bool done =
-          std::any_of(session.readings.begin(), session.readings.end(), [&](const ExtraReading& x) {
-            return x.what == r.what && x.side == r.side;
-          });
-      const bool ring = std::holds_alternative<model::Ring>(session.stated.attachment);
-      if (done || (std::string_view(r.what) == "ring_radius_mm" && !ring)) continue;
-      session_.readings.push_back({r.what, r.side, 0.0, r.sigma});
-      candidates_.push_back(
-          {{MeasurementKind::reading, r.what, r.side, std::nullopt, r.sigma}, {row++}, 1});
-    }
-  }
-
-  Session session_;
-  std::vector<Candidate> candidates_;
-};
-
 /// What a hypothesis expects of every candidate.
 void predict(const Session& session,
              const Analysis& a,
@@ -208,11 +96,13 @@ void predict(const Session& session,
              Alternative& h) {
   const Space& space = a.contest.spaces[a.judgement.space];
   const Estimate fitted = estimate(session, a.rows, space, h.directions, -1);
-  h.mean = rows.by_setting * fitted.setting_change;
+  // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
+  const Eigen::Index to_come = rows.by_setting.cols() - settings;
+  h.mean = rows.by_setting.leftCols(settings) * fitted.setting_change;
   const auto free = static_cast<Eigen::Index>(fitted.free.size());
   Eigen::MatrixXd design(rows.by_setting.rows(), settings + free);
-  design.leftCols(settings) = rows.by_setting;
+  design.leftCols(settings) = rows.by_setting.leftCols(settings);
   Eigen::Index column = settings;
   for (std::size_t k = 0; k < fitted.directions.size(); ++k) {
     const Direction& d = a.rows.directions[static_cast<std::size_t>(fitted.directions[k])];
@@ -225,7 +115,10 @@ void predict(const Session& session,
     }
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(fitted.covariance);
-  h.spread = design * Eigen::MatrixXd(llt.matrixL());
+  h.spread.resize(design.rows(), design.cols() + to_come);
+  h.spread.leftCols(design.cols()) = design * Eigen::MatrixXd(llt.matrixL());
+  h.spread.rightCols(to_come) =
+      rows.by_setting.rightCols(to_come) * rows.sigma.tail(to_come).asDiagonal();
 }
 
 /// D over these rows, for two alternatives.
@@ -278,11 +171,12 @@ std::vector<NextMeasurement> next_measurements(const Session& session, const Ana
   if (a.judgement.listed.empty()) return {};
   std::vector<NextMeasurement> result;
   std::vector<Alternative> alternatives = leading(a);
-  CandidateSession next(session, a);
-  const auto rows = base_rows(next.session(), a.state, {});
+  NextCandidates next =
+      session.distances ? candidates_between_holes(session, a) : candidates_at_points(session, a);
+  const auto rows = base_rows(next.session, a.state, {});
   if (!rows) return {};
-  for (Alternative& h : alternatives) predict(session, a, next.session(), *rows, h);
-  std::vector<Candidate>& options = next.all();
+  for (Alternative& h : alternatives) predict(session, a, next.session, *rows, h);
+  std::vector<Candidate>& options = next.all;
   std::vector<Eigen::Index> chosen;
   Outlook now = outlook(alternatives, chosen);
   double reached = a.judgement.verdict == Verdict::named ? kEnough : now.named_alone;

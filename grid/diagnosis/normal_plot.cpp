@@ -17,7 +17,7 @@ constexpr int kOutermost = 12;  // 2.5 % of them
 
 /// Rows of the space that are points' rows: readings of the machine are none of the plot's.
 Eigen::Index rows_of_points(const Session& session, const Space& space) {
-  const auto end = std::lower_bound(space.kept.begin(), space.kept.end(), session.point_rows());
+  const auto end = std::lower_bound(space.kept.begin(), space.kept.end(), session.observed_rows());
   return static_cast<Eigen::Index>(end - space.kept.begin());
 }
 
@@ -90,6 +90,8 @@ double largest_deviation(const std::vector<Reach>& reaches, const std::vector<do
 std::optional<NormalPlot> normal_plot(const Session& session,
                                       const Analysis& a,
                                       std::uint64_t seed) {
+  // Of distances the holes' own errors hide what is normal and what is not.
+  if (session.distances) return std::nullopt;
   const Space& space = space_of(a);
   const Eigen::Index rows = rows_of_points(session, space);
   if (rows < 2 * static_cast<Eigen::Index>(kFewestPoints)) return std::nullopt;

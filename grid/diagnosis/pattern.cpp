@@ -33,31 +33,50 @@ Eigen::Matrix2d pattern_block(const PatternShape& shape,
   return 0.5 * (bell(dx) + bell(dy)) * a.by_mark * b.by_mark.transpose();
 }
 
+Eigen::Matrix2d pattern_between(const Session& session,
+                                const Rows& rows,
+                                const PatternShape& shape,
+                                const Unit& a,
+                                const Unit& b) {
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (const SeenPlace& i : a) {
+    for (const SeenPlace& j : b) {
+      sum +=
+          i.by_chain *
+          pattern_block(
+              shape, pattern_place(session, rows, i.place), pattern_place(session, rows, j.place)) *
+          j.by_chain.transpose();
+    }
+  }
+  return sum;
+}
+
+PatternPlace pattern_place(const Session& session, const Rows& rows, std::size_t i) {
+  return {session.points[i].mark, rows.points[i].by_mark};
+}
+
 Eigen::MatrixXd pattern_covariance(const Session& session,
                                    const Rows& rows,
                                    const std::vector<Eigen::Index>& kept,
                                    const PatternShape& shape) {
-  // Rows stand in pairs, one a point; readings of the machine come after them.
-  std::vector<std::size_t> points;
+  // Rows stand in units, first of all; readings of the machine come after them.
+  const Eigen::Index size = rows.unit_rows;
+  std::vector<std::size_t> units;
   for (const Eigen::Index row : kept) {
-    if (row < session.point_rows() && row % 2 == 0) {
-      points.push_back(static_cast<std::size_t>(row / 2));
+    if (row < session.observed_rows() && row % size == 0) {
+      units.push_back(static_cast<std::size_t>(row / size));
     }
   }
   const auto n = static_cast<Eigen::Index>(kept.size());
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
-  for (std::size_t a = 0; a < points.size(); ++a) {
-    const PointState& i = rows.points[points[a]];
-    const PatternPlace at{session.points[points[a]].mark, i.by_mark};
+  for (std::size_t a = 0; a < units.size(); ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
-      const PointState& j = rows.points[points[b]];
-      const PatternPlace there{session.points[points[b]].mark, j.by_mark};
       const Eigen::Matrix2d block =
-          i.whitening * pattern_block(shape, at, there) * j.whitening.transpose();
-      const auto row = 2 * static_cast<Eigen::Index>(a);
-      const auto column = 2 * static_cast<Eigen::Index>(b);
-      c.block<2, 2>(row, column) = block;
-      c.block<2, 2>(column, row) = block.transpose();
+          pattern_between(session, rows, shape, rows.units[units[a]], rows.units[units[b]]);
+      const auto row = size * static_cast<Eigen::Index>(a);
+      const auto column = size * static_cast<Eigen::Index>(b);
+      c.block(row, column, size, size) = block.topLeftCorner(size, size);
+      c.block(column, row, size, size) = block.transpose().topLeftCorner(size, size);
     }
   }
   return c;

@@ -9,31 +9,18 @@
 namespace chaintrue::grid::diagnosis {
 
 std::vector<PointPicture> pictures(const Session& session, const Analysis& a) {
+  if (session.distances) return {};
   const Space& space = space_of(a);
   const Estimate before = estimate(session, a.rows, space, {}, -1);
   const auto chain_before = chain_residuals(a.rows, before.left);
   const auto chain_after = chain_residuals(a.rows, a.estimate.left);
-  std::vector<int> best = a.judgement.directions;
-  std::vector<int> rival;
-  if (best.empty() && !a.judgement.marginal.empty()) {
-    best = {best_direction(a, a.judgement.classes[a.judgement.marginal.front().index].front())};
-  }
-  for (const ClassProbability& one : a.judgement.marginal) {
-    const int column = best_direction(a, a.judgement.classes[one.index].front());
-    const bool new_one = std::none_of(best.begin(), best.end(), [&](int k) {
-      return same_class(a, direction(a, k).cause, direction(a, column).cause);
-    });
-    if (column >= 0 && new_one) {
-      rival = {column};
-      break;
-    }
-  }
   const auto explained = [&](const std::vector<int>& set) {
     const Estimate fitted = estimate(session, a.rows, space, set, -1);
     return chain_residuals(a.rows, Eigen::VectorXd(before.left - fitted.left));
   };
-  const auto by_best = explained(best);
-  const auto by_rival = explained(rival);
+  const Shown sets = shown(a);
+  const auto by_best = explained(sets.best);
+  const auto by_rival = explained(sets.rival);
   std::vector<PointPicture> result;
   for (std::size_t i = 0; i < session.points.size(); ++i) {
     const PointState& state = a.rows.points[i];

@@ -180,7 +180,9 @@ Polished polish(const Session& session,
     Space there = make_space(*about, space.bad, steps);
     there.pattern_trace = space.pattern_trace;  // the pattern stays as strong as it was found
     const Round here(session, result.state, *about, std::move(there), leaders.pattern);
-    bool settled = here.estimate().setting_change.cwiseAbs().maxCoeff() < kSettled_mm;
+    const auto settings = static_cast<Eigen::Index>(session.settings.size());
+    bool settled =
+        here.estimate().setting_change.head(settings).cwiseAbs().maxCoeff() < kSettled_mm;
     std::vector<Direction> moved = own;
     for (std::size_t k = 0; k < own.size(); ++k) {
       if (own[k].fixed) continue;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "grid/diagnosis/leading.hpp"
@@ -170,8 +169,7 @@ Metric Reweighing::metric_without(const Lens& lens, const std::vector<Eigen::Ind
 }
 
 Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) const {
-  const double price = std::log(kBadPointPrior) -
-                       std::log(2.0 * std::numbers::pi * kBadPointSpread * kBadPointSpread);
+  const double price = log_price_of_bad(a_.rows);
   Without result;
   Contest& contest = result.contest;
   std::set<std::tuple<std::size_t, int, std::vector<int>>> known;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "grid/diagnosis/observed/observed.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -17,7 +18,6 @@ using model::effects::Effect;
 using model::effects::EffectParameter;
 using model::effects::EffectSide;
 using model::effects::ParameterRole;
-using model::effects::Station;
 
 constexpr int kPlaces = 24;    // of a knee or a phase: neighbours stay alike to 0.99
 constexpr int kMostLinks = 3;  // more than that is seen with the bare eye
@@ -29,74 +29,25 @@ model::Machine with_effect(model::Machine machine,
   return machine;
 }
 
-std::vector<model::Visit> visits_of(const Session& session,
-                                    const State& state,
-                                    const model::Machine& machine) {
-  const model::Paper paper(machine);
-  std::vector<model::Visit> visits;
-  for (std::size_t i = 0; i < session.points.size(); ++i) {
-    visits.push_back({state.sheet.to_bed(paper.place(session.points[i].mark)),
-                      session.ordered ? session.points[i].order : static_cast<int>(i)});
-  }
-  return visits;
-}
-
-/// Readings of the whole session: points, then the machine's own.
+/// Readings of the whole session: what was observed, then the machine's own.
 std::optional<Eigen::VectorXd> predicted(const Session& session,
                                          const State& state,
                                          const model::Machine& machine) {
-  const auto lengths =
-      model::readings(model::ReadingModel(machine), visits_of(session, state, machine));
-  if (!lengths) return std::nullopt;
+  const auto observed = observed_of(session).predicted(session, state, machine);
+  if (!observed) return std::nullopt;
   Eigen::VectorXd all(session.rows());
-  for (std::size_t i = 0; i < lengths->size(); ++i) {
-    const auto row = 2 * static_cast<Eigen::Index>(i);
-    all(row) = (*lengths)[i].left_mm;
-    all(row + 1) = (*lengths)[i].right_mm;
-  }
+  all.head(observed->size()) = *observed;
   for (std::size_t k = 0; k < session.readings.size(); ++k) {
-    all(session.point_rows() + static_cast<Eigen::Index>(k)) =
+    all(session.observed_rows() + static_cast<Eigen::Index>(k)) =
         predicted_reading(machine, session.readings[k]);
   }
   return all;
 }
 
-Eigen::VectorXd whitened(const Session& session, const Rows& rows, const Eigen::VectorXd& mm) {
-  Eigen::VectorXd result(mm.size());
-  for (std::size_t i = 0; i < rows.points.size(); ++i) {
-    const auto row = 2 * static_cast<Eigen::Index>(i);
-    result.segment<2>(row) = rows.points[i].whitening * mm.segment<2>(row);
-  }
+Eigen::VectorXd whitened(const Session& session, const Rows& rows, Eigen::VectorXd mm) {
+  observed_of(session).whiten(rows, mm);
   for (std::size_t k = 0; k < session.readings.size(); ++k) {
-    const Eigen::Index row = session.point_rows() + static_cast<Eigen::Index>(k);
-    result(row) = mm(row) / session.readings[k].sigma;
-  }
-  return result;
-}
-
-/// What an effect that is added to a chain, or to what is written down, adds: the poses stay.
-Eigen::VectorXd added(const Session& session,
-                      const State& state,
-                      const Rows& rows,
-                      CauseId cause,
-                      const std::vector<double>& values) {
-  const model::Sprocket& sprocket = state.machine.sprocket;
-  Eigen::VectorXd mm = Eigen::VectorXd::Zero(session.rows());
-  for (std::size_t i = 0; i < rows.points.size(); ++i) {
-    const model::Pose& pose = rows.points[i].reading.pose;
-    for (const model::Side side : model::kSides) {
-      if (!model::effects::acts_on(cause.side, side)) continue;
-      const bool left = side == model::Side::left;
-      const Eigen::Index row = 2 * static_cast<Eigen::Index>(i) + (left ? 0 : 1);
-      if (cause.effect->misread != nullptr) {
-        mm(row) = cause.effect->misread({session.points[i].order, sprocket.pitch_mm}, values);
-      } else {
-        const double length = left ? pose.lengths.left_mm : pose.lengths.right_mm;
-        mm(row) = cause.effect
-                      ->add({pose.chains[side], length, sprocket.teeth * sprocket.pitch_mm}, values)
-                      .length_mm;
-      }
-    }
+    mm(session.observed_rows() + static_cast<Eigen::Index>(k)) /= session.readings[k].sigma;
   }
   return mm;
 }
@@ -273,9 +224,9 @@ Candidates candidates(const Session& session) {
       model::Machine machine =
           with_effect(session.stated, cause, model::effects::nominal_values(*effect));
       const auto problems = model::effects::problems_of_effects(machine);
-      if (effect->needs == model::effects::DataNeed::order && !session.ordered) {
-        result.not_testable.push_back(
-            {cause, "the order in which the points were visited is not known"});
+      const std::string reason = observed_of(session).untestable(session, cause);
+      if (!reason.empty()) {
+        result.not_testable.push_back({cause, reason});
       } else if (!problems.empty()) {
         result.not_testable.push_back({cause, problems.front().expected});
       } else {
@@ -286,70 +237,53 @@ Candidates candidates(const Session& session) {
   return result;
 }
 
-tl::expected<Rows, model::VisitFailure> base_rows(const Session& session,
-                                                  const State& state,
-                                                  const Steps& steps) {
-  const model::ReadingModel model(state.machine);
-  const model::Paper paper(state.machine);
-  Rows rows;
-  rows.setting = setting_values(session, state);
-  rows.expected_change = session.stated_value - rows.setting;
-  rows.sigma = session.stated_sigma;
-  rows.by_setting = Eigen::MatrixXd::Zero(session.rows(), rows.setting.size());
-  const auto all = predicted(session, state, state.machine);
-  Eigen::Matrix2d summed = Eigen::Matrix2d::Zero();
-  for (std::size_t i = 0; i < session.points.size(); ++i) {
-    const SessionPoint& point = session.points[i];
-    const model::BedPoint place = paper.place(point.mark);
-    const auto reading = model.at(state.sheet.to_bed(place));
-    if (!reading || !all) {
-      return tl::unexpected(
-          model::VisitFailure{i, reading ? model::PoseFailure::not_converged : reading.error()});
-    }
-    PointState seen{*reading, {}, reading->position_jacobian * state.sheet.rotation(), {}};
-    const auto row = 2 * static_cast<Eigen::Index>(i);
-    seen.residual_mm =
-        Eigen::Vector2d(point.lengths.left_mm, point.lengths.right_mm) - all->segment<2>(row);
-    const Eigen::Matrix2d covariance =
-        std::pow(session.noise.length_mm, 2) * Eigen::Matrix2d::Identity() +
-        std::pow(session.noise.position_mm, 2) * seen.by_mark * seen.by_mark.transpose();
-    summed += covariance;
-    seen.whitening = Eigen::Matrix2d(covariance.llt().matrixL()).inverse();
-    const Eigen::Matrix<double, 2, 3> by_sheet =
-        reading->position_jacobian * state.sheet.sensitivity(place);
-    for (Eigen::Index k = 0; k < rows.setting.size(); ++k) {
-      const auto machine_settings = static_cast<Eigen::Index>(model::kMachineSettings.size());
-      rows.by_setting.block<2, 1>(row, k) =
-          k < machine_settings
-              ? model.sensitivity(*reading, session.settings[static_cast<std::size_t>(k)])
-              : Eigen::Vector2d(by_sheet.col(k - machine_settings));
-    }
-    rows.points.push_back(std::move(seen));
-  }
-  if (!steps.whiten) {
-    const double mean = 0.5 * summed.trace() / static_cast<double>(session.points.size());
-    for (PointState& point : rows.points) {
-      point.whitening = Eigen::Matrix2d::Identity() / std::sqrt(mean);
-    }
-  }
-  Eigen::VectorXd measured(session.rows());
-  for (std::size_t i = 0; i < session.points.size(); ++i) {
-    const auto row = 2 * static_cast<Eigen::Index>(i);
-    measured(row) = session.points[i].lengths.left_mm;
-    measured(row + 1) = session.points[i].lengths.right_mm;
-  }
+namespace {
+
+/// How the machine's own readings move with the settings, in mm.
+void add_readings(const Session& session,
+                  const State& state,
+                  const Eigen::VectorXd& predicted_mm,
+                  Rows& rows) {
   for (std::size_t k = 0; k < session.readings.size(); ++k) {
-    const Eigen::Index row = session.point_rows() + static_cast<Eigen::Index>(k);
-    measured(row) = session.readings[k].value;
+    const Eigen::Index row = session.observed_rows() + static_cast<Eigen::Index>(k);
     for (Eigen::Index s = 0; s < rows.setting.size(); ++s) {
       Eigen::VectorXd moved = rows.setting;
       moved(s) += 1.0;  // these readings are linear in the settings
       rows.by_setting(row, s) =
           predicted_reading(with_settings(session, state, moved).machine, session.readings[k]) -
-          (*all)(row);
+          predicted_mm(row);
     }
   }
-  rows.e = whitened(session, rows, measured - *all);
+}
+
+Eigen::VectorXd measured(const Session& session) {
+  Eigen::VectorXd all(session.rows());
+  all.head(session.observed_rows()) = observed_of(session).measured(session);
+  for (std::size_t k = 0; k < session.readings.size(); ++k) {
+    all(session.observed_rows() + static_cast<Eigen::Index>(k)) = session.readings[k].value;
+  }
+  return all;
+}
+
+}  // namespace
+
+tl::expected<Rows, model::VisitFailure> base_rows(const Session& session,
+                                                  const State& state,
+                                                  const Steps& steps) {
+  Rows rows;
+  rows.setting = setting_values(session, state);
+  rows.expected_change = session.stated_value - rows.setting;
+  rows.sigma = session.stated_sigma;
+  rows.unit_rows = session.unit_rows();
+  rows.nuisances = session.nuisances();
+  rows.by_setting = Eigen::MatrixXd::Zero(session.rows(), rows.setting.size());
+  if (auto done = observed_of(session).linearise(session, state, steps, rows); !done) {
+    return tl::unexpected(done.error());
+  }
+  const auto all = predicted(session, state, state.machine);
+  if (!all) return tl::unexpected(model::VisitFailure{0, model::PoseFailure::not_converged});
+  add_readings(session, state, *all, rows);
+  rows.e = whitened(session, rows, measured(session) - *all);
   for (Eigen::Index k = 0; k < rows.setting.size(); ++k) {
     rows.by_setting.col(k) = whitened(session, rows, rows.by_setting.col(k));
   }
@@ -362,7 +296,7 @@ std::optional<Eigen::VectorXd> signature(const Session& session,
                                          CauseId cause,
                                          const std::vector<double>& values) {
   if (cause.effect->add != nullptr || cause.effect->misread != nullptr) {
-    return whitened(session, rows, added(session, state, rows, cause, values));
+    return added(session, state, rows, cause, values);
   }
   const model::Machine machine = with_effect(state.machine, cause, values);
   if (!model::effects::problems_of_effects(machine).empty()) return std::nullopt;

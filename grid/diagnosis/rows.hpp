@@ -4,6 +4,9 @@
 /// settings move them, and a direction for every effect of the catalogue at every place where it
 /// may set in.
 ///
+/// Of holes (observed/observed.hpp) the rows are distances, with W_i = 1 / tape's sigma, and A has
+/// a column more for each nuisance.
+///
 /// Notation
 ///   r_i  readings of a point less what the state predicts [mm], two chains
 ///   C_i  J S_xy J' + diag(s_L^2), J = d(L, R)/d(mark): its covariance from position and length
@@ -45,13 +48,20 @@ struct Direction {
   double log_prior = 0.0;
 };
 
-/// One point as the state sees it.
+/// One point, or hole, as the state sees it.
 struct PointState {
   model::PointReading reading;
-  Eigen::Vector2d residual_mm;
   Eigen::Matrix2d by_mark;    ///< J
-  Eigen::Matrix2d whitening;  ///< W
+  Eigen::Matrix2d whitening;  ///< W, of a point
 };
+
+/// A unit's whitened rows by what is added to the left and the right chain at one place; a unit of
+/// one row leaves the second line empty.
+struct SeenPlace {
+  std::size_t place = 0;
+  Eigen::Matrix2d by_chain = Eigen::Matrix2d::Zero();
+};
+using Unit = std::vector<SeenPlace>;
 
 struct Rows {
   Eigen::VectorXd e;
@@ -59,8 +69,12 @@ struct Rows {
   Eigen::MatrixXd g;           ///< a column a direction
   std::vector<Direction> directions;
   std::vector<PointState> points;
+  std::vector<Unit> units;
+  Eigen::Index unit_rows = 2;
+  Eigen::VectorXd row_sigma_mm;     ///< of distances: of the tape
   Eigen::VectorXd setting;          ///< value in the state
   Eigen::VectorXd expected_change;  ///< stated less that
+  Eigen::Index nuisances = 0;       ///< the last of these columns
   Eigen::VectorXd sigma;            ///< as stated
 };
 
@@ -78,7 +92,7 @@ struct Refinement {
   double log_prior = 0.0;
 };
 
-/// Rows without directions. Fails where a point cannot be reached.
+/// Rows without directions. Fails where a point, or a hole, cannot be reached.
 [[nodiscard]] tl::expected<Rows, model::VisitFailure> base_rows(const Session& session,
                                                                 const State& state,
                                                                 const Steps& steps);
@@ -89,6 +103,11 @@ void add_directions(const Session& session,
                     const std::vector<CauseId>& causes,
                     const std::vector<Refinement>& refinements,
                     Rows& rows);
+
+/// What stands in the nuisances' columns; nothing for points.
+[[nodiscard]] inline auto nuisance_columns(const Rows& rows) {
+  return rows.by_setting.rightCols(rows.nuisances);
+}
 
 /// Directions anew about another state, at their values. False where such a machine cannot be.
 [[nodiscard]] bool renew_directions(const Session& session,

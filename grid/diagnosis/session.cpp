@@ -244,12 +244,16 @@ Session with_points(const Session& session, std::vector<SessionPoint> points) {
   return other;
 }
 
+std::size_t Session::fewest_units() const {
+  return distances ? kFewestGoodDistances : kFewestPoints;
+}
+
 State stated_state(const Session& session) { return {session.stated, {}}; }
 
 Eigen::VectorXd setting_values(const Session& session, const State& state) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(session.settings.size()));
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(session.stated_value.size());
   const Eigen::Vector3d sheet(state.sheet.x_mm, state.sheet.y_mm, state.sheet.rotation_rad);
-  for (Eigen::Index k = 0; k < values.size(); ++k) {
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(session.settings.size()); ++k) {
     const auto machine_settings = static_cast<Eigen::Index>(model::kMachineSettings.size());
     values(k) =
         k < machine_settings
@@ -265,7 +269,7 @@ State with_settings(const Session& session, State state, const Eigen::VectorXd& 
     state.machine = model::with_setting(
         std::move(state.machine), session.settings[static_cast<std::size_t>(k)], values(k));
   }
-  if (values.size() > machine_settings) {
+  if (static_cast<Eigen::Index>(session.settings.size()) > machine_settings) {
     state.sheet = {
         values(machine_settings), values(machine_settings + 1), values(machine_settings + 2)};
   }

@@ -68,9 +68,27 @@ std::optional<double> misfit_mm(const Session& session, Read read) {
   return std::sqrt(sum / static_cast<double>(session.points.size()));
 }
 
+/// Distances that are all longer, or all shorter, by the same.
+std::optional<DiagnosisFailure> suspected_hook(const MeasuredHoles& set) {
+  const auto hook_mm = suspected_hook_offset_mm(set);
+  if (!hook_mm) return std::nullopt;
+  return DiagnosisFailure{
+      DiagnosisFailure::Reason::contradictory_settings,
+      fmt::format(
+          "all distances are about {:.0f} mm {} than commanded, long ones and short ones "
+          "alike: it looks as if the tape's hook offset, stated as {:g} mm, is {:.0f} mm. "
+          "State it (\"tape\": {{\"hook_offset_mm\": {:.0f}}}) before causes are looked for",
+          std::abs(*hook_mm),
+          *hook_mm > 0.0 ? "longer" : "shorter",
+          set.tape.hook_offset_mm,
+          set.tape.hook_offset_mm + *hook_mm,
+          set.tape.hook_offset_mm + *hook_mm)};
+}
+
 }  // namespace
 
 std::optional<DiagnosisFailure> suspected_slip(const Session& session) {
+  if (session.distances) return suspected_hook(session.distances->set());
   const auto plain = misfit_mm(session, [](SessionPoint p) { return p; });
   if (plain && *plain < kFarOff_mm) return std::nullopt;
   for (const Slip& slip : kSlips) {

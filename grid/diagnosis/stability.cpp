@@ -131,7 +131,8 @@ bool still_named(const Judgement& all, const Judgement& without) {
 std::optional<Stability> examine_stability(const Session& session,
                                            const Analysis& a,
                                            const DiagnosisOptions& options) {
-  if (a.judgement.listed.empty()) return std::nullopt;
+  // So few distances that the gain's folds, hole by hole, tell the same.
+  if (a.judgement.listed.empty() || session.distances) return std::nullopt;
   const std::vector<LeftOut> groups = groups_to_leave_out(session);
   if (groups.empty()) return std::nullopt;
   const Reweighing reweighing(session, a, options);

@@ -9,6 +9,7 @@
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
+#include "grid/holes/measured_holes.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -59,14 +60,16 @@ std::string gain_words(const Diagnosis& d) {
   if (!d.gain) return "";
   if (d.gain->extended.rms_mm >= d.gain->calibrated.rms_mm) {
     return fmt::format(
-        " Held out, naming it does not make the tool truer ({:.2f} mm with and without; noise "
+        " Held out, naming it does not make {} truer ({:.2f} mm with and without; noise "
         "alone "
         "makes {:.2f} mm): the machine is not extended.",
+        d.observations == Observations::points ? "the tool" : "distances",
         d.gain->calibrated.rms_mm,
         d.gain->noise_floor_mm);
   }
   return fmt::format(
-      " Held out, the tool's error falls from {:.2f} to {:.2f} mm; noise alone makes {:.2f} mm.",
+      " Held out, the {} error falls from {:.2f} to {:.2f} mm; noise alone makes {:.2f} mm.",
+      d.observations == Observations::points ? "tool's" : "distances'",
       d.gain->calibrated.rms_mm,
       d.gain->extended.rms_mm,
       d.gain->noise_floor_mm);
@@ -78,13 +81,32 @@ std::string assumed_words(const Diagnosis& d) {
   return assumed ? " This rests on an assumed visiting order." : "";
 }
 
+/// A bad distance by its ends and by how much it is off.
+std::string distance_words(const Diagnosis& d, const BadPoint& bad) {
+  return fmt::format("{} (read {:.1f} mm too {})",
+                     words_of_ends(d.distances.at(bad.index)),
+                     std::abs(bad.off_mm),
+                     bad.off_mm > 0.0 ? "long" : "short");
+}
+
+/// The bad ones by number, or by their ends.
+std::vector<std::string> bad_ones(const Diagnosis& d) {
+  std::vector<std::string> result;
+  for (const BadPoint& b : d.bad_points) {
+    result.push_back(d.observations == Observations::distances ? distance_words(d, b)
+                                                               : fmt::format("{}", b.index + 1));
+  }
+  return result;
+}
+
 std::string named_words(const Diagnosis& d) {
   const Cause& cause = d.causes.front();
   std::string text = fmt::format("Most likely {}: probability {}.",
                                  sized(cause.cause, cause.parameters),
                                  percent(cause.probability));
   for (const SameCause& other : cause.same_as) {
-    text += fmt::format(" These points cannot tell it from this: {}.",
+    text += fmt::format(" These {} cannot tell it from this: {}.",
+                        name(d.observations),
                         sized(other.cause, other.parameters));
   }
   return text + assumed_words(d) + gain_words(d);
@@ -95,8 +117,9 @@ std::string set_words(const Diagnosis& d) {
   for (const Cause& c : d.causes) {
     parts.push_back(fmt::format("{}, {}", sized(c.cause, c.parameters), percent(c.probability)));
   }
-  return fmt::format("One of {} causes, which these points do not tell apart: {}.",
+  return fmt::format("One of {} causes, which these {} do not tell apart: {}.",
                      d.causes.size(),
+                     name(d.observations),
                      joined(parts, "or")) +
          assumed_words(d) + gain_words(d);
 }
@@ -112,8 +135,12 @@ std::string several_words(const Diagnosis& d) {
 
 std::string unknown_words(const Diagnosis& d) {
   std::string text =
-      "The points show a pattern that repeats over the bed and that no cause in the catalogue "
-      "explains";
+      d.observations == Observations::points
+          ? "The points show a pattern that repeats over the bed and that no cause in the "
+            "catalogue "
+            "explains"
+          : "The holes lie beside where their chain lengths put them, neighbours alike and farther "
+            "than noise takes them, and no cause in the catalogue explains it";
   if (!d.left_over.follows.empty()) {
     text += fmt::format("; it follows {} best ({:.0f} % of it)",
                         coordinate_words(d.left_over.follows),
@@ -123,20 +150,22 @@ std::string unknown_words(const Diagnosis& d) {
 }
 
 std::string bad_words(const Diagnosis& d) {
-  std::vector<std::string> numbers;
-  for (const BadPoint& b : d.bad_points) numbers.push_back(fmt::format("{}", b.index + 1));
-  return fmt::format(
-      "Nothing is wrong but {} of the points: number {}. Without {} the machine fits.",
-      numbers.size(),
-      joined(numbers, "and"),
-      numbers.size() == 1 ? "it" : "them");
+  const std::vector<std::string> bad = bad_ones(d);
+  return fmt::format("Nothing is wrong but {} of the {}: {}{}. Without {} the machine fits.",
+                     bad.size(),
+                     name(d.observations),
+                     d.observations == Observations::points ? "number " : "",
+                     joined(bad, "and"),
+                     bad.size() == 1 ? "it" : "them");
 }
 
 std::string nothing_words(const Session& session, const Diagnosis& d) {
   std::string text = fmt::format(
-      "Nothing is found beyond the settings: what is left at the {} points is as large as the "
+      "Nothing is found beyond the settings: what is left {} the {} {} is as large as the "
       "stated noise.",
-      session.points.size());
+      session.distances ? "of" : "at",
+      session.units(),
+      name(d.observations));
   if (d.family_wise_p < 0.05) {
     text += fmt::format(
         " The strongest effect would look as strong by chance in {:.0f} of 100 "
@@ -158,9 +187,11 @@ std::string sentence(const Session& session, const Diagnosis& d) {
       return unknown_words(d);
     case Verdict::noise_larger_than_stated:
       return fmt::format(
-          "The points scatter {:.1f} times as much as was stated, and without a pattern: look at "
-          "the tape, at the marking and at play in the sled.",
-          d.noise_factor);
+          "The {} scatter {:.1f} times as much as was stated, and without a pattern: look at "
+          "the tape, at the {} and at play in the sled.",
+          name(d.observations),
+          d.noise_factor,
+          session.distances ? "drill" : "marking");
     case Verdict::bad_points:
       return bad_words(d);
     case Verdict::nothing_found:
@@ -192,7 +223,7 @@ void say_what_to_do(Diagnosis& d) {
     const NextMeasurement& first = d.next_measurements.front();
     const std::string what =
         first.kind == MeasurementKind::reading ? reading_words(first.what, first.side)
-        : first.kind == MeasurementKind::revisit
+        : first.kind != MeasurementKind::point
             ? first.what
             : fmt::format("a new point at ({:.0f}, {:.0f}) mm", first.mark->x_mm, first.mark->y_mm);
     d.what_to_do.push_back(
@@ -204,16 +235,18 @@ void say_what_to_do(Diagnosis& d) {
                     100.0 * d.next_measurements.back().raises_probability_to));
   }
   if (!d.bad_points.empty() && d.what_to_do.size() < 3) {
-    std::vector<std::string> numbers;
-    for (const BadPoint& b : d.bad_points) numbers.push_back(fmt::format("{}", b.index + 1));
-    d.what_to_do.push_back(fmt::format("Measure point {} again.", joined(numbers, "and")));
+    d.what_to_do.push_back(
+        fmt::format("Measure {}{} again.",
+                    d.observations == Observations::points ? "point " : "the distance ",
+                    joined(bad_ones(d), "and")));
   }
   for (const CalibratedSetting& s : d.settings) {
     if (!s.off || d.what_to_do.size() >= 3) continue;
-    d.what_to_do.push_back(fmt::format("Check {}: {:.2f} is stated, {:.2f} fits the points.",
+    d.what_to_do.push_back(fmt::format("Check {}: {:.2f} is stated, {:.2f} fits the {}.",
                                        model::name(s.setting),
                                        s.stated,
-                                       s.calibrated));
+                                       s.calibrated,
+                                       name(d.observations)));
   }
   if (d.what_to_do.empty() && d.verdict == Verdict::unknown_pattern) {
     d.what_to_do.emplace_back(
@@ -221,8 +254,9 @@ void say_what_to_do(Diagnosis& d) {
         "it.");
   }
   if (d.what_to_do.empty()) {
-    d.what_to_do.emplace_back(
-        "Type in the calibrated settings; more is not to be had from these points.");
+    d.what_to_do.push_back(
+        fmt::format("Type in the calibrated settings; more is not to be had from these {}.",
+                    name(d.observations)));
   }
 }
 
@@ -230,7 +264,8 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
   std::string text;
   if (!d.causes.empty()) {
     const Cause& lead = d.causes.front();
-    text = "Points show what fits, not what is: look at the part before changing it.";
+    text = fmt::format("{} show what fits, not what is: look at the part before changing it.",
+                       d.observations == Observations::points ? "Points" : "Distances");
     if (lead.rival) {
       text += fmt::format(
           " A cause outside the catalogue that looks alike would carry the same "
@@ -248,7 +283,11 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
         "not have shown.";
   }
   text += rests_on(d);
-  if (!session.ordered) {
+  if (session.distances) {
+    text +=
+        " Distances do not know in which order the holes were cut, nor where the machine stands as "
+        "a whole: drift, skipped teeth and play cannot be seen, nor how high the motors are.";
+  } else if (!session.ordered) {
     text += " The order of the visits is not known: drift, skipped teeth and play cannot be seen.";
   }
   return text;

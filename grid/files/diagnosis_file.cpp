@@ -15,6 +15,8 @@ namespace {
 
 using diagnosis::BadPoint;
 using diagnosis::Diagnosis;
+using diagnosis::Observations;
+using diagnosis::StatedTape;
 using diagnosis::Verdict;
 
 constexpr Range kPositive{"", 0.0, 1e12};
@@ -42,18 +44,34 @@ const Record<StatedNoise>& noise_record() {
   return record;
 }
 
-/// Where a bad point's tool would have to have been.
+const Record<StatedTape>& tape_record() {
+  static const auto record =
+      Record<StatedTape>("the noise of holes and a tape as stated")
+          .required("tape_sigma_mm", &StatedTape::tape_sigma_mm, number(kPositive))
+          .required("hole_sigma_mm", &StatedTape::hole_sigma_mm, number(kPositive))
+          .required("dof", &StatedTape::dof, number(kPositive));
+  return record;
+}
+
+/// Where a bad point's tool would have to have been; or by how much a bad distance is off.
 struct Shift {
-  double x_mm = 0.0;
-  double y_mm = 0.0;
+  std::optional<double> x_mm;
+  std::optional<double> y_mm;
+  std::optional<double> off_mm;
   double sigmas = 0.0;
 };
 
 const Record<Shift>& shift_record() {
   static const auto record = Record<Shift>("a bad point's shift")
-                                 .required("x_mm", &Shift::x_mm, number(kMm))
-                                 .required("y_mm", &Shift::y_mm, number(kMm))
-                                 .required("sigmas", &Shift::sigmas, number(kPositive));
+                                 .optional("x_mm", &Shift::x_mm, number(kMm))
+                                 .optional("y_mm", &Shift::y_mm, number(kMm))
+                                 .optional("off_mm", &Shift::off_mm, number(kMm))
+                                 .required("sigmas", &Shift::sigmas, number(kPositive))
+                                 .check([](const Cursor& at, Shift& shift) {
+                                   const bool of_point = shift.x_mm && shift.y_mm;
+                                   if (at.clean() && of_point == shift.off_mm.has_value())
+                                     at.expect("x_mm and y_mm of a point, or off_mm of a distance");
+                                 });
   return record;
 }
 
@@ -86,18 +104,45 @@ void bad_point_keys(Record<Diagnosis>& record) {
         if (read->size() != object.bad_points.size())
           return at.expect("as many shifts as there are bad_points");
         for (std::size_t i = 0; i < read->size(); ++i) {
-          object.bad_points[i].shift_mm = {(*read)[i].x_mm, (*read)[i].y_mm};
+          const Shift& shift = (*read)[i];
+          object.bad_points[i].shift_mm = {shift.x_mm.value_or(0.0), shift.y_mm.value_or(0.0)};
+          object.bad_points[i].off_mm = shift.off_mm.value_or(0.0);
           object.bad_points[i].distance = (*read)[i].sigmas;
         }
       },
       [](const Diagnosis& object) {
         Json json = Json::array();
         for (const BadPoint& bad : object.bad_points) {
-          json.push_back(
-              shift_record().write({bad.shift_mm.x() + 0.0, bad.shift_mm.y() + 0.0, bad.distance}));
+          json.push_back(shift_record().write(
+              object.observations == Observations::distances
+                  ? Shift{{}, {}, bad.off_mm, bad.distance}
+                  : Shift{bad.shift_mm.x() + 0.0, bad.shift_mm.y() + 0.0, {}, bad.distance}));
         }
         return std::optional<Json>(std::move(json));
       });
+}
+
+/// The word stands only where it is not points, and the pictures of holes only where there are any.
+void distance_keys(Record<Diagnosis>& record) {
+  static const Value<Observations> word =
+      choice<Observations>({{std::string(name(Observations::points)), Observations::points},
+                            {std::string(name(Observations::distances)), Observations::distances}});
+  record
+      .custom(
+          "observations",
+          false,
+          word.expected,
+          [](const Cursor& at, Diagnosis& object) {
+            if (const auto read = word.read(at)) object.observations = *read;
+          },
+          [](const Diagnosis& object) {
+            return object.observations == Observations::points
+                       ? std::nullopt
+                       : std::optional<Json>(word.write(object.observations));
+          })
+      .sparse("holes", &Diagnosis::holes, list(object(hole_picture_record())))
+      .sparse("distances", &Diagnosis::distances, list(object(distance_picture_record())))
+      .optional("stated_tape", &Diagnosis::stated_tape, object(tape_record()));
 }
 
 void check_diagnosis(const Cursor& at, Diagnosis& object) {
@@ -142,8 +187,9 @@ Record<Diagnosis> make_diagnosis_record() {
       .optional("stated_noise", &Diagnosis::stated_noise, object(noise_record()))
       .optional("stability", &Diagnosis::stability, object(stability_record()))
       .optional("normal_plot", &Diagnosis::normal_plot, object(normal_plot_record()))
-      .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()))
-      .check(check_diagnosis);
+      .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()));
+  distance_keys(record);
+  record.check(check_diagnosis);
   return record;
 }
 

@@ -19,6 +19,15 @@
 ///                    "verdict", "causes", "stands", "probability", "support"} ]},
 ///     "normal_plot": {"values", "expected", "low", "high", "p_value"}, ... }
 ///
+/// Of holes ("observations": "distances"; without the key: points) there are no points but
+///
+///     "holes":     [ {"name", "x_mm", "y_mm", "commanded_mm": [x, y]} ], where the machine puts
+///     them "distances": [ {"index", "from", "to", "bad", "read_mm", "before_mm", "after_mm", ...}
+///     ], "stated_tape": {"tape_sigma_mm", "hole_sigma_mm", "dof"}
+///
+/// bad_points are then indices into the holes file's distances, their shifts {"off_mm", "sigmas"}:
+/// read less what all the others make of it. The gain's errors are of distances.
+///
 /// A side, a follow-up's place and what a left-over follows are null where there is none.
 ///
 /// \code

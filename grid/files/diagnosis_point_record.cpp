@@ -9,6 +9,8 @@
 namespace chaintrue::grid::files {
 namespace {
 
+using diagnosis::DistancePicture;
+using diagnosis::HolePicture;
 using diagnosis::MeasurementKind;
 using diagnosis::NextMeasurement;
 using diagnosis::PointPicture;
@@ -117,7 +119,8 @@ const Record<NextMeasurement>& next_measurement_record() {
                   &NextMeasurement::kind,
                   choice<MeasurementKind>({{"point", MeasurementKind::point},
                                            {"revisit", MeasurementKind::revisit},
-                                           {"reading", MeasurementKind::reading}}));
+                                           {"reading", MeasurementKind::reading},
+                                           {"distance", MeasurementKind::distance}}));
     next.required("what", &NextMeasurement::what, text());
     nullable_text(next, "side", &NextMeasurement::side, side_word());
     const auto coordinate = [&next](const char* key, double model::BedPoint::*member) {
@@ -139,8 +142,11 @@ const Record<NextMeasurement>& next_measurement_record() {
     coordinate("y_mm", &model::BedPoint::y_mm);
     next.required("sigma", &NextMeasurement::sigma, number(kPositive))
         .required("raises_probability_to", &NextMeasurement::raises_probability_to, number(kShare))
+        .sparse("from", &NextMeasurement::from, text())
+        .sparse("to", &NextMeasurement::to, list(text()))
         .check([](const Cursor& at, NextMeasurement& object) {
-          const bool is_place = object.kind != MeasurementKind::reading;
+          const bool is_place =
+              object.kind == MeasurementKind::point || object.kind == MeasurementKind::revisit;
           for (const char* key : {"x_mm", "y_mm"}) {
             const Cursor value = at.child(key);
             if (is_place && at.clean() && value.json().is_null()) value.missing("a number in mm");
@@ -148,6 +154,45 @@ const Record<NextMeasurement>& next_measurement_record() {
         });
     return next;
   }();
+  return record;
+}
+
+const Record<HolePicture>& hole_picture_record() {
+  static const auto record = [] {
+    Record<HolePicture> hole("a hole");
+    hole.required("name", &HolePicture::name, text());
+    place_keys<HolePicture>(
+        hole,
+        [](HolePicture& object) -> model::BedPoint& { return object.mark; },
+        [](const HolePicture& object) -> const model::BedPoint& { return object.mark; });
+    pair_key<HolePicture>(
+        hole,
+        "commanded_mm",
+        kMm,
+        [](const HolePicture& object) {
+          return Eigen::Vector2d(object.commanded.x_mm, object.commanded.y_mm);
+        },
+        [](HolePicture& object, const Eigen::Vector2d& pair) {
+          object.commanded = {pair[0], pair[1]};
+        });
+    return hole;
+  }();
+  return record;
+}
+
+const Record<DistancePicture>& distance_picture_record() {
+  static const auto record =
+      Record<DistancePicture>("a distance")
+          .required("index", &DistancePicture::index, index_value())
+          .required("from", &DistancePicture::from, text())
+          .required("to", &DistancePicture::to, text())
+          .required("bad", &DistancePicture::bad, boolean())
+          .required("read_mm", &DistancePicture::read_mm, number(kMm))
+          .required("before_mm", &DistancePicture::before_mm, number(kMm))
+          .required("after_mm", &DistancePicture::after_mm, number(kMm))
+          .required("noise_sigma_mm", &DistancePicture::noise_sigma_mm, number(kPositive))
+          .required("best_mm", &DistancePicture::best_mm, number(kMm))
+          .required("rival_mm", &DistancePicture::rival_mm, number(kMm));
   return record;
 }
 

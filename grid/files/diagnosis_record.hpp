@@ -15,6 +15,8 @@ namespace chaintrue::grid::files {
 [[nodiscard]] const Record<diagnosis::NotTestable>& not_testable_record();
 [[nodiscard]] const Record<diagnosis::Bound>& bound_record();
 [[nodiscard]] const Record<diagnosis::CalibratedSetting>& calibrated_setting_record();
+[[nodiscard]] const Record<diagnosis::HolePicture>& hole_picture_record();
+[[nodiscard]] const Record<diagnosis::DistancePicture>& distance_picture_record();
 [[nodiscard]] const Record<diagnosis::Term>& term_record();
 [[nodiscard]] const Record<diagnosis::Separation>& separation_record();
 /// diagnosis_stability_record.cpp.

@@ -9,6 +9,7 @@
 
 #include "model/calibration/setting.hpp"
 #include "model/controllers/payout.hpp"
+#include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -56,7 +57,8 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<B
   const auto count = static_cast<Eigen::Index>(set.distances.size());
   DistanceGeometry geometry{
       Eigen::VectorXd::Zero(count),
-      Eigen::MatrixXd::Zero(count, 2 * static_cast<Eigen::Index>(marks.size()))};
+      Eigen::MatrixXd::Zero(count, 2 * static_cast<Eigen::Index>(marks.size())),
+      Eigen::MatrixXd::Zero(count, 2)};
   for (Eigen::Index k = 0; k < count; ++k) {
     const HoleDistance& distance = set.distances[static_cast<std::size_t>(k)];
     const BedPoint from = marks.at(distance.from);
@@ -66,6 +68,8 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<B
       geometry.predicted_mm[k] =
           0.5 * row.size_mm + row.sign * (row.axis == 0 ? from.x_mm : from.y_mm);
       geometry.by_mark(k, a + row.axis) = row.sign;
+      // Half of what the sheet is too large stands before each of its edges.
+      geometry.by_size(k, row.axis) = 0.5;
       continue;
     }
     const BedPoint to = marks.at(distance.to);
@@ -83,18 +87,29 @@ DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& g
   const Eigen::Index count = geometry.predicted_mm.size();
   DistanceNoise noise;
   noise.tape_mm2.resize(count);
-  Eigen::MatrixXd by_size = Eigen::MatrixXd::Zero(count, 2);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const HoleDistance& distance = set.distances[static_cast<std::size_t>(k)];
-    noise.tape_mm2[k] = std::pow(sigma_of(set, distance), 2);
-    // Half of what the sheet is too large stands before each of its edges.
-    if (distance.edge) by_size(k, edge_row(set, *distance.edge).axis) = 0.5;
+    noise.tape_mm2[k] = std::pow(sigma_of(set, set.distances[static_cast<std::size_t>(k)]), 2);
   }
   noise.holes_mm2 =
       set.hole_sigma_mm * set.hole_sigma_mm * geometry.by_mark * geometry.by_mark.transpose();
-  noise.size_mm2 = std::pow(set.sheet.size_sigma_mm, 2) * by_size * by_size.transpose();
+  noise.size_mm2 =
+      std::pow(set.sheet.size_sigma_mm, 2) * geometry.by_size * geometry.by_size.transpose();
   noise.hook_mm2 = hook_covariance(set);
   return noise;
+}
+
+bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide side) {
+  return effect.station == model::effects::Station::paper &&
+         side == model::effects::EffectSide::both;
+}
+
+double tape_factor(const model::Machine& machine) {
+  double factor = 1.0;
+  for (const model::effects::ActingEffect& acting : model::effects::acting_effects(machine)) {
+    if (!is_of_tape(*acting.effect, acting.side)) continue;
+    factor *= acting.effect->write({1.0, 0.0}, acting.side, acting.values).x_mm;
+  }
+  return factor;
 }
 
 tl::expected<HoleDistances, std::string> HoleDistances::of(MeasuredHoles set) {
@@ -123,32 +138,48 @@ tl::expected<HoleDistances, std::string> HoleDistances::of(MeasuredHoles set) {
   return result;
 }
 
+tl::expected<std::vector<HolePlace>, HoleFailure> HoleDistances::places(
+    const model::ReadingModel& model, const model::SheetPlacement& sheet) const {
+  std::vector<HolePlace> places;
+  for (std::size_t i = 0; i < set_.holes.size(); ++i) {
+    const auto reading = model.find(lengths_[i], set_.holes[i].commanded);
+    if (!reading) return tl::unexpected(HoleFailure{i, reading.error()});
+    places.push_back({*reading,
+                      sheet.to_mark(reading->pose.position),
+                      reading->position_jacobian * sheet.rotation()});
+  }
+  return places;
+}
+
+Eigen::Vector2d HoleDistances::mark_by_setting(const model::ReadingModel& model,
+                                               const model::SheetPlacement& sheet,
+                                               const HolePlace& place,
+                                               model::Setting setting) {
+  // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
+  const Eigen::Matrix2d to_mark = place.by_mark.inverse();
+  if (!is_of_sheet(setting)) return -to_mark * model.sensitivity(place.reading, setting);
+  const Eigen::Matrix<double, 2, 3> by_sheet =
+      place.reading.position_jacobian * sheet.sensitivity(place.mark);
+  return -to_mark * by_sheet.col(static_cast<Eigen::Index>(setting) -
+                                 static_cast<Eigen::Index>(model::Setting::sheet_x_mm));
+}
+
 tl::expected<model::Linearisation, model::PoseFailure> HoleDistances::linearise(
     const model::ReadingModel& model,
     const model::SheetPlacement& sheet,
     const std::vector<model::Setting>& settings) const {
-  const auto holes = static_cast<Eigen::Index>(set_.holes.size());
-  Eigen::MatrixXd marks_by_setting(2 * holes, static_cast<Eigen::Index>(settings.size()));
+  const auto found = places(model, sheet);
+  if (!found) return tl::unexpected(found.error().reason);
+  Eigen::MatrixXd marks_by_setting(2 * static_cast<Eigen::Index>(found->size()),
+                                   static_cast<Eigen::Index>(settings.size()));
   std::vector<BedPoint> marks;
-  for (Eigen::Index i = 0; i < holes; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const auto reading = model.find(lengths_[at], set_.holes[at].commanded);
-    if (!reading) return tl::unexpected(reading.error());
-    const BedPoint mark = sheet.to_mark(reading->pose.position);
-    marks.push_back(mark);
-    // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
-    const Eigen::Matrix2d by_mark = reading->position_jacobian * sheet.rotation();
-    const Eigen::Matrix<double, 2, 3> by_sheet =
-        reading->position_jacobian * sheet.sensitivity(mark);
-    const Eigen::Matrix2d to_mark = by_mark.inverse();
+  for (const HolePlace& place : *found) {
+    const Eigen::Index row = 2 * static_cast<Eigen::Index>(marks.size());
     for (std::size_t s = 0; s < settings.size(); ++s) {
-      const Eigen::Vector2d by_setting =
-          is_of_sheet(settings[s])
-              ? Eigen::Vector2d(by_sheet.col(static_cast<Eigen::Index>(settings[s]) -
-                                             static_cast<Eigen::Index>(model::Setting::sheet_x_mm)))
-              : model.sensitivity(*reading, settings[s]);
-      marks_by_setting.block<2, 1>(2 * i, static_cast<Eigen::Index>(s)) = -to_mark * by_setting;
+      marks_by_setting.block<2, 1>(row, static_cast<Eigen::Index>(s)) =
+          mark_by_setting(model, sheet, place, settings[s]);
     }
+    marks.push_back(place.mark);
   }
   const DistanceGeometry geometry = distance_geometry(set_, marks);
   const DistanceNoise noise = distance_noise(set_, geometry);

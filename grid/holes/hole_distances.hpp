@@ -30,6 +30,7 @@
 
 #include "grid/holes/measured_holes.hpp"
 #include "model/calibration/observation.hpp"
+#include "model/effects/effect.hpp"
 
 namespace chaintrue::grid {
 
@@ -37,6 +38,7 @@ namespace chaintrue::grid {
 struct DistanceGeometry {
   Eigen::VectorXd predicted_mm;  ///< n
   Eigen::MatrixXd by_mark;       ///< n x 2 N, x and y of each hole
+  Eigen::MatrixXd by_size;       ///< n x 2, by what the sheet is wider and higher than said
 };
 [[nodiscard]] DistanceGeometry distance_geometry(const MeasuredHoles& set,
                                                  const std::vector<model::BedPoint>& marks);
@@ -52,6 +54,24 @@ struct DistanceNoise {
 [[nodiscard]] DistanceNoise distance_noise(const MeasuredHoles& set,
                                            const DistanceGeometry& geometry);
 
+/// Of the effects of the paper the one that a tape can have: a scale of its own.
+[[nodiscard]] bool is_of_tape(const model::effects::Effect& effect,
+                              model::effects::EffectSide side);
+/// Read over true length, where the machine's effects say that the tape is long or short.
+[[nodiscard]] double tape_factor(const model::Machine& machine);
+
+/// A hole where a machine puts it.
+struct HolePlace {
+  model::PointReading reading;
+  model::BedPoint mark;     ///< on the sheet
+  Eigen::Matrix2d by_mark;  ///< d(L, R)/d(mark)
+};
+
+struct HoleFailure {
+  std::size_t hole = 0;
+  model::PoseFailure reason = model::PoseFailure::not_converged;
+};
+
 /// Immutable, thread safe.
 class HoleDistances final : public model::Observation {
  public:
@@ -59,6 +79,14 @@ class HoleDistances final : public model::Observation {
   /// \throws std::invalid_argument for a set without a machine.
   [[nodiscard]] static tl::expected<HoleDistances, std::string> of(MeasuredHoles set);
 
+  /// Where the machine puts each hole with what was paid out for it.
+  [[nodiscard]] tl::expected<std::vector<HolePlace>, HoleFailure> places(
+      const model::ReadingModel& model, const model::SheetPlacement& sheet) const;
+  /// How a setting moves the hole's mark.
+  [[nodiscard]] static Eigen::Vector2d mark_by_setting(const model::ReadingModel& model,
+                                                       const model::SheetPlacement& sheet,
+                                                       const HolePlace& place,
+                                                       model::Setting setting);
   /// The readings less the hook, in the order of set().distances.
   [[nodiscard]] tl::expected<model::Linearisation, model::PoseFailure> linearise(
       const model::ReadingModel& model,

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "grid/holes/hole_marks.hpp"
+#include "grid/holes/holes_solution.hpp"
 #include "grid/map/joint_fit.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -32,18 +33,6 @@ constexpr double kHuberSigmas = 1.96;
 constexpr int kSoftPasses = 4;
 /// What is stated without any uncertainty is taken as known this well, in mm or as a ratio.
 constexpr double kKnownSigma = 1e-7;
-
-/// What a fit found at its last pass.
-struct Solution {
-  Eigen::VectorXd change;      ///< b, by v
-  Eigen::MatrixXd covariance;  ///< of v
-  Eigen::VectorXd left_out;    ///< (2), every reading
-  Eigen::VectorXd left_out_sigma;
-  Eigen::VectorXd hole_shift;  ///< what the holes' own error is found to be, 2 N
-  std::vector<FoundHook> hooks;
-  double noise2 = 1.0;  ///< s^2
-  double log_evidence = 0.0;
-};
 
 class HolesFitter {
  public:
@@ -79,17 +68,14 @@ class HolesFitter {
     const FitColumns& columns = view_.columns();
     return {0, 1, 2, 3, 4, 5, columns.scale(Side::left), columns.scale(Side::right)};
   }
-  [[nodiscard]] std::vector<Eigen::Index> used() const;
-  [[nodiscard]] std::vector<FoundHook> hooks_of(const std::vector<Eigen::Index>& rows,
-                                                const Eigen::MatrixXd& inverse,
-                                                const Eigen::VectorXd& pulled) const;
-  [[nodiscard]] Solution solve(const Eigen::MatrixXd& prior) const;
-  [[nodiscard]] double choose_noise2(const Eigen::MatrixXd& known,
-                                     const Eigen::MatrixXd& noise,
-                                     const Eigen::VectorXd& response) const;
+  /// About where the unknowns stand now, with the weights of now.
+  [[nodiscard]] LinearHoles linear() const;
+  [[nodiscard]] HolesSolution solve(const Eigen::MatrixXd& prior) const {
+    return solve_holes(linear(), prior);
+  }
   tl::expected<void, FitFailure> settle();
-  [[nodiscard]] std::optional<Eigen::Index> worst_bad(const Solution& solution);
-  bool update_weights(int pass, const Solution& solution);
+  [[nodiscard]] std::optional<Eigen::Index> worst_bad(const HolesSolution& solution);
+  bool update_weights(int pass, const HolesSolution& solution);
   void choose_surface();
   [[nodiscard]] HolesFit result() const;
 
@@ -103,140 +89,24 @@ class HolesFitter {
   Eigen::VectorXd u_;
   HoleMarks::View now_;
   std::vector<BedPoint> as_stated_;
-  Solution solution_;
+  HolesSolution solution_;
   bool has_surface_ = false;
   bool settled_ = false;
   double surface_log_evidence_ = 0.0;
 };
 
-std::vector<Eigen::Index> HolesFitter::used() const {
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index k = 0; k < weights_.size(); ++k) {
-    if (weights_[k] > 0.0) rows.push_back(k);
-  }
-  return rows;
-}
-
-/// log N(y; 0, known + s2 noise), and the stated noise's own say: scaled inverse chi-square in the
-/// logarithm of s2.
-double log_evidence(const Eigen::MatrixXd& known,
-                    const Eigen::MatrixXd& noise,
-                    const Eigen::VectorXd& response,
-                    double noise2,
-                    double dof) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(known + noise2 * noise);
-  const Eigen::MatrixXd lower = factor.matrixL();
-  const double log_root = lower.diagonal().array().log().sum();
-  return -log_root - 0.5 * response.dot(factor.solve(response)) -
-         0.5 * dof * (std::log(noise2) + 1.0 / noise2);
-}
-
-/// Golden section over the logarithm; the posterior has one hill.
-double HolesFitter::choose_noise2(const Eigen::MatrixXd& known,
-                                  const Eigen::MatrixXd& noise,
-                                  const Eigen::VectorXd& response) const {
-  constexpr double kGolden = 0.6180339887498949;
-  double low = std::log(0.05);
-  double high = std::log(400.0);
-  const auto value = [&](double log_noise2) {
-    return log_evidence(known, noise, response, std::exp(log_noise2), set_.noise_dof);
-  };
-  double left = high - kGolden * (high - low);
-  double right = low + kGolden * (high - low);
-  double at_left = value(left);
-  double at_right = value(right);
-  while (high - low > 1e-4) {
-    if (at_left > at_right) {
-      high = right;
-      right = left;
-      at_right = at_left;
-      left = high - kGolden * (high - low);
-      at_left = value(left);
-    } else {
-      low = left;
-      left = right;
-      at_left = at_right;
-      right = low + kGolden * (high - low);
-      at_right = value(right);
-    }
-  }
-  return std::exp(0.5 * (low + high));
-}
-
-/// Of each session h = hook^2 1' K^-1 y, variance hook^2 - hook^4 1' K^-1 1.
-std::vector<FoundHook> HolesFitter::hooks_of(const std::vector<Eigen::Index>& rows,
-                                             const Eigen::MatrixXd& inverse,
-                                             const Eigen::VectorXd& pulled) const {
-  std::vector<FoundHook> hooks;
-  const double variance = std::pow(set_.tape.hook_sigma_mm.value_or(0.0), 2);
-  if (variance == 0.0) return hooks;
-  std::size_t sessions = 0;
-  for (const HoleDistance& distance : set_.distances)
-    sessions = std::max(sessions, distance.session + 1);
-  for (std::size_t session = 0; session < sessions; ++session) {
-    Eigen::VectorXd ones = Eigen::VectorXd::Zero(pulled.size());
-    for (Eigen::Index i = 0; i < ones.size(); ++i) {
-      const auto k = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
-      ones[i] = set_.distances[k].session == session ? 1.0 : 0.0;
-    }
-    hooks.push_back({variance * ones.dot(pulled),
-                     std::sqrt(variance - variance * variance * ones.dot(inverse * ones))});
-  }
-  return hooks;
-}
-
-Solution HolesFitter::solve(const Eigen::MatrixXd& prior) const {
-  const std::vector<Eigen::Index> rows = used();
+LinearHoles HolesFitter::linear() const {
   const Eigen::MatrixXd by_v = now_.design * now_.follows;
-  const Eigen::VectorXd response = now_.residual_mm + by_v * (u_ - mean_);
-  const Eigen::MatrixXd known =
-      by_v * prior * by_v.transpose() + now_.noise.size_mm2 + now_.noise.hook_mm2;
-  Eigen::MatrixXd noise = now_.noise.holes_mm2;
-  noise.diagonal() += now_.noise.tape_mm2;
-  Eigen::MatrixXd soft = noise;
-  for (const Eigen::Index k : rows) {
-    soft(k, k) += now_.noise.tape_mm2[k] * (1.0 / weights_[k] - 1.0);
-  }
-  const Eigen::VectorXd y = response(rows);
-  Solution solution;
-  solution.noise2 = choose_noise2(known(rows, rows), soft(rows, rows), y);
-  solution.log_evidence =
-      log_evidence(known(rows, rows), soft(rows, rows), y, solution.noise2, set_.noise_dof);
-  const Eigen::MatrixXd all = known + solution.noise2 * soft;
-  const Eigen::LLT<Eigen::MatrixXd> factor(all(rows, rows));
-  const auto count = static_cast<Eigen::Index>(rows.size());
-  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(count, count));
-  const Eigen::VectorXd pulled = inverse * y;
-  const Eigen::MatrixXd cross = prior * by_v(rows, Eigen::all).transpose();
-  solution.change = cross * pulled;
-  solution.covariance = prior - cross * inverse * cross.transpose();
-  solution.hole_shift = solution.noise2 * set_.hole_sigma_mm * set_.hole_sigma_mm *
-                        now_.geometry.by_mark(rows, Eigen::all).transpose() * pulled;
-  solution.hooks = hooks_of(rows, inverse, pulled);
-  solution.left_out.resize(weights_.size());
-  solution.left_out_sigma.resize(weights_.size());
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Index k = rows[static_cast<std::size_t>(i)];
-    solution.left_out[k] = pulled[i] / inverse(i, i);
-    const double softened = soft(k, k) - noise(k, k);
-    solution.left_out_sigma[k] = std::sqrt(1.0 / inverse(i, i) - solution.noise2 * softened);
-  }
-  for (Eigen::Index k = 0; k < weights_.size(); ++k) {
-    if (weights_[k] > 0.0) continue;
-    const Eigen::VectorXd with = all(rows, std::vector<Eigen::Index>{k});
-    solution.left_out[k] = response[k] - with.dot(pulled);
-    solution.left_out_sigma[k] = std::sqrt(all(k, k) - with.dot(inverse * with));
-  }
-  return solution;
+  return {set_, now_, by_v, now_.residual_mm + by_v * (u_ - mean_), weights_};
 }
 
 /// The reading that fits worst, where the others alone, with the noise that they alone show, put it
 /// beyond kBadDistanceSigmas: a bad reading raises the noise found and so hides itself.
-std::optional<Eigen::Index> HolesFitter::worst_bad(const Solution& solution) {
+std::optional<Eigen::Index> HolesFitter::worst_bad(const HolesSolution& solution) {
   constexpr double kSuspect = 2.5;
   Eigen::Index worst = -1;
   double worst_sigmas = kSuspect;
-  for (const Eigen::Index k : used()) {
+  for (const Eigen::Index k : used_rows(weights_)) {
     const double sigmas = std::abs(solution.left_out[k]) / solution.left_out_sigma[k];
     if (sigmas <= worst_sigmas) continue;
     worst = k;
@@ -245,17 +115,17 @@ std::optional<Eigen::Index> HolesFitter::worst_bad(const Solution& solution) {
   if (worst < 0) return std::nullopt;
   const double weight = weights_[worst];
   weights_[worst] = 0.0;
-  const Solution without = solve(prior_);
+  const HolesSolution without = solve(prior_);
   weights_[worst] = weight;
   const double sigmas = std::abs(without.left_out[worst]) / without.left_out_sigma[worst];
   return sigmas > kBadDistanceSigmas ? std::optional(worst) : std::nullopt;
 }
 
 /// True where the weights changed enough to solve again.
-bool HolesFitter::update_weights(int pass, const Solution& solution) {
+bool HolesFitter::update_weights(int pass, const HolesSolution& solution) {
   constexpr double kSettledWeight = 1e-2;
   double change = 0.0;
-  for (const Eigen::Index k : used()) {
+  for (const Eigen::Index k : used_rows(weights_)) {
     const double sigmas = std::abs(solution.left_out[k]) / solution.left_out_sigma[k];
     const double weight = std::min(1.0, kHuberSigmas / std::max(sigmas, 1e-12));
     change = std::max(change, std::abs(weight - weights_[k]));
@@ -299,7 +169,7 @@ tl::expected<void, FitFailure> HolesFitter::settle() {
       weights_ = solved_with;
       break;
     }
-    if (static_cast<std::size_t>(used().size()) < kFewestHoleDistances) break;
+    if (static_cast<std::size_t>(used_rows(weights_).size()) < kFewestHoleDistances) break;
   }
   return {};
 }
@@ -391,7 +261,7 @@ tl::expected<HolesFit, FitFailure> HolesFitter::run() {
   if (has_surface_) {
     if (auto done = settle(); !done) return tl::unexpected(done.error());
   }
-  const std::size_t good = used().size();
+  const std::size_t good = used_rows(weights_).size();
   if (3 * good < 2 * set_.distances.size() || good < kFewestHoleDistances) {
     std::string sentence = fmt::format(
         "{} of {} distances contradict the others or the machine as stated; check the "

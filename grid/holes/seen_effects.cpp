@@ -35,7 +35,6 @@ bool is_seen_by_distances(const model::effects::Effect& effect) {
 
 /// The set about the machine as stated.
 struct Stated {
-  Eigen::VectorXd residual_mm;
   Eigen::MatrixXd covariance;  ///< K
   std::vector<Secant> secants;
 };
@@ -51,9 +50,7 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
   const auto count = static_cast<Eigen::Index>(settings.size());
   const Eigen::MatrixXd prior = stated_prior(*set.machine).covariance.topLeftCorner(count, count);
   Stated stated{
-      line->residual,
-      line->covariance + line->setting_jacobian * prior * line->setting_jacobian.transpose(),
-      {}};
+      line->covariance + line->setting_jacobian * prior * line->setting_jacobian.transpose(), {}};
   for (const model::effects::Effect* effect : model::effects::catalogue()) {
     if (!is_seen_by_distances(*effect)) continue;
     for (const model::effects::EffectSide side : effect->sides) {
@@ -97,46 +94,6 @@ std::vector<SeenEffect> seen_effects(const MeasuredHoles& set) {
     seen.push_back(patterns[i].seen);
   }
   return seen;
-}
-
-std::vector<ScoredCause> scored_causes(const MeasuredHoles& set, const HolesFit& fit) {
-  const auto stated = stated_of(set);
-  if (!stated) return {};
-  std::vector<Eigen::Index> rows;
-  for (std::size_t k = 0; k < fit.distances.size(); ++k) {
-    if (!fit.distances[k].set_aside) rows.push_back(static_cast<Eigen::Index>(k));
-  }
-  const Eigen::MatrixXd covariance = stated->covariance(rows, rows);
-  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
-  const Eigen::VectorXd residual =
-      factor.matrixL().solve(Eigen::VectorXd(stated->residual_mm(rows)));
-  std::vector<ScoredCause> causes = {{"nothing", "", 0.5, 0.0, "", 0.0, 0.0}};
-  const double share = 0.5 / static_cast<double>(std::max<std::size_t>(1, stated->secants.size()));
-  for (const Secant& secant : stated->secants) {
-    const model::effects::EffectParameter& parameter = secant.effect->parameters.front();
-    const double nominal = parameter.nominal - parameter.null;
-    const double size2 = std::pow(parameter.prior_sigma / nominal, 2);
-    const Eigen::VectorXd g = factor.matrixL().solve(Eigen::VectorXd(secant.change_mm(rows)));
-    // b, in nominal sizes, by one more Gaussian of variance size2.
-    const double precision = g.squaredNorm() + 1.0 / size2;
-    const double b = g.dot(residual) / precision;
-    ScoredCause cause;
-    cause.effect = secant.effect->id;
-    cause.side = model::effects::name(secant.side);
-    cause.log_evidence = 0.5 * b * b * precision - 0.5 * std::log(size2 * precision);
-    cause.probability = share * std::exp(std::min(cause.log_evidence, 600.0));
-    cause.parameter = parameter.name;
-    cause.value = parameter.null + nominal * b;
-    cause.sigma = std::abs(nominal) / std::sqrt(precision);
-    causes.push_back(std::move(cause));
-  }
-  double sum = 0.0;
-  for (const ScoredCause& cause : causes) sum += cause.probability;
-  for (ScoredCause& cause : causes) cause.probability /= sum;
-  std::stable_sort(causes.begin(), causes.end(), [](const ScoredCause& a, const ScoredCause& b) {
-    return a.probability > b.probability;
-  });
-  return causes;
 }
 
 }  // namespace chaintrue::grid

@@ -15,24 +15,4 @@ namespace chaintrue::grid {
 /// between holes know neither. \throws std::invalid_argument for a set without a machine.
 [[nodiscard]] std::vector<SeenEffect> seen_effects(const MeasuredHoles& set);
 
-/// An effect alone as the cause of what the distances show.
-struct ScoredCause {
-  std::string effect;  ///< "nothing" where the settings explain it all
-  std::string side;
-  double probability = 0.0;
-  /// Of the effect over nothing, in natural units.
-  double log_evidence = 0.0;
-  /// Of the effect's first parameter, by the name it has in files; one sigma.
-  std::string parameter;
-  double value = 0.0;
-  double sigma = 0.0;
-};
-
-/// Each effect by itself against nothing at all, most probable first: the residuals r about the
-/// machine as stated are N(0, K + s^2 g g'), g the secant and s the effect's usual size; nothing
-/// has half of the probability beforehand, the effects share the rest. Readings that `fit` set
-/// aside are left out. One cause at a time: grid/diagnosis weighs several together, from chain
-/// readings. \throws as seen_effects.
-[[nodiscard]] std::vector<ScoredCause> scored_causes(const MeasuredHoles& set, const HolesFit& fit);
-
 }  // namespace chaintrue::grid

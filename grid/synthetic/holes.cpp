@@ -67,10 +67,11 @@ tl::expected<SyntheticHoles, std::string> simulate_holes(
     made.places.push_back({at.x_mm + dx, at.y_mm + dy});
   }
   const DistanceGeometry geometry = distance_geometry(design, made.places);
+  const double tape = tape_factor(made.truth);
   Random tape_noise(spec.seed, kTapeStream);
   for (std::size_t k = 0; k < made.set.distances.size(); ++k) {
     HoleDistance& distance = made.set.distances[k];
-    double reading = geometry.predicted_mm[static_cast<Eigen::Index>(k)] +
+    double reading = tape * geometry.predicted_mm[static_cast<Eigen::Index>(k)] +
                      design.tape.hook_offset_mm + sigma_of(design, distance) * tape_noise.normal();
     if (spec.rounding_mm > 0.0) reading = spec.rounding_mm * std::round(reading / spec.rounding_mm);
     distance.distance_mm = reading;

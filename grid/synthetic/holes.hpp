@@ -42,9 +42,10 @@ struct SyntheticHoles {
 };
 
 /// `design` has holes and the pairs to measure; the tape's sigma and the holes' are those of the
-/// noise, the hook is added. Where the truth is to be a given machine (another pass on the same
-/// one), `truth` replaces what would be drawn. Fails in words where a hole cannot be cut.
-/// \throws std::invalid_argument for a design without a machine.
+/// noise, the hook is added; of the effects of the paper a tape has only its scale on both axes.
+/// Where the truth is to be a given machine (another pass on the same one), `truth` replaces what
+/// would be drawn. Fails in words where a hole cannot be cut. \throws std::invalid_argument for a
+/// design without a machine.
 [[nodiscard]] tl::expected<SyntheticHoles, std::string> simulate_holes(
     const MeasuredHoles& design,
     const HolesSpec& spec,

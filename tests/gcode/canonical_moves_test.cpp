@@ -14,12 +14,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/gcode/corpus.hpp"
 #include "tests/gcode/program_events.hpp"
 
 namespace chaintrue::gcode {
 namespace {
 
-const std::filesystem::path kFolder = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "gcode";
+using testing_support::kCorpus;
+using testing_support::test_name;
 
 /// As promised; the stored values have 17 digits and passed through inches.
 constexpr double kTolerance_mm = 1e-6;
@@ -84,7 +86,7 @@ const std::map<std::string, std::string> kRefused = {
 class CanonicalMoves : public testing::TestWithParam<std::string> {};
 
 TEST_P(CanonicalMoves, EqualLinuxCncs) {
-  const std::filesystem::path path = kFolder / GetParam();
+  const std::filesystem::path path = kCorpus / GetParam();
   std::string error;
   const auto expected = read_canon(path.string() + ".canon", error);
   Dialect dialect;
@@ -124,8 +126,8 @@ TEST_P(CanonicalMoves, EqualLinuxCncs) {
 
 std::vector<std::string> files() {
   std::vector<std::string> names;
-  if (!std::filesystem::exists(kFolder)) return names;
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+  if (!std::filesystem::exists(kCorpus)) return names;
+  for (const auto& entry : std::filesystem::directory_iterator(kCorpus)) {
     const std::string name = entry.path().filename().string();
     if (name.ends_with(".canon")) names.push_back(name.substr(0, name.size() - 6));
   }
@@ -133,21 +135,11 @@ std::vector<std::string> files() {
   return names;
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::replace_if(
-      name.begin(),
-      name.end(),
-      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; },
-      '_');
-  return name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Corpus, CanonicalMoves, testing::ValuesIn(files()), test_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(CanonicalMoves);
 
 TEST(Corpus, IsThere) {
-  if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << "no real G-code files at " << kFolder;
+  if (!std::filesystem::exists(kCorpus)) GTEST_SKIP() << "no real G-code files at " << kCorpus;
   EXPECT_GE(files().size(), 37U);
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/gcode/corpus.hpp"
 #include "tests/gcode/formula_target.hpp"
 #include "tests/gcode/program_events.hpp"
 #include "tools/gcode/compensator.hpp"
@@ -22,7 +23,9 @@
 namespace chaintrue::gcode {
 namespace {
 
-const std::filesystem::path kFolder = std::filesystem::path(CHAINTRUE_SHARED_DATA) / "gcode";
+using testing_support::kCorpus;
+using testing_support::test_name;
+
 constexpr double kTolerance_mm = 0.05;
 
 std::string read(const std::filesystem::path& path) {
@@ -73,10 +76,10 @@ VerifySummary verified(const std::string& original,
 /// say.
 std::vector<std::string> fitting_files() {
   std::vector<std::string> names;
-  if (!std::filesystem::exists(kFolder)) return names;
+  if (!std::filesystem::exists(kCorpus)) return names;
   Dialect dialect;
   dialect.tools_have_no_diameter = true;
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(kCorpus)) {
     const std::string name = entry.path().filename().string();
     if (name.ends_with(".canon") || name == "README.md" || name == "index.tsv" ||
         name == "hazard_oracle.md")
@@ -95,16 +98,6 @@ std::vector<std::string> fitting_files() {
   return names;
 }
 
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::replace_if(
-      name.begin(),
-      name.end(),
-      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; },
-      '_');
-  return name;
-}
-
 class RealFile : public testing::TestWithParam<std::string> {
  protected:
   RealFile() { dialect_.tools_have_no_diameter = true; }
@@ -113,7 +106,7 @@ class RealFile : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(RealFile, IsCutWithinTheToleranceAndNotWithoutCompensation) {
-  const std::string original = read(kFolder / GetParam());
+  const std::string original = read(kCorpus / GetParam());
   for (const NamedDisplacement& named : displacements()) {
     SCOPED_TRACE(named.name);
     const FormulaMap map(named.displacement);
@@ -133,7 +126,7 @@ TEST_P(RealFile, IsCutWithinTheToleranceAndNotWithoutCompensation) {
 }
 
 TEST_P(RealFile, StaysItselfUnderTheIdentity) {
-  const std::string original = read(kFolder / GetParam());
+  const std::string original = read(kCorpus / GetParam());
   const FormulaMap map([](model::BedPoint) { return model::BedPoint{}; });
   const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::ideal));
   CompensateOptions options;
@@ -167,7 +160,7 @@ TEST_P(RealFile, StaysItselfUnderTheIdentity) {
 }
 
 TEST_P(RealFile, ComesOutInTheLanguageThatEveryControllerReads) {
-  const std::string original = read(kFolder / GetParam());
+  const std::string original = read(kCorpus / GetParam());
   const FormulaMap map(random_smooth_displacement(4));
   const Corrector corrector(map, kinematics_, firmware(model::ControllerKind::ideal));
   const auto output = compensate(original, corrector, {}, dialect_);

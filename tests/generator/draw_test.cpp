@@ -48,7 +48,7 @@ TEST(Draw, StrengthsAndSizesAreInRangeAndEffectsEven) {
     EXPECT_LE(h.size, c.upper);
     EXPECT_GT(set.answer.delta.front(), 5.99);  // searched to 1e-3
     EXPECT_LT(set.answer.delta.front(), 22.03);
-    if (c.whole) {
+    if (c.whole()) {
       EXPECT_EQ(h.size, std::round(h.size));
     }
   }

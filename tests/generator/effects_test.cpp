@@ -96,12 +96,12 @@ TEST(Cards, AreTheCatalogueOfTheProduct) {
     EXPECT_EQ(ours.size_name, theirs.parameters[0].name);
     EXPECT_EQ(ours.lower, theirs.parameters[0].lower);
     EXPECT_EQ(ours.upper, theirs.parameters[0].upper);
-    EXPECT_EQ(ours.whole, theirs.parameters[0].integer);
+    EXPECT_EQ(ours.whole(), theirs.parameters[0].integer);
     EXPECT_EQ(ours.place != Place::none, theirs.parameters.size() > 1);
     if (theirs.parameters.size() > 1) {
       EXPECT_EQ(ours.place_name, theirs.parameters[1].name);
     }
-    EXPECT_EQ(ours.needs_order, theirs.needs == model::effects::DataNeed::order);
+    EXPECT_EQ(ours.needs_order(), theirs.needs == model::effects::DataNeed::order);
     ASSERT_EQ(ours.sides.size(), theirs.sides.size());
     for (std::size_t k = 0; k < ours.sides.size(); ++k) {
       EXPECT_EQ(word(ours.sides[k]), model::effects::name(theirs.sides[k]));

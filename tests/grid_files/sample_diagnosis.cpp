@@ -4,11 +4,10 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <random>
 
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
+#include "tests/normal_numbers.hpp"
 
 namespace chaintrue::grid::testing {
 namespace {
@@ -21,20 +20,6 @@ using model::effects::EffectSide;
 constexpr double kElongation = 0.0012;
 constexpr double kNoiseMm = 0.15;
 
-/// Normal numbers that are the same on every platform (Box and Muller 1958), unlike
-/// std::normal_distribution.
-class Normal {
- public:
-  double operator()() {
-    const double u = (static_cast<double>(engine_() >> 11) + 0.5) * 0x1p-53;
-    const double v = static_cast<double>(engine_() >> 11) * 0x1p-53;
-    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
-  }
-
- private:
-  std::mt19937_64 engine_{20240608};
-};
-
 CauseId cause(const char* id, EffectSide side = EffectSide::none) {
   return {model::effects::find_effect(id), side};
 }
@@ -42,7 +27,7 @@ CauseId cause(const char* id, EffectSide side = EffectSide::none) {
 /// The chains' residuals are what a left chain too long would leave; the tool's follow from them.
 std::vector<PointPicture> sample_points(const model::Machine& machine) {
   const model::ReadingModel model(machine);
-  Normal normal;
+  testing_support::NormalNumbers normal(20240608);
   std::vector<PointPicture> points;
   for (int row = 0; row < 4; ++row) {
     for (int k = 0; k < 7; ++k) {

@@ -18,6 +18,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 using testing_support::content_of;
@@ -220,6 +221,90 @@ TEST_F(HolesCommands, TheCertificateIsOnePage) {
                     HasSubstr("What was measured"),
                     HasSubstr("What is named"),
                     HasSubstr("What remains")));
+}
+
+TEST_F(HolesCommands, DiagnoseNamesTheCauseAndWritesEveryFile) {
+  const std::string asked =
+      "diagnose " + holes_ + " -o d.json --report d.html --extended-machine m2.json";
+  const Outcome found = run(asked);
+  ASSERT_EQ(found.code, 0) << found.err;
+  EXPECT_THAT(found.out,
+              AllOf(StartsWith("Most likely the chain's links are worn"),
+                    HasSubstr("Error of distances held out, mm"),
+                    HasSubstr("all the distances of each of 9 holes"),
+                    Not(HasSubstr("sheet laid right by")),
+                    Not(HasSubstr("points"))));
+  const std::string file = content_of(folder_ / "d.json");
+  EXPECT_THAT(file,
+              AllOf(HasSubstr("\"observations\": \"distances\""),
+                    HasSubstr("\"verdict\": \"named\""),
+                    HasSubstr("\"stated_tape\": {\"tape_sigma_mm\": 0.5"),
+                    HasSubstr("a tape has one scale whichever way it is held")));
+  EXPECT_THAT(content_of(folder_ / "d.html"),
+              AllOf(HasSubstr("What it does to the distances"),
+                    HasSubstr("0.5 mm a reading of the tape and 0.3 mm a hole"),
+                    Not(HasSubstr("Folded at one sprocket turn"))));
+  EXPECT_THAT(content_of(folder_ / "m2.json"), HasSubstr("\"effect\": \"chain_pitch_error\""));
+  // The file is enough for the page, and for the programs that ask for it on standard output.
+  EXPECT_EQ(run("report d.json -o again.html").code, 0);
+  EXPECT_THAT(content_of(folder_ / "again.html"), HasSubstr("What it does to the distances"));
+  EXPECT_EQ(run("diagnose " + holes_ + " --json").out, file);
+  ASSERT_EQ(run(asked).code, 0);
+  EXPECT_EQ(content_of(folder_ / "d.json"), file);
+  // Named beyond doubt: there is nothing to measure next.
+  const Outcome next = run("plan " + holes_ + " --after d.json");
+  EXPECT_EQ(next.code, 0) << next.err;
+  EXPECT_THAT(next.err, HasSubstr("No measurement is proposed"));
+}
+
+TEST_F(HolesCommands, DiagnoseSaysWhatToMeasureNext) {
+  ASSERT_EQ(run("simulate --machine " + classic_ +
+                " --holes 9 --distances 14 --draw-settings --effect "
+                "chain_pitch_error:both:elongation=0.0012 --seed 2 -o made.json")
+                .code,
+            0);
+  const Outcome found = run("diagnose made.json -o d.json --report d.html");
+  ASSERT_EQ(found.code, 0) << found.err;
+  EXPECT_THAT(found.out, HasSubstr("What to measure next (chaintrue plan HOLES --after"));
+  EXPECT_THAT(content_of(folder_ / "d.html"), HasSubstr("to be measured"));
+  const Outcome next = run("plan made.json --after d.json --svg next.svg");
+  ASSERT_EQ(next.code, 0) << next.err;
+  EXPECT_THAT(next.out,
+              AllOf(HasSubstr("\"distances\": add, each null filled in"),
+                    HasSubstr("\"distance_mm\": null")));
+  EXPECT_TRUE(exists("next.svg"));
+  const Outcome other = run("plan " + holes_ + " --after d.json");
+  EXPECT_EQ(other.code, 3);
+  EXPECT_THAT(other.err, HasSubstr("was made from other holes"));
+}
+
+TEST_F(HolesCommands, DiagnoseRefusesWhatIsSaidOfPointsAlone) {
+  const Outcome refused = run("diagnose " + holes_ +
+                              " --corrected-grid g.json --held-out other.json --assume-order rows "
+                              "-o d.json");
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err,
+              AllOf(HasSubstr("--corrected-grid"),
+                    HasSubstr("--held-out"),
+                    HasSubstr("--assume-order"),
+                    HasSubstr("to be left out of holes")));
+  EXPECT_FALSE(exists("d.json"));
+  write("few.csv",
+        "hole,x_mm,y_mm\nA,-900,400\nB,900,400\nC,900,-400\nD,-900,-400\nfrom,to,distance_mm\n"
+        "A,B,1801\nB,C,800\nC,D,1799\nD,A,800\nA,C,1970\nB,D,1970\n");
+  const Outcome few = run("diagnose few.csv --machine " + classic_ + " -o d.json");
+  EXPECT_EQ(few.code, 3);
+  EXPECT_THAT(few.err,
+              AllOf(HasSubstr("6 distances are too few to name a cause"),
+                    HasSubstr("Cut more holes and measure 2")));
+  EXPECT_FALSE(exists("d.json"));
+  const Outcome machineless = run("diagnose few.csv");
+  EXPECT_EQ(machineless.code, 3);
+  EXPECT_THAT(machineless.err, HasSubstr("give --machine"));
+  // A hook of 40 mm that nobody stated.
+  const Outcome hook = run("diagnose " + holes_ + " --hook-offset-mm -40");
+  EXPECT_EQ(hook.code, 3);
+  EXPECT_THAT(hook.err, HasSubstr("all distances are about 40 mm longer than commanded"));
 }
 
 TEST_F(HolesCommands, BadInputExitsWithThreeAndWritesNothing) {

@@ -168,37 +168,6 @@ TEST(HolesPlan, SaysWhichEffectsItSees) {
   EXPECT_EQ(find("tape_scale", "both"), seen.end());
 }
 
-TEST(HolesPlan, ACauseAloneIsNamedFromDistances) {
-  int named = 0;
-  constexpr int kSets = 40;
-  for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
-    synthetic::HolesSpec spec;
-    spec.draw_settings = true;
-    spec.seed = seed;
-    const char* side = seed % 2 == 0 ? "left" : "right";
-    spec.hidden = {{"chain_pitch_error", side, {{"elongation", 0.0015}}}};
-    const auto made = synthetic::simulate_holes(testing_support::nine_holes(), spec);
-    const auto fit = fit_holes(made->set);
-    const std::vector<ScoredCause> causes = scored_causes(made->set, *fit);
-    named += causes.front().effect == "chain_pitch_error" && causes.front().side == side;
-  }
-  // 0.15 % of a chain stands some eight sigmas out.
-  EXPECT_GE(named, 36);
-}
-
-TEST(HolesPlan, WhereNothingIsWrongNothingIsNamed) {
-  int nothing = 0;
-  constexpr int kSets = 40;
-  for (std::uint64_t seed = 101; seed <= 100 + kSets; ++seed) {
-    synthetic::HolesSpec spec;
-    spec.draw_settings = true;
-    spec.seed = seed;
-    const auto made = synthetic::simulate_holes(testing_support::nine_holes(), spec);
-    nothing += scored_causes(made->set, *fit_holes(made->set)).front().effect == "nothing";
-  }
-  EXPECT_GE(nothing, 36);
-}
-
 TEST(HolesPlan, NumbersOutOfRangeThrow) {
   EXPECT_THROW((void)plan_holes(classic(), {.holes = 3}), std::invalid_argument);
   EXPECT_THROW((void)plan_holes(classic(), {.holes = 9, .distances = 7, .edges = true}),

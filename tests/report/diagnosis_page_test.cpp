@@ -13,6 +13,7 @@
 
 #include "grid/files/diagnosis_file.hpp"
 #include "tests/grid_files/sample_diagnosis.hpp"
+#include "tests/holes/hole_sets.hpp"
 #include "tests/report/browser.hpp"
 
 namespace chaintrue::report::testing {
@@ -133,6 +134,44 @@ TEST_F(DiagnosisPage, OfNothingFoundHasNoEmptyCharts) {
   const Visit visited = visit(html);
   EXPECT_THAT(problems_of(visited), IsEmpty());
   EXPECT_EQ(count_marks(visited, "residual_scatter", "point_marks"), 6 * kSamplePoints);
+}
+
+TEST_F(DiagnosisPage, OfHolesDrawsDistances) {
+  grid::synthetic::HolesSpec spec;
+  spec.draw_settings = true;
+  spec.seed = 4;
+  spec.hidden = {{"chain_pitch_error", "left", {{"elongation", 0.0015}}}};
+  auto made = grid::synthetic::simulate_holes(testing_support::nine_holes(), spec);
+  made->set.distances[3].distance_mm += 15.0;
+  Diagnosis found = *grid::diagnosis::diagnose(made->set);
+  found.grid_name = "nine holes";
+  grid::diagnosis::NextMeasurement hole;
+  hole.kind = grid::diagnosis::MeasurementKind::distance;
+  hole.what = "a new hole at (0, -500), measured to A, C";
+  hole.mark = model::BedPoint{0.0, -500.0};
+  hole.to = {"A", "C"};
+  grid::diagnosis::NextMeasurement pair;
+  pair.kind = grid::diagnosis::MeasurementKind::distance;
+  pair.what = "the distance A-G";
+  pair.from = "A";
+  pair.to = {"G"};
+  found.next_measurements = {hole, pair};
+  ASSERT_EQ(found.bad_points.size(), 1u);
+  const std::string html = page_of(found);
+  for (const char* text : {"What it does to the distances",
+                           "What these distances can tell apart",
+                           "Bad distances",
+                           "9 of 9 named the same",
+                           "A new hole at (0, -500), measured to A, C."})
+    EXPECT_THAT(html, HasSubstr(text));
+  EXPECT_THAT(html, Not(HasSubstr("Folded at one sprocket turn")));
+  if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
+  const Visit visited = visit(html);
+  EXPECT_THAT(problems_of(visited), IsEmpty());
+  constexpr int kDistances = 20;
+  // Before and after; measured, cause, rival and what is left; measured and three more.
+  EXPECT_EQ(count_marks(visited, "hole_distances", "distance_lines"), 6 * kDistances + 23);
+  EXPECT_EQ(count_marks(visited, "residual_scatter", "point_marks"), 4 * kDistances);
 }
 
 TEST_F(DiagnosisPage, NothingStandsOutOfAPhoneScreen) {

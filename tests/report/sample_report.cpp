@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
-#include <random>
+
+#include "tests/normal_numbers.hpp"
 
 namespace chaintrue::report::testing {
 namespace {
@@ -14,22 +14,8 @@ constexpr double kBedWidthMm = 2438.4;
 constexpr double kBedHeightMm = 1219.2;
 constexpr double kNoiseMm = 0.15;
 
-/// Normal numbers that are the same on every platform (Box and Muller 1958), unlike
-/// std::normal_distribution.
-class Normal {
- public:
-  double operator()() {
-    const double u = (static_cast<double>(engine_() >> 11) + 0.5) * 0x1p-53;
-    const double v = static_cast<double>(engine_() >> 11) * 0x1p-53;
-    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
-  }
-
- private:
-  std::mt19937_64 engine_{20240607};
-};
-
 std::vector<ReportPoint> sample_points() {
-  Normal normal;
+  testing_support::NormalNumbers normal(20240607);
   std::vector<ReportPoint> points;
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 7; ++column) {

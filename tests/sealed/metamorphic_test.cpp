@@ -116,7 +116,7 @@ TEST(Metamorphic, TwiceTheNoiseAndTwiceTheErrorIsTheSame) {
     grid.machine->uncertainty.motor_position_mm *= 2.0;
     grid.machine->uncertainty.chain_zero_mm *= 2.0;
     // Whole links are not whole any more when they are doubled, or are two.
-    if (generator::card(set.answer.hidden.front().cause).whole) continue;
+    if (generator::card(set.answer.hidden.front().cause).whole()) continue;
     const Diagnosis after = diagnosed(grid);
     EXPECT_EQ(before.verdict, after.verdict);
     ASSERT_FALSE(before.causes.empty() || after.causes.empty());

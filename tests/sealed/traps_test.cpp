@@ -191,7 +191,7 @@ TEST(Traps, TheTapesErrorStaysOutOfTheMachine) {
 TEST(Traps, BoundsHold) {
   int held = 0, bounded = 0;
   for (const auto& card : generator::cards()) {
-    if (card.whole || card.place != generator::Place::none || card.sides.size() > 1) continue;
+    if (card.whole() || card.place != generator::Place::none || card.sides.size() > 1) continue;
     const auto blank = posed({}, Order::random, 6);
     const auto yardstick =
         generator::Yardstick::make(blank.machine.truth(), blank.machine.visits(), {}, {});

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
@@ -24,7 +25,6 @@
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
-#include "tools/cli/holes_words.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -35,6 +35,7 @@ using grid::diagnosis::Diagnosis;
 
 struct DiagnoseCommand {
   GridInput input;
+  TapeInput tape;
   std::string output;
   std::string report;
   std::string extended_machine;
@@ -102,73 +103,82 @@ std::string extended_machine_text(const Diagnosis& found, const std::string& sou
   return files::write_machine(found.extended_machine, comments);
 }
 
-tl::expected<Diagnosis, std::string> diagnosed(const DiagnoseCommand& command,
-                                               const grid::MeasuredGrid& measured) {
-  const auto sentence = [](const std::string& path, const auto& failure) {
-    return tl::unexpected(fmt::format("{}: {}", files::name_in_messages(path), failure.sentence));
-  };
+using Measured = std::variant<grid::MeasuredGrid, grid::MeasuredHoles>;
+using Outcome = tl::expected<Diagnosis, std::string>;
+
+std::string sentence_of(const std::string& path, const grid::diagnosis::DiagnosisFailure& failure) {
+  return fmt::format("{}: {}", files::name_in_messages(path), failure.sentence);
+}
+
+/// Seconds, where there are hundreds of points: a person is told to wait.
+template <class Set>
+Outcome watched(const DiagnoseCommand& command, const Set& measured, std::string_view what) {
   grid::diagnosis::DiagnosisOptions options;
   options.seed = command.seed;
   options.order_assumed = !command.assume_order.empty();
   options.accept_class = command.accept_class;
-  // Seconds, where there are hundreds of points.
   const bool is_watched = ::isatty(STDERR_FILENO) != 0;
-  if (is_watched) fmt::print(stderr, "Diagnosing {} points ...", measured.points.size());
+  if (is_watched) fmt::print(stderr, "Diagnosing {} ...", what);
   auto found = grid::diagnosis::diagnose(measured, options);
   if (is_watched) fmt::print(stderr, "\r\x1b[K");
-  if (!found) return sentence(command.input.grid, found.error());
+  if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
   if (found->grid_name.empty())
     found->grid_name = measured.name.empty() ? file_name(command.input.grid) : measured.name;
+  return *std::move(found);
+}
+
+Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredGrid& measured) {
+  auto found = watched(command, measured, fmt::format("{} points", measured.points.size()));
+  if (!found) return found;
   if (!found->stated_noise) found->stated_noise = measured.noise;
-  if (options.order_assumed) {
+  if (!command.assume_order.empty()) {
     found->notes.insert(found->notes.begin(),
                         fmt::format("The visiting order was not measured but assumed: {}, lines "
                                     "from the top left.",
                                     command.assume_order));
   }
-  if (!command.held_out.empty()) {
-    GridInput other = command.input;
-    other.grid = command.held_out;
-    const grid::MeasuredGrid to = read_grid_input(other);
-    const auto transferred = grid::diagnosis::transfer(measured, *found, to);
-    if (!transferred) return sentence(command.held_out, transferred.error());
-    found->transferred = *transferred;
-    if (found->transferred->to.empty())
-      found->transferred->to = to.name.empty() ? file_name(command.held_out) : to.name;
-  }
-  return std::move(*found);
+  if (command.held_out.empty()) return found;
+  GridInput other = command.input;
+  other.grid = command.held_out;
+  const grid::MeasuredGrid to = read_grid_input(other);
+  const auto transferred = grid::diagnosis::transfer(measured, *found, to);
+  if (!transferred) return tl::unexpected(sentence_of(command.held_out, transferred.error()));
+  found->transferred = *transferred;
+  if (found->transferred->to.empty())
+    found->transferred->to = to.name.empty() ? file_name(command.held_out) : to.name;
+  return found;
 }
 
-/// Distances tell causes one at a time, in words: the diagnosis file and its page are of points.
-int diagnose_holes(const DiagnoseCommand& command, const grid::MeasuredHoles& set) {
-  const std::string file = files::name_in_messages(command.input.grid);
-  const bool asks_for_files = !command.output.empty() || !command.report.empty() ||
-                              !command.extended_machine.empty() || !command.corrected_grid.empty();
-  if (!set.machine || asks_for_files) {
-    fmt::print(stderr,
-               "{}: {}\n",
-               file,
-               set.machine ? "holes are diagnosed in words alone; leave the output files out"
-                           : "the holes name no machine: give --machine");
-    return set.machine ? kNotSupportedOrOutside : kBadInput;
+Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredHoles& set) {
+  return watched(command, set, fmt::format("{} distances", set.distances.size()));
+}
+
+/// What is said of points alone.
+void refuse_for_holes(const DiagnoseCommand& command) {
+  OptionProblems problems;
+  const auto refuse = [&](const char* option, const std::string& value, const char* why) {
+    if (!value.empty())
+      problems.add(option, value, fmt::format("to be left out of holes: {}", why));
+  };
+  refuse(
+      "--corrected-grid", command.corrected_grid, "a tape's distances are no marks and readings");
+  refuse("--held-out", command.held_out, "each set of holes is diagnosed by itself");
+  refuse("--assume-order", command.assume_order, "distances do not know the order of the cuts");
+  problems.throw_if_any();
+}
+
+Outcome diagnosed(const DiagnoseCommand& command, Measured& input) {
+  if (const auto* holes = std::get_if<grid::MeasuredHoles>(&input)) {
+    refuse_for_holes(command);
+    return diagnosed(command, *holes);
   }
-  const auto fit = grid::fit_holes(set);
-  if (!fit) {
-    fmt::print(stderr, "{}: {}\n", file, fit.error().sentence);
-    return kBadInput;
-  }
-  fmt::print("{}", causes_in_words(set, *fit));
-  return kDone;
+  assume_order(command, std::get<grid::MeasuredGrid>(input));
+  return diagnosed(command, std::get<grid::MeasuredGrid>(input));
 }
 
 int run_diagnose(const DiagnoseCommand& command) {
-  auto input = read_measured_input(command.input, {}, MeasuredUse::fit);
-  if (const auto* holes = std::get_if<grid::MeasuredHoles>(&input)) {
-    return diagnose_holes(command, *holes);
-  }
-  grid::MeasuredGrid measured = std::get<grid::MeasuredGrid>(std::move(input));
-  assume_order(command, measured);
-  const auto found = diagnosed(command, measured);
+  Measured input = read_measured_input(command.input, command.tape, MeasuredUse::fit);
+  const auto found = diagnosed(command, input);
   if (!found) {
     fmt::print(stderr, "{}\n", found.error());
     return kBadInput;
@@ -182,8 +192,10 @@ int run_diagnose(const DiagnoseCommand& command) {
   add(command.output, [&] { return file; });
   add(command.report, [&] { return report::render(diagnosis_page(*found, source)); });
   add(command.extended_machine, [&] { return extended_machine_text(*found, source); });
-  add(command.corrected_grid,
-      [&] { return corrected_grid_text(*found, measured, !command.assume_order.empty()); });
+  add(command.corrected_grid, [&] {
+    return corrected_grid_text(
+        *found, std::get<grid::MeasuredGrid>(input), !command.assume_order.empty());
+  });
   const bool is_stdout_taken = std::any_of(
       outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });
   files::write_whole_files(outputs);
@@ -217,6 +229,7 @@ void add_diagnose(CLI::App& app, Run& run) {
   CLI::App* verb = app.add_subcommand(
       "diagnose", "What the simulation gets wrong, why, and what naming the cause gains");
   add_grid_options(*verb, command->input);
+  add_tape_options(*verb, command->tape);
   add_diagnose_outputs(*verb, *command);
   verb->add_option("--held-out",
                    command->held_out,
@@ -242,7 +255,8 @@ void add_diagnose(CLI::App& app, Run& run) {
       "chain_pitch_error:left:elongation=0.0012 -o worn.json\n"
       "  build/chaintrue diagnose worn.json -o diagnosis.json --report diagnosis.html "
       "--extended-machine worn_machine.json\n"
-      "  build/chaintrue fit worn.json --machine worn_machine.json -o map.json");
+      "  build/chaintrue fit worn.json --machine worn_machine.json -o map.json\n"
+      "  build/chaintrue diagnose fixtures/holes/nine_holes.json --report holes.html");
   verb->callback([command, &run] { run = [command] { return run_diagnose(*command); }; });
 }
 

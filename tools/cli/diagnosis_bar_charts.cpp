@@ -51,7 +51,8 @@ Chart probability_chart(const Diagnosis& found) {
 
 Chart gain_chart(const Diagnosis& found) {
   Chart chart{.specification = "gain_bars",
-              .title = "Error of the tool at points held out, rms",
+              .title = is_of_distances(found) ? "Error of distances held out, rms"
+                                              : "Error of the tool at points held out, rms",
               .caption = "The thin line on a bar is its 90 % interval. Held out: " +
                          found.gain->scheme + "."};
   DataTable table{"rows", {"what", "rms_mm", "low_mm", "high_mm", "most_mm", "color"}, {}};
@@ -76,8 +77,10 @@ Chart gain_chart(const Diagnosis& found) {
 Chart separation_chart(const Diagnosis& found) {
   Chart chart{
       .specification = "separation_matrix",
-      .title = "How alike two causes look to these points",
-      .caption = "0: nothing in common; 1: no such points tell them apart, whatever their number."};
+      .title = fmt::format("How alike two causes look to these {}", name(found.observations)),
+      .caption =
+          fmt::format("0: nothing in common; 1: no such {} tell them apart, whatever their number.",
+                      name(found.observations))};
   std::vector<std::string> names;
   const auto number_of = [&names](const std::string& what) {
     const auto at = std::find(names.begin(), names.end(), what);

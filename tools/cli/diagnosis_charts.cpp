@@ -165,7 +165,7 @@ std::vector<report::ChartRow> arrow_charts(const Diagnosis& found) {
 }
 
 std::vector<Chart> strip_charts(const Diagnosis& found) {
-  if (found.causes.empty()) return {};
+  if (found.causes.empty() || found.points.empty()) return {};
   const std::vector<Panel> panels = panels_of(found);
   double full_mm = 0.0;
   for (const Panel& panel : panels) full_mm = std::max(full_mm, largest(found, panel.residual));

@@ -10,6 +10,7 @@
 #include "tools/cli/diagnosis_checks.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/distance_charts.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -114,6 +115,7 @@ std::vector<report::Figure> figures_of(const Diagnosis& found) {
 }
 
 Section arrows_section(const Diagnosis& found) {
+  if (is_of_distances(found)) return {"What it does to the distances", {distance_chart(found)}};
   Section section{"What it does to the tool", {}};
   for (report::ChartRow& row : arrow_charts(found)) section.blocks.emplace_back(std::move(row));
   return section;
@@ -124,12 +126,20 @@ Section signature_section(const Diagnosis& found) {
   section.blocks.emplace_back(Paragraph{
       "What was measured beside what the cause makes of it, once the settings have taken what they "
       "can. A cause is right where its picture is the measured one and only noise is left."});
+  if (is_of_distances(found)) section.blocks.emplace_back(distance_strip_chart(found));
   for (report::Chart& chart : strip_charts(found)) section.blocks.emplace_back(std::move(chart));
   return section;
 }
 
 Section residuals_section(const Diagnosis& found) {
   Section section{"What the error follows", {}};
+  if (is_of_distances(found)) {
+    section.blocks.emplace_back(distance_scatter_charts(found));
+    section.blocks.emplace_back(Paragraph{
+        "Distances know neither the chain's length at a hole nor in which order the holes were "
+        "cut, so drift, skipped links and friction cannot be looked for."});
+    return section;
+  }
   for (report::ChartRow& row : length_charts(found)) section.blocks.emplace_back(std::move(row));
   section.blocks.emplace_back(angle_charts(found));
   if (has_order(found)) {
@@ -148,11 +158,16 @@ Section probabilities_section(const Diagnosis& found) {
   return section;
 }
 
-Table error_table(const std::vector<GainRow>& rows, double floor_mm, bool has_border) {
-  Table table{
-      {{"model"}, {"rms, mm", true}, {"90 % interval", true}, {"95 % of points below", true}},
-      {},
-      ""};
+Table error_table(const std::vector<GainRow>& rows,
+                  double floor_mm,
+                  bool has_border,
+                  std::string_view readings) {
+  Table table{{{"model"},
+               {"rms, mm", true},
+               {"90 % interval", true},
+               {fmt::format("95 % of {} below", readings), true}},
+              {},
+              ""};
   if (has_border) table.columns.push_back({"at the border, rms", true});
   for (const GainRow& row : rows) {
     std::vector<std::string> cells = {
@@ -172,28 +187,33 @@ Table error_table(const std::vector<GainRow>& rows, double floor_mm, bool has_bo
 Section gain_section(const Diagnosis& found) {
   const auto& gain = *found.gain;
   Section section{"What naming it gains", {gain_chart(found)}};
-  Table table = error_table(gain_rows(found), gain.noise_floor_mm, true);
+  const bool of_distances = is_of_distances(found);
+  Table table =
+      error_table(gain_rows(found), gain.noise_floor_mm, !of_distances, name(found.observations));
   table.caption = fmt::format(
-      "Error of the tool at points that had no part in the fit: {}. The naming was repeated in "
+      "Error of {} that had no part in the fit: {}. The naming was repeated in "
       "every "
-      "fold; {} of {} named the same. At the border the outermost points were held out.",
+      "fold; {} of {} named the same.{}",
+      of_distances ? "distances" : "the tool at points",
       gain.scheme,
       gain.folds_agree,
-      gain.folds);
+      gain.folds,
+      of_distances ? "" : " At the border the outermost points were held out.");
   section.blocks.emplace_back(std::move(table));
   return section;
 }
 
 Section transfer_section(const Diagnosis& found) {
   const auto& other = *found.transferred;
-  Table table = error_table(transfer_rows(found), other.noise_floor_mm, false);
+  Table table = error_table(transfer_rows(found), other.noise_floor_mm, false, "points");
   table.caption =
       "Nothing was fitted to these points but, where the sheet was placed by hand, its place.";
   return {fmt::format("On other points: {} ({})", other.to, other.points), {std::move(table)}};
 }
 
 Section separation_section(const Diagnosis& found) {
-  Section section{"What these points can tell apart", {separation_chart(found)}};
+  Section section{fmt::format("What these {} can tell apart", name(found.observations)),
+                  {separation_chart(found)}};
   Table table{
       {{"cause"}, {"and"}, {"alike to", true}, {"told apart from a strength of", true}}, {}, ""};
   for (const auto& pair : found.separations) {
@@ -222,12 +242,19 @@ Section next_section(const Diagnosis& found) {
     table.rows.push_back(
         {{fmt::format("{}", i + 1), sentences[i], percent(next.raises_probability_to)}, false});
   }
-  table.caption =
-      "In this order; the probability is that of all up to this one done. Points go into the "
-      "grid's "
-      "file, readings into its \"readings\"; chaintrue plan GRID --after prints the lines.";
+  table.caption = fmt::format(
+      "In this order; the probability is that of all up to this one done. {}",
+      is_of_distances(found)
+          ? "Holes and distances go into the holes' file; chaintrue plan HOLES --after prints the "
+            "lines."
+          : "Points go into the grid's file, readings into its \"readings\"; chaintrue plan GRID "
+            "--after prints the lines.");
   section.blocks.emplace_back(std::move(table));
-  if (has_places) section.blocks.emplace_back(next_points_chart(found));
+  if (is_of_distances(found)) {
+    section.blocks.emplace_back(next_distances_chart(found));
+  } else if (has_places) {
+    section.blocks.emplace_back(next_points_chart(found));
+  }
   return section;
 }
 
@@ -237,7 +264,9 @@ report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
   const VerdictLights& lights = lights_of(found.verdict);
   report::Page page;
   page.title = fmt::format("Diagnosis: {}", found.grid_name);
-  page.subtitle = fmt::format("{}, {} points", found.extended_machine.name, found.points.size());
+  page.subtitle = fmt::format(
+      "{}, {} {}", found.extended_machine.name, reading_count(found), name(found.observations));
+  const bool has_readings = reading_count(found) > 0;
   page.verdict = typeset(found.sentence);
   const bool is_something_left = is_surprising(found.left_over);
   page.tone = is_something_left && lights.tone == Tone::good ? Tone::caution : lights.tone;
@@ -255,13 +284,12 @@ report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
   if (!found.not_proved.empty())
     page.not_proved = "What this does not prove: " + typeset(found.not_proved);
   if (!found.causes.empty()) page.sections.push_back(causes_section(found));
-  if (!found.points.empty()) page.sections.push_back(arrows_section(found));
-  if (!found.points.empty() && !found.causes.empty())
-    page.sections.push_back(signature_section(found));
+  if (has_readings) page.sections.push_back(arrows_section(found));
+  if (has_readings && !found.causes.empty()) page.sections.push_back(signature_section(found));
   if (found.gain) page.sections.push_back(gain_section(found));
   if (found.transferred) page.sections.push_back(transfer_section(found));
   if (!found.next_measurements.empty()) page.sections.push_back(next_section(found));
-  if (!found.points.empty()) page.sections.push_back(residuals_section(found));
+  if (has_readings) page.sections.push_back(residuals_section(found));
   if (!found.hypotheses.empty()) page.sections.push_back(probabilities_section(found));
   if (found.stability) page.sections.push_back(stability_section(found));
   if (waves_can_be_sought(found)) page.sections.push_back(waves_section(found));

@@ -50,7 +50,8 @@ Section causes_section(const Diagnosis& found) {
                              cause_and_remedy(*same.cause.effect)},
                             false});
       table.caption =
-          "No points of this kind tell the causes marked \"or\" from the one above them.";
+          fmt::format("No {} of this kind tell the causes marked \"or\" from the one above them.",
+                      name(found.observations));
     }
   }
   return {found.verdict == Verdict::named_set ? "One of these"
@@ -101,7 +102,23 @@ Section bounds_section(const Diagnosis& found) {
   return section;
 }
 
+namespace {
+
+Section bad_distances_section(const Diagnosis& found) {
+  Table table{{{"distance"}, {"read less predicted, mm", true}, {"in sigmas", true}},
+              {},
+              "Against what all the other distances make of it. They were set aside; measure them "
+              "again."};
+  for (const auto& bad : found.bad_points)
+    table.rows.push_back(
+        {{reading_name(found, bad.index), fixed(bad.off_mm, 2), fixed(bad.distance, 1)}, true});
+  return {"Bad distances", {std::move(table)}};
+}
+
+}  // namespace
+
 Section bad_points_section(const Diagnosis& found) {
+  if (is_of_distances(found)) return bad_distances_section(found);
   Table table{{{"point"}, {"right of its mark, mm", true}, {"up, mm", true}, {"in sigmas", true}},
               {},
               "Where the tool would have to have been for the reading to be right. They were set "
@@ -142,17 +159,31 @@ Section settings_section(const Diagnosis& found) {
   return {"The machine's settings", {std::move(table)}};
 }
 
+namespace {
+
+std::string noise_in_words(const Diagnosis& found) {
+  if (found.stated_tape) {
+    return fmt::format(
+        "Noise as stated: {:g} mm a reading of the tape and {:g} mm a hole on either axis (one "
+        "sigma, {:g} degrees of freedom); ",
+        found.stated_tape->tape_sigma_mm,
+        found.stated_tape->hole_sigma_mm,
+        found.stated_tape->dof);
+  }
+  if (!found.stated_noise) return "The noise was not stated; ";
+  return fmt::format(
+      "Noise as stated: {:g} mm a chain and {:g} mm a mark (one sigma, {:g} degrees of freedom); ",
+      found.stated_noise->length_mm,
+      found.stated_noise->position_mm,
+      found.stated_noise->dof);
+}
+
+}  // namespace
+
 Section method_section(const Diagnosis& found) {
   Section section{"What this rests on", {}};
   for (const std::string& note : found.notes) section.blocks.emplace_back(Paragraph{typeset(note)});
-  std::string noise = found.stated_noise
-                          ? fmt::format(
-                                "Noise as stated: {:g} mm a chain and {:g} mm a mark (one "
-                                "sigma, {:g} degrees of freedom); ",
-                                found.stated_noise->length_mm,
-                                found.stated_noise->position_mm,
-                                found.stated_noise->dof)
-                          : std::string("The noise was not stated; ");
+  std::string noise = noise_in_words(found);
   noise += fmt::format("what was found is {:.2f} times that.", found.noise_factor);
   section.blocks.emplace_back(Paragraph{std::move(noise)});
   for (const auto& correction : found.data_corrections) {

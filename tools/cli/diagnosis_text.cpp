@@ -2,6 +2,7 @@
 // diagnosis_in_words: the whole answer as some fifty lines for a terminal.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "tools/cli/diagnosis_words.hpp"
@@ -45,7 +46,8 @@ void write_causes(Text& text, const Diagnosis& found) {
     text.line("    {}", cause.cause.effect->cause);
     text.line("    remedy: {}", cause.cause.effect->remedy);
     for (const SameCause& same : cause.same_as) {
-      text.line("    no points can tell it from {}: {}",
+      text.line("    no {} can tell it from {}: {}",
+                name(found.observations),
                 cause_title(same.cause),
                 sizes_in_words(same.parameters));
       text.line("      remedy: {}", same.cause.effect->remedy);
@@ -63,21 +65,31 @@ void write_hypotheses(Text& text, const Diagnosis& found) {
 }
 
 void write_errors(Text& text, const std::vector<GainRow>& rows, double floor_mm) {
-  text.line("  {:<32}{:>7}{:>15}{:>9}{:>9}", "", "rms", "90 % interval", "95 % of", "border");
+  const bool has_border =
+      std::any_of(rows.begin(), rows.end(), [](const GainRow& row) { return row.border_mm; });
+  text.line("  {:<32}{:>7}{:>15}{:>9}{}",
+            "",
+            "rms",
+            "90 % interval",
+            "95 % of",
+            has_border ? fmt::format("{:>9}", "border") : "");
   for (const GainRow& row : rows) {
-    text.line("  {:<32}{:>7.2f}{:>15}{:>9.2f}{:>9}",
+    text.line("  {:<32}{:>7.2f}{:>15}{:>9.2f}{}",
               row.what,
               row.held_out->rms_mm,
               fmt::format("{:.2f} to {:.2f}", row.held_out->low_mm, row.held_out->high_mm),
               row.held_out->percentile_95_mm,
-              row.border_mm ? fmt::format("{:.2f}", *row.border_mm) : "");
+              !has_border     ? ""
+              : row.border_mm ? fmt::format("{:>9.2f}", *row.border_mm)
+                              : fmt::format("{:>9}", ""));
   }
   text.line("  {:<32}{:>7.2f}", "noise of the readings", floor_mm);
 }
 
 void write_gain(Text& text, const Diagnosis& found) {
   if (found.gain) {
-    text.heading("Error of the tool at points held out, mm");
+    text.heading(is_of_distances(found) ? "Error of distances held out, mm"
+                                        : "Error of the tool at points held out, mm");
     write_errors(text, gain_rows(found), found.gain->noise_floor_mm);
     text.line("  {}; the same cause was named in {} of {} folds.",
               found.gain->scheme,
@@ -94,7 +106,8 @@ void write_gain(Text& text, const Diagnosis& found) {
 
 void write_follow_up(Text& text, const Diagnosis& found) {
   if (found.next_measurements.empty()) return;
-  text.heading("What to measure next (chaintrue plan GRID --after diagnosis.json)");
+  text.heading(fmt::format("What to measure next (chaintrue plan {} --after diagnosis.json)",
+                           is_of_distances(found) ? "HOLES" : "GRID"));
   const std::vector<std::string> sentences = follow_ups_in_words(found);
   for (std::size_t i = 0; i < sentences.size(); ++i) {
     text.line("  {:>2}. {} A single right name then has probability {}.",
@@ -120,8 +133,15 @@ void write_settings(Text& text, const Diagnosis& found) {
 
 void write_rest(Text& text, const Diagnosis& found) {
   if (!found.bad_points.empty()) {
-    text.heading("Bad points, to be measured again");
+    text.heading(fmt::format("Bad {}, to be measured again", name(found.observations)));
     for (const auto& bad : found.bad_points) {
+      if (is_of_distances(found)) {
+        text.line("  {}: read {} ({:.1f} sigmas)",
+                  reading_name(found, bad.index),
+                  off_in_words(bad.off_mm),
+                  bad.distance);
+        continue;
+      }
       text.line(
           "  point {}: the tool would have to have been {} mm right and {} mm up of its mark "
           "({:.1f} sigmas)",

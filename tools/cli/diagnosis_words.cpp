@@ -74,6 +74,7 @@ std::string reading_in_words(const NextMeasurement& next) {
 /// `again`: an earlier one is at the same place.
 std::string follow_up_in_words(const NextMeasurement& next, bool again) {
   if (next.kind == MeasurementKind::reading) return reading_in_words(next);
+  if (next.kind == MeasurementKind::distance) return capitalised(next.what) + ".";
   std::string text = again ? "the same place, the sled set down anew" : next.what;
   if (text.empty() || text.back() != '.') text += '.';
   if (!next.mark) return text;
@@ -100,6 +101,26 @@ std::string hypothesis_title(const Hypothesis& hypothesis) {
 }
 
 std::string point_name(std::size_t index) { return fmt::format("point {}", index + 1); }
+
+bool is_of_distances(const grid::diagnosis::Diagnosis& found) {
+  return found.observations == grid::diagnosis::Observations::distances;
+}
+
+std::string reading_name(const grid::diagnosis::Diagnosis& found, std::size_t index) {
+  if (!is_of_distances(found)) return point_name(index);
+  for (const auto& distance : found.distances) {
+    if (distance.index == index) return "distance " + words_of_ends(distance);
+  }
+  return fmt::format("distance {}", index + 1);
+}
+
+std::size_t reading_count(const grid::diagnosis::Diagnosis& found) {
+  return is_of_distances(found) ? found.distances.size() : found.points.size();
+}
+
+std::string off_in_words(double off_mm) {
+  return fmt::format("{:.1f} mm too {}", std::abs(off_mm), off_mm > 0.0 ? "long" : "short");
+}
 
 std::string size_in_words(std::string_view parameter, double value, double sigma) {
   return grid::diagnosis::in_workshop_units({std::string(parameter), value, sigma});
@@ -213,14 +234,18 @@ std::vector<GainRow> gain_rows(const grid::diagnosis::Diagnosis& diagnosis) {
   const grid::diagnosis::Gain& gain = *diagnosis.gain;
   std::vector<GainRow> rows = {{"as delivered", &gain.as_delivered, {}}};
   if (gain.placed) rows.push_back({"sheet placed, machine as stated", &*gain.placed, {}});
-  rows.push_back({"calibrated", &gain.calibrated, gain.border.calibrated_mm});
+  // Distances have no border of their own.
+  const auto border = [&](double mm) {
+    return is_of_distances(diagnosis) ? std::nullopt : std::optional(mm);
+  };
+  rows.push_back({"calibrated", &gain.calibrated, border(gain.border.calibrated_mm)});
   if (!diagnosis.causes.empty()) {
-    rows.push_back({"with the cause", &gain.extended, gain.border.extended_mm});
+    rows.push_back({"with the cause", &gain.extended, border(gain.border.extended_mm)});
     rows.push_back({"with the cause and a surface",
                     &gain.extended_and_surface,
-                    gain.border.extended_and_surface_mm});
+                    border(gain.border.extended_and_surface_mm)});
   }
-  rows.push_back({"a surface only", &gain.surface_only, gain.border.surface_only_mm});
+  rows.push_back({"a surface only", &gain.surface_only, border(gain.border.surface_only_mm)});
   return rows;
 }
 

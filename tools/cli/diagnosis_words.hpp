@@ -20,6 +20,14 @@ namespace chaintrue::cli {
 
 /// "point 17": counted from one, as people count.
 [[nodiscard]] std::string point_name(std::size_t index);
+/// The same of what was measured: "point 3", or "distance A-B".
+[[nodiscard]] std::string reading_name(const grid::diagnosis::Diagnosis& found, std::size_t index);
+/// Whether distances between holes were measured in place of points.
+[[nodiscard]] bool is_of_distances(const grid::diagnosis::Diagnosis& found);
+/// How many points, or distances.
+[[nodiscard]] std::size_t reading_count(const grid::diagnosis::Diagnosis& found);
+/// "1.2 mm too short"
+[[nodiscard]] std::string off_in_words(double off_mm);
 
 /// A parameter in a workshop unit: `elongation` 0.0012 is "0.12 % longer links"; without a sigma
 /// where it is 0.

@@ -103,6 +103,22 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options) {
       *target_, *kinematics_, gcode::firmware(machine_.controller.kind));
 }
 
+gcode::CompensateOptions compensate_options(const GcodeOptions& options,
+                                            const GcodeMachine& machine) {
+  gcode::CompensateOptions result;
+  result.tolerance_mm = options.tolerance_mm;
+  result.decimals = options.decimals;
+  result.home = options.home_mm();
+  result.largest_correction_mm = options.largest_correction_mm;
+  result.steepest_correction = options.steepest_correction;
+  result.keep_rapids_whole = options.keep_rapids_whole;
+  result.home_is_zero = options.home_is_zero;
+  result.clamp_box = gcode::clamp_box(machine.machine());
+  result.half_play_mm = machine.half_play_mm();
+  result.map_hash = machine.map_hash();
+  return result;
+}
+
 GcodeText::GcodeText(const std::string& path) : path_(path) {
   if (path == "-") text_ = grid::files::read_whole_file(path);
 }

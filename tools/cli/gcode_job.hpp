@@ -67,6 +67,10 @@ class GcodeMachine {
   model::ChainLengths half_play_mm_;
 };
 
+/// What compensating needs to know, the program's own hash left out.
+[[nodiscard]] gcode::CompensateOptions compensate_options(const GcodeOptions& options,
+                                                          const GcodeMachine& machine);
+
 /// A program's lines; standard input for "-", which is kept in memory. \throws InputError where it
 /// cannot be read.
 class GcodeText {

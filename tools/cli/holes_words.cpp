@@ -52,45 +52,6 @@ std::string distances_in_words(const grid::MeasuredHoles& set, const grid::Holes
   return text;
 }
 
-std::string causes_in_words(const grid::MeasuredHoles& set, const grid::HolesFit& fit) {
-  constexpr double kWorthNaming = 0.03;
-  const std::vector<grid::ScoredCause> causes = scored_causes(set, fit);
-  if (causes.empty()) return "No effect of the catalogue can act on this machine.\n";
-  const grid::ScoredCause& first = causes.front();
-  constexpr double kNamed = 0.8;
-  const auto called = [](const grid::ScoredCause& cause) {
-    return cause.side.empty() ? cause.effect : fmt::format("{} ({})", cause.effect, cause.side);
-  };
-  std::string text;
-  if (first.effect == "nothing") {
-    text = fmt::format("Settings alone explain the distances ({:.0f} %).\n",
-                       100.0 * first.probability);
-  } else if (first.probability >= kNamed) {
-    text = fmt::format("{} explains the distances ({:.0f} %): {} = {:.3g} +- {:.2g}.\n",
-                       called(first),
-                       100.0 * first.probability,
-                       first.parameter,
-                       first.value,
-                       first.sigma);
-  } else {
-    text = "These distances do not tell the causes below apart.\n";
-  }
-  text += "\nOne cause at a time               probability   size\n";
-  for (const grid::ScoredCause& cause : causes) {
-    if (cause.probability < kWorthNaming) continue;
-    fmt::format_to(
-        std::back_inserter(text),
-        "  {:<32}{:>9.0f} %   {}\n",
-        called(cause),
-        100.0 * cause.probability,
-        cause.parameter.empty()
-            ? std::string{}
-            : fmt::format("{} {:.3g} +- {:.2g}", cause.parameter, cause.value, cause.sigma));
-  }
-  text += "Not proved: two causes together, and any that moves the whole machine or the sheet.\n";
-  return text;
-}
-
 std::string distances_in_number(const grid::MeasuredHoles& set) {
   const auto edges = std::count_if(set.distances.begin(),
                                    set.distances.end(),

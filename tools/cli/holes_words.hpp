@@ -13,9 +13,6 @@ namespace chaintrue::cli {
 /// Each distance: measured, commanded, and what the others make of it.
 [[nodiscard]] std::string distances_in_words(const grid::MeasuredHoles& set,
                                              const grid::HolesFit& fit);
-/// What alone, of the catalogue's effects, would explain the distances, and what the settings do.
-[[nodiscard]] std::string causes_in_words(const grid::MeasuredHoles& set,
-                                          const grid::HolesFit& fit);
 /// "20 distances", "18 distances and 6 to the sheet's edges".
 [[nodiscard]] std::string distances_in_number(const grid::MeasuredHoles& set);
 /// The holes and what to measure, as a list for the workshop.

@@ -15,12 +15,14 @@
 
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
+#include "grid/files/holes_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/measurement_plan.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/follow_up.hpp"
+#include "tools/cli/follow_up_holes.hpp"
 #include "tools/cli/plan_check.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/plan_holes.hpp"
@@ -30,6 +32,7 @@ namespace chaintrue::cli {
 namespace {
 
 namespace files = grid::files;
+using grid::diagnosis::MeasurementKind;
 
 struct PlanOptions {
   std::string grid;
@@ -108,32 +111,72 @@ std::string draw_next(const grid::diagnosis::Diagnosis& found, const grid::Measu
   return draw_follow_up(drawing, found.extended_machine.bed);
 }
 
+bool is_json(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return begin != std::string::npos && text[begin] == '{';
+}
+
+int made_from_others(const PlanOptions& options, const std::string& file, std::string_view what) {
+  fmt::print(stderr,
+             "{} was made from other {} than those of {}: diagnose these first.\n",
+             options.after,
+             what,
+             file);
+  return kBadInput;
+}
+
+int run_holes_follow_up(const PlanOptions& options, const std::string& text) {
+  const std::string file = files::name_in_messages(options.grid);
+  files::HolesOptions holes_options;
+  if (!options.machine.empty()) holes_options.machine = files::read_machine(options.machine);
+  const grid::MeasuredHoles set = files::parse_holes(text, file, holes_options).holes;
+  const grid::diagnosis::Diagnosis found = files::read_diagnosis(options.after);
+  if (!is_of_these(found, set)) return made_from_others(options, file, "holes");
+  std::vector<files::OutputFile> outputs;
+  if (!options.drawing.empty()) {
+    FollowUpDrawing drawing;
+    for (const grid::Hole& hole : set.holes) drawing.measured.push_back(hole.commanded);
+    for (const FollowUpPlace& place : follow_up_places(found))
+      drawing.next.push_back({place.numbers, place.mark});
+    outputs.push_back({options.drawing, draw_follow_up(drawing, found.extended_machine.bed)});
+  }
+  outputs.push_back(
+      {options.output,
+       is_json(text) ? holes_follow_up_json(found, set) : holes_follow_up_csv(found, set)});
+  files::write_whole_files(outputs);
+  fmt::print(stderr, "{}", follow_up_list(found));
+  const bool has_readings = std::any_of(
+      found.next_measurements.begin(), found.next_measurements.end(), [](const auto& next) {
+        return next.kind == MeasurementKind::reading;
+      });
+  if (has_readings) {
+    fmt::print(stderr,
+               "A holes file holds no readings of the chain: where it reads long, diagnose again "
+               "with --accept-class.\n");
+  }
+  return kDone;
+}
+
 int run_follow_up(const PlanOptions& options) {
   const std::string text = files::read_whole_file(options.grid);
+  if (files::looks_like_holes(text)) return run_holes_follow_up(options, text);
   const std::string file = files::name_in_messages(options.grid);
   files::GridOptions grid_options;
   if (!options.machine.empty()) grid_options.machine = files::read_machine(options.machine);
   const grid::MeasuredGrid measured = files::parse_grid(text, file, grid_options).grid;
   const grid::diagnosis::Diagnosis found = files::read_diagnosis(options.after);
-  if (!is_of(found, measured)) {
-    fmt::print(stderr,
-               "{} was made from other points than those of {}: diagnose these first.\n",
-               options.after,
-               file);
-    return kBadInput;
-  }
-  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  const bool is_json = begin != std::string::npos && text[begin] == '{';
+  if (!is_of(found, measured)) return made_from_others(options, file, "points");
   std::vector<files::OutputFile> outputs;
   if (!options.drawing.empty()) outputs.push_back({options.drawing, draw_next(found, measured)});
   outputs.push_back(
-      {options.output, is_json ? follow_up_json(found, measured) : follow_up_csv(found, measured)});
+      {options.output,
+       is_json(text) ? follow_up_json(found, measured) : follow_up_csv(found, measured)});
   files::write_whole_files(outputs);
   fmt::print(stderr, "{}", follow_up_list(found));
   const bool has_readings = std::any_of(found.next_measurements.begin(),
                                         found.next_measurements.end(),
                                         [](const auto& next) { return !next.mark.has_value(); });
-  if (!is_json && has_readings) {
+  if (!is_json(text) && has_readings) {
     fmt::print(stderr,
                "A CSV holds no readings: make the grid a chaintrue_grid (JSON), which has a list "
                "of them.\n");

@@ -21,15 +21,7 @@ namespace files = grid::files;
 void check(const HolesPlanOptions& options, const model::Bed& bed) {
   OptionProblems problems;
   const grid::HolesPlanRequest& request = options.request;
-  problems.require("--holes", request.holes, grid::kFewestPlannedHoles, grid::kMostPlannedHoles);
-  if (request.distances != 0) {
-    problems.require("--distances",
-                     request.distances,
-                     grid::fewest_distances(request.edges),
-                     grid::most_distances(request.holes, request.edges));
-  }
-  problems.require("--tape-sigma-mm", request.tape_sigma_mm, 0.001, 100.0);
-  problems.require("--hole-sigma-mm", request.hole_sigma_mm, 0.0, 100.0);
+  require_sound(problems, request);
   problems.require("--tape-length-mm", request.longest_mm, 500.0, 100000.0);
   problems.require("--depth-mm", options.depth_mm, 0.1, 100.0);
   problems.require("--clearance-mm", options.clearance_mm, 0.1, 100.0);
@@ -39,6 +31,18 @@ void check(const HolesPlanOptions& options, const model::Bed& bed) {
 }
 
 }  // namespace
+
+void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& request) {
+  problems.require("--holes", request.holes, grid::kFewestPlannedHoles, grid::kMostPlannedHoles);
+  if (request.distances != 0) {
+    problems.require("--distances",
+                     request.distances,
+                     grid::fewest_distances(request.edges),
+                     grid::most_distances(request.holes, request.edges));
+  }
+  problems.require("--tape-sigma-mm", request.tape_sigma_mm, 0.001, 100.0);
+  problems.require("--hole-sigma-mm", request.hole_sigma_mm, 0.0, 100.0);
+}
 
 void add_plan_holes_options(CLI::App& verb, HolesPlanOptions& options, CLI::Option* points) {
   grid::HolesPlanRequest& request = options.request;

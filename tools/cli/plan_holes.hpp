@@ -7,6 +7,7 @@
 #include <string>
 
 #include "grid/holes/holes_plan.hpp"
+#include "tools/cli/effect_argument.hpp"
 
 namespace chaintrue::cli {
 
@@ -17,6 +18,9 @@ struct HolesPlanOptions {
   double clearance_mm = 5.0;
   std::string gcode;
 };
+
+/// The numbers of holes and distances and their sigmas, as every verb that plans holes has them.
+void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& request);
 
 void add_plan_holes_options(CLI::App& verb, HolesPlanOptions& options, CLI::Option* points);
 

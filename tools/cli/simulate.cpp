@@ -4,10 +4,8 @@
 /// bare readings at given places.
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +14,8 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/synthetic/generator.hpp"
 #include "model/calibration/setting.hpp"
-#include "tools/cli/effect_argument.hpp"
-#include "tools/cli/simulate_holes.hpp"
+#include "tools/cli/simulate_options.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -27,205 +23,6 @@ namespace {
 
 namespace files = grid::files;
 namespace synthetic = grid::synthetic;
-
-struct SimulateOptions {
-  std::string machine;
-  std::string grid;
-  std::string spacing = "regular";
-  int random_points = 0;
-  std::string marks;
-  std::string points;
-  HolesOptions holes;
-  std::string model = "elastic";
-  std::optional<double> margin_mm;
-  bool without_corners = false;
-  std::string region = "whole";
-  std::string order = "rows";
-  int repeats = 0;
-  double jitter_mm = 0.0;
-  synthetic::SyntheticNoise noise;
-  std::optional<double> stated_length_mm;
-  std::optional<double> stated_position_mm;
-  std::optional<double> stated_dof;
-  synthetic::BadPoints bad;
-  std::vector<std::string> effects;
-  std::vector<std::string> offsets;
-  bool draw_settings = false;
-  std::optional<double> sheet_shift_mm;
-  std::optional<double> sheet_rotation_mrad;
-  std::uint64_t seed = 1;
-  std::string name;
-  std::string output = "-";
-  std::string answer;
-};
-
-constexpr std::pair<std::string_view, model::Model> kModels[] = {
-    {"straight", model::Model::straight},
-    {"wrap", model::Model::wrap},
-    {"firmware", model::Model::firmware},
-    {"one_shot", model::Model::one_shot},
-    {"inextensible", model::Model::inextensible},
-    {"elastic", model::Model::elastic},
-    {"elastic_3d", model::Model::elastic_3d},
-};
-
-model::Model parse_model(const std::string& word, OptionProblems& problems) {
-  std::string known;
-  for (const auto& [name, value] : kModels) {
-    if (name == word) return value;
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
-  }
-  problems.add("--model", word, "one of " + known);
-  return model::Model::elastic;
-}
-
-template <class Enum>
-Enum parse_word(std::string_view option,
-                const std::string& word,
-                const std::optional<Enum>& value,
-                std::string expected,
-                OptionProblems& problems) {
-  if (!value) problems.add(option, word, std::move(expected));
-  return value.value_or(Enum{});
-}
-
-void parse_grid_size(const std::string& text, synthetic::Design& design, OptionProblems& problems) {
-  constexpr double kMost = 1000.0;
-  const std::size_t times = text.find('x');
-  double columns = 0.0;
-  double rows = 0.0;
-  const bool numbers = times != std::string::npos && parse_number(text.substr(0, times), columns) &&
-                       parse_number(text.substr(times + 1), rows);
-  const auto whole = [](double n) { return n == static_cast<int>(n); };
-  if (!numbers || columns < 2.0 || rows < 2.0 || columns > kMost || rows > kMost ||
-      !whole(columns) || !whole(rows)) {
-    problems.add("--grid", text, "columns x rows, each 2 to 1000, as in 7x4");
-    return;
-  }
-  design.columns = static_cast<int>(columns);
-  design.rows = static_cast<int>(rows);
-}
-
-std::vector<synthetic::SettingOffset> parse_offsets(const std::vector<std::string>& arguments,
-                                                    OptionProblems& problems) {
-  std::vector<synthetic::SettingOffset> offsets;
-  for (const std::string& argument : arguments) {
-    const std::size_t equals = argument.find('=');
-    const auto setting = model::setting_from_name(argument.substr(0, equals));
-    double offset = 0.0;
-    if (!setting || equals == std::string::npos ||
-        !parse_number(argument.substr(equals + 1), offset)) {
-      problems.add("--offset", argument, "setting=number, as in motor_left_x_mm=1.5");
-      continue;
-    }
-    offsets.push_back({*setting, offset});
-  }
-  return offsets;
-}
-
-synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& problems) {
-  synthetic::Design design;
-  design.margin_mm = options.margin_mm;
-  design.without_corners = options.without_corners;
-  design.region = parse_word("--region",
-                             options.region,
-                             synthetic::region(options.region),
-                             "whole, left, right, top or bottom",
-                             problems);
-  if (!options.marks.empty()) {
-    design.kind = synthetic::DesignKind::given;
-    design.given = files::read_points(options.marks);
-  } else if (options.random_points != 0) {
-    constexpr double kMostPoints = 1e6;
-    problems.require("--random", options.random_points, 1.0, kMostPoints);
-    design.kind = synthetic::DesignKind::random;
-    design.points = options.random_points;
-  } else {
-    parse_grid_size(options.grid, design, problems);
-    const auto kind = synthetic::design_kind(options.spacing);
-    const bool lattice =
-        kind == synthetic::DesignKind::regular || kind == synthetic::DesignKind::chebyshev;
-    if (!lattice) problems.add("--spacing", options.spacing, "regular or chebyshev");
-    design.kind = lattice ? *kind : synthetic::DesignKind::regular;
-  }
-  return design;
-}
-
-std::optional<grid::StatedNoise> parse_stated(const SimulateOptions& options,
-                                              OptionProblems& problems) {
-  constexpr double kMost_mm = 100.0;
-  if (!options.stated_length_mm && !options.stated_position_mm && !options.stated_dof)
-    return std::nullopt;
-  grid::StatedNoise stated;
-  stated.length_mm = options.stated_length_mm.value_or(options.noise.length_mm);
-  stated.position_mm = options.stated_position_mm.value_or(options.noise.position_mm);
-  stated.dof = options.stated_dof.value_or(stated.dof);
-  problems.require("--stated-length-noise-mm", stated.length_mm, 0.0, kMost_mm);
-  problems.require("--stated-position-noise-mm", stated.position_mm, 0.0, kMost_mm);
-  problems.require("--stated-dof", stated.dof, 1.0, 1e9);
-  return stated;
-}
-
-void check_ranges(const SimulateOptions& options,
-                  const model::Machine& machine,
-                  OptionProblems& problems) {
-  constexpr double kMostNoise_mm = 100.0;
-  constexpr double kMostRepeats = 1e6;
-  problems.require("--jitter-mm", options.jitter_mm, 0.0, 1000.0);
-  problems.require("--length-noise-mm", options.noise.length_mm, 0.0, kMostNoise_mm);
-  problems.require("--position-noise-mm", options.noise.position_mm, 0.0, kMostNoise_mm);
-  problems.require("--length-rounding-mm", options.noise.length_rounding_mm, 0.0, kMostNoise_mm);
-  problems.require(
-      "--position-rounding-mm", options.noise.position_rounding_mm, 0.0, kMostNoise_mm);
-  problems.require("--repeats", options.repeats, 0.0, kMostRepeats);
-  problems.require("--bad-points", options.bad.count, 0.0, kMostRepeats);
-  problems.require("--bad-size-mm", options.bad.size_mm, 0.0, 10000.0);
-  if (options.margin_mm) {
-    const double half = 0.49 * std::min(machine.bed.width_mm, machine.bed.height_mm);
-    problems.require("--margin-mm", *options.margin_mm, 0.0, half);
-  }
-  if (options.sheet_shift_mm)
-    problems.require("--sheet-shift-mm", *options.sheet_shift_mm, 0.0, 1000.0);
-  if (options.sheet_rotation_mrad) {
-    problems.require("--sheet-rotation-mrad", *options.sheet_rotation_mrad, 0.0, 500.0);
-  }
-}
-
-synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model::Machine& machine) {
-  OptionProblems problems;
-  synthetic::SyntheticSpec spec;
-  spec.design = parse_design(options, problems);
-  spec.order = parse_word("--order",
-                          options.order,
-                          synthetic::visiting_order(options.order),
-                          "rows, columns, serpentine_rows, serpentine_columns or random",
-                          problems);
-  spec.repeats = options.repeats;
-  spec.jitter_mm = options.jitter_mm;
-  spec.noise = options.noise;
-  spec.stated = parse_stated(options, problems);
-  spec.bad = options.bad;
-  spec.hidden = parse_effects(options.effects, machine, problems);
-  spec.offsets = parse_offsets(options.offsets, problems);
-  spec.draw_settings = options.draw_settings;
-  if (options.sheet_shift_mm || options.sheet_rotation_mrad) {
-    grid::SheetUncertainty sheet;
-    sheet.shift_mm = options.sheet_shift_mm.value_or(sheet.shift_mm);
-    sheet.rotation_mrad = options.sheet_rotation_mrad.value_or(sheet.rotation_mrad);
-    spec.sheet = sheet;
-  }
-  spec.model = parse_model(options.model, problems);
-  spec.seed = options.seed;
-  check_ranges(options, machine, problems);
-  problems.throw_if_any();
-  for (const model::MachineProblem& problem :
-       problems_of(synthetic::truth_of(machine, spec).machine)) {
-    problems.add(
-        "--offset", fmt::format("{} = {}", problem.parameter, problem.value), problem.expected);
-  }
-  problems.throw_if_any();
-  return spec;
-}
 
 int simulate_session(const SimulateOptions& options, const model::Machine& machine) {
   const synthetic::SyntheticSpec spec = parse_spec(options, machine);
@@ -278,13 +75,13 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
 int run_simulate(const SimulateOptions& options) {
   const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
   for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
-  if (options.holes.holes != 0) {
+  if (options.holes.plan.holes != 0) {
     synthetic::HolesSpec spec;
     OptionProblems problems;
     spec.hidden = parse_effects(options.effects, read.machine, problems);
     const std::vector<synthetic::SettingOffset> offsets = parse_offsets(options.offsets, problems);
     for (const synthetic::SettingOffset& offset : offsets) {
-      if (offset.setting < model::Setting::sheet_x_mm || options.holes.edges) continue;
+      if (offset.setting < model::Setting::sheet_x_mm || options.holes.plan.edges) continue;
       problems.add("--offset",
                    std::string(model::name(offset.setting)),
                    "a setting of the machine; without --edges holes know their distances, not the "
@@ -310,8 +107,9 @@ void add_design_options(CLI::App& verb, SimulateOptions& o) {
   where->add_option("--marks", o.marks, "CSV of marks (x_mm, y_mm), such as a plan's");
   where->add_option(
       "--points", o.points, "CSV of true places: readings there without noise, all digits");
-  where->add_option(
-      "--holes", o.holes.holes, "So many holes, as chaintrue plan --holes sets them, and a tape");
+  where->add_option("--holes",
+                    o.holes.plan.holes,
+                    "So many holes, as chaintrue plan --holes sets them, and a tape");
   where->require_option(1);
   verb.add_option("--spacing", o.spacing, "Of --grid: regular or chebyshev (denser at the edges)")
       ->capture_default_str();
@@ -360,12 +158,12 @@ void add_noise_options(CLI::App& verb, SimulateOptions& o) {
 }
 
 void add_holes_options(CLI::App& verb, HolesOptions& o) {
-  verb.add_option("--distances", o.distances, "Of --holes: how many are measured");
-  verb.add_flag("--edges", o.edges, "Of --holes: some of them to the sheet's edges");
-  verb.add_option("--tape-sigma-mm", o.tape_sigma_mm, "Of --holes: one sigma of a reading")
+  verb.add_option("--distances", o.plan.distances, "Of --holes: how many are measured");
+  verb.add_flag("--edges", o.plan.edges, "Of --holes: some of them to the sheet's edges");
+  verb.add_option("--tape-sigma-mm", o.plan.tape_sigma_mm, "Of --holes: one sigma of a reading")
       ->capture_default_str();
   verb.add_option("--hole-sigma-mm",
-                  o.hole_sigma_mm,
+                  o.plan.hole_sigma_mm,
                   "Of --holes: one sigma of a hole beside where its chains put it, on each axis")
       ->capture_default_str();
   verb.add_option("--hook-offset-mm", o.hook_offset_mm, "Of --holes: added to every reading")

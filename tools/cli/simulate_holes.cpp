@@ -7,8 +7,7 @@
 
 #include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/holes/holes_plan.hpp"
-#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/plan_holes.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -19,15 +18,7 @@ int simulate_the_holes(const HolesOptions& options,
                        const grid::synthetic::HolesSpec& spec,
                        const std::string& output) {
   OptionProblems problems;
-  problems.require("--holes", options.holes, grid::kFewestPlannedHoles, grid::kMostPlannedHoles);
-  if (options.distances != 0) {
-    problems.require("--distances",
-                     options.distances,
-                     grid::fewest_distances(options.edges),
-                     grid::most_distances(options.holes, options.edges));
-  }
-  problems.require("--tape-sigma-mm", options.tape_sigma_mm, 0.001, 100.0);
-  problems.require("--hole-sigma-mm", options.hole_sigma_mm, 0.0, 100.0);
+  require_sound(problems, options.plan);
   problems.require("--hook-offset-mm", options.hook_offset_mm, -1000.0, 1000.0);
   problems.require("--tape-rounding-mm", options.rounding_mm, 0.0, 100.0);
   for (const model::MachineProblem& problem : model::problems_of(truth)) {
@@ -35,12 +26,7 @@ int simulate_the_holes(const HolesOptions& options,
         "--offset", fmt::format("{} = {}", problem.parameter, problem.value), problem.expected);
   }
   problems.throw_if_any();
-  auto plan = grid::plan_holes(stated,
-                               {.holes = options.holes,
-                                .distances = options.distances,
-                                .edges = options.edges,
-                                .tape_sigma_mm = options.tape_sigma_mm,
-                                .hole_sigma_mm = options.hole_sigma_mm});
+  auto plan = grid::plan_holes(stated, options.plan);
   if (!plan) {
     fmt::print(stderr, "chaintrue simulate: {}\n", plan.error().sentence);
     return kNotSupportedOrOutside;

@@ -5,16 +5,14 @@
 
 #include <string>
 
+#include "grid/holes/holes_plan.hpp"
 #include "grid/synthetic/holes.hpp"
 
 namespace chaintrue::cli {
 
 struct HolesOptions {
-  int holes = 0;
-  int distances = 0;
-  bool edges = false;
-  double tape_sigma_mm = 0.5;
-  double hole_sigma_mm = 0.3;
+  /// 0 holes: a grid is simulated instead.
+  grid::HolesPlanRequest plan{.holes = 0};
   double hook_offset_mm = 0.0;
   double rounding_mm = 0.0;
 };

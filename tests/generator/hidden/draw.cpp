@@ -134,7 +134,7 @@ std::optional<Sized> draw_effect(const Yardstick& yardstick, Cause cause, Range 
   const CauseCard& c = card(cause);
   for (int n = 0; n < 30; ++n) {
     Hidden effect{cause, c.sides[dice.below(c.sides.size())], 0.0, 0.0};
-    if (c.whole) {
+    if (c.whole()) {
       // A single wanted strength: whole links come near it at best.
       const Range near = range.from == range.to ? Range{0.87 * range.from, 1.15 * range.to} : range;
       if (auto found = whole_links(yardstick, effect, near, dice)) return found;

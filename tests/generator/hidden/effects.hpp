@@ -44,19 +44,26 @@ enum class Where { nowhere, left, right, both, x, y };
 /// What a second parameter counts.
 enum class Place { none, phase, angle, visit };
 
+/// What an effect hangs on: where the tool is, the machine itself, or when a place was visited.
+enum class Nature { of_place, of_machine, of_order };
+
 struct CauseCard {
-  Cause cause;
   std::string_view id;
   std::string_view size_name;
   double lower, upper;
   double usual;
-  std::string_view place_name;
-  Place place;
-  bool whole;  ///< links
-  bool alters_machine;
-  bool needs_order;
   std::vector<Where> sides;
+  Nature nature = Nature::of_place;
+  Place place = Place::none;
+  std::string_view place_name = "";
+  Cause cause = Cause::tape_scale;
+
+  /// Of links.
+  [[nodiscard]] bool whole() const { return place == Place::visit; }
+  [[nodiscard]] bool alters_machine() const { return nature == Nature::of_machine; }
+  [[nodiscard]] bool needs_order() const { return nature == Nature::of_order; }
 };
+/// In the order of Cause.
 [[nodiscard]] const std::array<CauseCard, kCauses>& cards();
 [[nodiscard]] const CauseCard& card(Cause cause);
 

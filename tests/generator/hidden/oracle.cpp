@@ -44,7 +44,7 @@ class Unknowns {
   }
 
  private:
-  static bool size_is_free(const Hidden& h) { return !card(h.cause).whole; }
+  static bool size_is_free(const Hidden& h) { return !card(h.cause).whole(); }
   static bool place_is_free(const Hidden& h) {
     const Place place = card(h.cause).place;
     return place == Place::phase || place == Place::angle;

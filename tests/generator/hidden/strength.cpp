@@ -121,7 +121,7 @@ Signature Yardstick::projected(Eigen::VectorXd rows) const {
 std::optional<Signature> Yardstick::signature(std::span<const Hidden> effects) const {
   const TrueMachine with = altered(machine_, effects);
   bool machine_changes = false;
-  for (const Hidden& e : effects) machine_changes |= card(e.cause).alters_machine;
+  for (const Hidden& e : effects) machine_changes |= card(e.cause).alters_machine();
   std::vector<Lengths> read;
   if (machine_changes) {
     const auto at_rest = rests(with, visits_, &rests_);

@@ -97,13 +97,17 @@ std::optional<double> told(const generator::SealedSet& set,
   return tool_rms_mm(fresh, *predicted);
 }
 
-// The diagnosis's machine with every correction that it makes of the data.
-model::Machine extended(const grid::diagnosis::Diagnosis& found) {
+// The diagnosis's machine with the corrections that it makes of the data; of those that hang on the
+// visits only where these are the session's own: no map holds them.
+model::Machine extended(const grid::diagnosis::Diagnosis& found, bool same_visits) {
   model::Machine machine = found.extended_machine;
   machine.effects.insert(
       machine.effects.end(), found.data_corrections.begin(), found.data_corrections.end());
-  std::erase_if(machine.effects,
-                [](const model::AppliedEffect& e) { return e.effect == "link_miscount"; });
+  std::erase_if(machine.effects, [&](const model::AppliedEffect& e) {
+    const auto* effect = model::effects::find_effect(e.effect);
+    return e.effect == "link_miscount" ||
+           (!same_visits && model::effects::depends_on_visit(*effect));
+  });
   return machine;
 }
 
@@ -128,7 +132,7 @@ std::optional<TrueErrors> true_errors(const generator::SealedSet& set,
                                       const grid::diagnosis::Diagnosis& found) {
   const auto fresh = fresh_of(set);
   if (!fresh) return std::nullopt;
-  const auto predicted = predicted_by(extended(found), *fresh);
+  const auto predicted = predicted_by(extended(found, hangs_on_visits(set)), *fresh);
   const auto calibrated = told(set, *fresh, {});
   const auto oracle = told(set, *fresh, set.answer.hidden);
   if (!predicted || !calibrated || !oracle) return std::nullopt;

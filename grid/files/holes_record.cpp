@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/holes_record.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <utility>
+
+#include "grid/files/machine_record.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+const Record<Tape>& tape_record() {
+  static const auto record =
+      Record<Tape>("the tape")
+          .optional("sigma_mm", &Tape::sigma_mm, number(kTapeSigma))
+          .optional("hook_offset_mm", &Tape::hook_offset_mm, number({"mm", -1000.0, 1000.0}))
+          .optional("hook_sigma_mm", &Tape::hook_sigma_mm, number({"mm", 0.0, 100.0}));
+  return record;
+}
+
+const Record<SheetSize>& sheet_record() {
+  static const auto record =
+      Record<SheetSize>("the sheet")
+          .optional("width_mm", &SheetSize::width_mm, number({"mm", 100.0, 20000.0}))
+          .optional("height_mm", &SheetSize::height_mm, number({"mm", 100.0, 20000.0}))
+          .optional("size_sigma_mm", &SheetSize::size_sigma_mm, number({"mm", 0.0, 100.0}));
+  return record;
+}
+
+const Record<Hole>& hole_record() {
+  static const auto record = [] {
+    Record<Hole> hole("a hole");
+    hole.sparse("name", &Hole::name, text());
+    const auto coordinate = [&hole](const char* key, double model::BedPoint::*member) {
+      hole.custom(
+          key,
+          true,
+          kHoleCoordinate.expected(),
+          [member](const Cursor& at, Hole& h) {
+            if (const auto value = at.number(kHoleCoordinate)) h.commanded.*member = *value;
+          },
+          [member](const Hole& h) { return std::optional<Json>(h.commanded.*member); });
+    };
+    coordinate("x_mm", &model::BedPoint::x_mm);
+    coordinate("y_mm", &model::BedPoint::y_mm);
+    return hole;
+  }();
+  return record;
+}
+
+/// A hole by its name or by its number.
+Record<StatedDistance>& end_of(Record<StatedDistance>& record,
+                               const std::string& key,
+                               std::string StatedDistance::*member) {
+  constexpr int kMost = 100000;
+  return record.custom(
+      key,
+      true,
+      "a hole's name or number",
+      [member](const Cursor& at, StatedDistance& distance) {
+        if (at.json().is_number()) {
+          if (const auto value = at.integer(0, kMost)) distance.*member = fmt::format("{}", *value);
+        } else if (const auto word = at.text()) {
+          distance.*member = *word;
+        }
+      },
+      [member](const StatedDistance& distance) { return std::optional<Json>(distance.*member); });
+}
+
+const Record<StatedDistance>& distance_record() {
+  static const auto record = [] {
+    Record<StatedDistance> distance("a distance");
+    end_of(distance, "from", &StatedDistance::from);
+    end_of(distance, "to", &StatedDistance::to);
+    distance.required("distance_mm", &StatedDistance::distance_mm, number(kTapeDistance))
+        .optional("sigma_mm", &StatedDistance::sigma_mm, number(kTapeSigma));
+    return distance;
+  }();
+  return record;
+}
+
+/// Reads a list of records and notes which were wrong.
+template <class T>
+void read_list(const Cursor& at,
+               const Record<T>& record,
+               std::vector<T>& values,
+               const std::function<void(T&, bool)>& note) {
+  if (!at.json().is_array()) return at.expect("a list");
+  for (std::size_t i = 0; i < at.json().size(); ++i) {
+    const std::size_t before = at.problems().list().size();
+    T value = record.read(at.element(i)).value_or(T{});
+    note(value, at.problems().list().size() > before);
+    values.push_back(std::move(value));
+  }
+}
+
+template <class T>
+std::function<std::optional<Json>(const StatedHoles&)> list_writer(
+    const Record<T>& record, std::vector<T> StatedHoles::*member) {
+  return [value = list(object(record)), member](const StatedHoles& stated) {
+    return std::optional<Json>(value.write(stated.*member));
+  };
+}
+
+}  // namespace
+
+const Record<StatedHoles>& holes_record() {
+  static const auto record =
+      Record<StatedHoles>("a set of holes", "chaintrue_holes")
+          .optional("name", &StatedHoles::name, text())
+          .optional("machine", &StatedHoles::machine, object(machine_record()))
+          .sparse("machine_file", &StatedHoles::machine_file, text())
+          .optional("tape", &StatedHoles::tape, object(tape_record()))
+          .optional("hole_sigma_mm", &StatedHoles::hole_sigma_mm, number({"mm", 0.0, 100.0}))
+          .optional("noise_dof", &StatedHoles::noise_dof, number({"", 1.0, 1e9}))
+          .optional("sheet", &StatedHoles::sheet, object(sheet_record()))
+          .custom(
+              "holes",
+              true,
+              "a list of holes",
+              [](const Cursor& at, StatedHoles& stated) {
+                read_list<Hole>(at, hole_record(), stated.holes, [&stated](Hole&, bool spoilt) {
+                  stated.is_hole_spoilt.push_back(spoilt);
+                });
+              },
+              list_writer(hole_record(), &StatedHoles::holes))
+          .custom(
+              "distances",
+              true,
+              "a list of distances",
+              [](const Cursor& at, StatedHoles& stated) {
+                read_list<StatedDistance>(
+                    at,
+                    distance_record(),
+                    stated.distances,
+                    [](StatedDistance& distance, bool spoilt) { distance.is_spoilt = spoilt; });
+              },
+              list_writer(distance_record(), &StatedHoles::distances))
+          .check([](const Cursor& at, StatedHoles& stated) {
+            if (stated.machine && !stated.machine_file.empty()) {
+              at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
+            }
+          });
+  return record;
+}
+
+}  // namespace chaintrue::grid::files

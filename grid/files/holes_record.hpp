@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A chaintrue_holes file as it stands, before the machine is fetched and the ends of distances are
+/// looked up: its JSON record, and its two tables as CSV. Private to grid/files.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grid/files/csv_table.hpp"
+#include "grid/files/holes_checks.hpp"
+#include "grid/files/json_reader.hpp"
+
+namespace chaintrue::grid::files {
+
+inline constexpr Range kHoleCoordinate{"mm", -20000.0, 20000.0};
+inline constexpr Range kTapeDistance{"mm", 0.1, 20000.0};
+inline constexpr Range kTapeSigma{"mm", 0.001, 100.0};
+
+struct StatedHoles {
+  std::string name;
+  std::optional<model::Machine> machine;
+  std::string machine_file;
+  Tape tape;
+  double hole_sigma_mm = MeasuredHoles{}.hole_sigma_mm;
+  double noise_dof = MeasuredHoles{}.noise_dof;
+  SheetSize sheet;
+  std::vector<Hole> holes;
+  std::vector<bool> is_hole_spoilt;
+  std::vector<StatedDistance> distances;
+};
+
+[[nodiscard]] const Record<StatedHoles>& holes_record();
+
+/// What a CSV says, and where: `places` refer to `rows`, which they keep.
+struct HolesTables {
+  StatedHoles stated;
+  HolesPlaces places;
+};
+/// \throws InputError with everything that is wrong.
+[[nodiscard]] HolesTables read_holes_tables(const std::string& text, Problems& problems);
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include "grid/files/holes_record.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+constexpr std::string_view kHoleHeader[] = {"hole", "x_mm", "y_mm"};
+constexpr std::string_view kDistanceHeader[] = {"from", "to", "distance_mm", "sigma_mm"};
+
+bool begins_with(const CsvRow& row, std::string_view word) {
+  return !row.empty() && row.front().text == word;
+}
+
+/// Reports a header line that is not the one expected.
+template <std::size_t n>
+void check_header(const CsvRow& row,
+                  const std::string_view (&names)[n],
+                  std::size_t required,
+                  Problems& problems) {
+  std::vector<std::string> found;
+  for (const CsvCell& cell : row) found.push_back(cell.text);
+  while (!found.empty() && found.back().empty()) found.pop_back();
+  bool fits = found.size() >= required && found.size() <= n;
+  for (std::size_t i = 0; fits && i < found.size(); ++i) fits = found[i] == names[i];
+  if (fits) return;
+  problems.add(row.front().place(),
+               joined(found),
+               fmt::format("the columns {}", fmt::join(std::begin(names), std::end(names), ",")));
+}
+
+/// Cells beyond the row's end read as empty, at the row's first cell.
+CsvCell cell_of(const CsvRow& row, std::size_t column) {
+  if (column < row.size()) return row[column];
+  CsvCell absent = row.front();
+  absent.text.clear();
+  return absent;
+}
+
+double required_number(const CsvCell& cell,
+                       std::string_view name,
+                       const Range& range,
+                       Problems& problems) {
+  if (cell.text.empty()) {
+    problems.add(cell.place(), "", fmt::format("{} ({})", range.expected(), name));
+    return 0.0;
+  }
+  return checked_number(cell.text, cell.place(), name, range, problems).value_or(0.0);
+}
+
+void read_hole_row(const CsvRow& row, StatedHoles& stated, Problems& problems) {
+  const std::size_t before = problems.list().size();
+  Hole hole;
+  hole.name = cell_of(row, 0).text;
+  hole.commanded = {required_number(cell_of(row, 1), "x_mm", kHoleCoordinate, problems),
+                    required_number(cell_of(row, 2), "y_mm", kHoleCoordinate, problems)};
+  stated.holes.push_back(hole);
+  stated.is_hole_spoilt.push_back(problems.list().size() > before);
+}
+
+void read_distance_row(const CsvRow& row, StatedHoles& stated, Problems& problems) {
+  const std::size_t before = problems.list().size();
+  StatedDistance distance;
+  distance.from = cell_of(row, 0).text;
+  distance.to = cell_of(row, 1).text;
+  distance.distance_mm = required_number(cell_of(row, 2), "distance_mm", kTapeDistance, problems);
+  const CsvCell sigma = cell_of(row, 3);
+  if (!sigma.text.empty()) {
+    distance.sigma_mm = checked_number(sigma.text, sigma.place(), "sigma_mm", kTapeSigma, problems);
+  }
+  distance.is_spoilt = problems.list().size() > before;
+  stated.distances.push_back(distance);
+}
+
+}  // namespace
+
+HolesTables read_holes_tables(const std::string& text, Problems& problems) {
+  const std::vector<CsvRow> rows = split_csv(text, separator_of(text), problems);
+  StatedHoles stated;
+  std::vector<CsvCell> hole_cells;
+  std::vector<CsvRow> distance_rows;
+  enum class Table { none, holes, distances } table = Table::none;
+  bool any_distances = false;
+  for (const CsvRow& row : rows) {
+    if (row.empty()) continue;
+    if (begins_with(row, "hole")) {
+      table = Table::holes;
+      check_header(row, kHoleHeader, 3, problems);
+    } else if (begins_with(row, "from")) {
+      table = Table::distances;
+      any_distances = true;
+      check_header(row, kDistanceHeader, 3, problems);
+    } else if (table == Table::holes) {
+      hole_cells.push_back(row.front());
+      read_hole_row(row, stated, problems);
+    } else if (table == Table::distances) {
+      distance_rows.push_back(row);
+      read_distance_row(row, stated, problems);
+    } else {
+      problems.add(row.front().place(),
+                   row.front().text,
+                   "a header line first: hole,x_mm,y_mm for the holes, or "
+                   "from,to,distance_mm,sigma_mm for the distances");
+      break;
+    }
+  }
+  if (!problems.any() && (stated.holes.empty() || !any_distances)) {
+    problems.add("",
+                 stated.holes.empty() ? "no holes" : "no distances",
+                 "two tables: lines below hole,x_mm,y_mm, and lines below "
+                 "from,to,distance_mm,sigma_mm");
+  }
+  problems.throw_if_any();
+  HolesPlaces places{
+      "the holes",
+      "the distances",
+      [cells = std::move(hole_cells)](std::size_t index) { return cells[index].place(); },
+      [found = std::move(distance_rows)](std::size_t index, std::string_view field) {
+        for (std::size_t c = 0; c < std::size(kDistanceHeader); ++c) {
+          if (kDistanceHeader[c] == field) return cell_of(found[index], c).place();
+        }
+        return found[index].front().place();
+      }};
+  return {std::move(stated), std::move(places)};
+}
+
+}  // namespace chaintrue::grid::files

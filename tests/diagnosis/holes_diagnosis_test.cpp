@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Distances between holes in the engine of a diagnosis: laws, bad input with its words, and how
+// often it is right. With CHAINTRUE_LONG set in the environment the rates are of many more sets.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/files/diagnosis_file.hpp"
+#include "grid/files/input_error.hpp"
+#include "grid/synthetic/random.hpp"
+#include "model/effects/catalogue.hpp"
+#include "tests/holes/hole_sets.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using ::testing::HasSubstr;
+using testing_support::nine_holes;
+
+bool is_long() { return std::getenv("CHAINTRUE_LONG") != nullptr; }
+
+DiagnosisOptions quick() {
+  DiagnosisOptions options;
+  options.gain = false;
+  options.next_measurements = false;
+  options.stability = false;
+  return options;
+}
+
+/// Settings off by draws from what is stated, and what is hidden beside them.
+MeasuredHoles holes(const std::vector<model::AppliedEffect>& hidden, std::uint64_t seed) {
+  synthetic::HolesSpec spec;
+  spec.draw_settings = true;
+  spec.seed = seed;
+  spec.hidden = hidden;
+  const auto made = synthetic::simulate_holes(nine_holes(), spec);
+  EXPECT_TRUE(made);
+  return made->set;
+}
+
+Diagnosis diagnosed(const MeasuredHoles& set, const DiagnosisOptions& options = quick()) {
+  const auto found = diagnose(set, options);
+  EXPECT_TRUE(found) << found.error().sentence;
+  return *found;
+}
+
+bool names_something(const Diagnosis& found) { return !found.causes.empty(); }
+
+bool speaks_of(const Cause& cause, std::string_view effect, std::string_view side) {
+  const auto is = [&](const CauseId& id) {
+    return id.effect->id == effect && name(id.side) == side;
+  };
+  return is(cause.cause) || std::any_of(cause.same_as.begin(),
+                                        cause.same_as.end(),
+                                        [&](const SameCause& same) { return is(same.cause); });
+}
+
+/// Largest k of n with a chance of at least one in a thousand at rate p.
+int most_of(int n, double p) {
+  double tail = 1.0;
+  double term = std::pow(1.0 - p, n);
+  for (int k = 0; k <= n; ++k) {
+    tail -= term;
+    if (tail < 1e-3) return k;
+    term *= static_cast<double>(n - k) / static_cast<double>(k + 1) * p / (1.0 - p);
+  }
+  return n;
+}
+
+void expect_refused(const MeasuredHoles& set,
+                    DiagnosisFailure::Reason reason,
+                    const std::string& words) {
+  const auto found = diagnose(set, quick());
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().reason, reason);
+  EXPECT_THAT(found.error().sentence, HasSubstr(words));
+}
+
+TEST(HolesDiagnosisBadInput, TooFewDistancesSayWhichAreMissing) {
+  MeasuredHoles set = holes({}, 1);
+  set.distances.resize(6);
+  expect_refused(set,
+                 DiagnosisFailure::Reason::too_few_points,
+                 "6 distances are too few to name a cause: they tell four of the settings, and at "
+                 "least 8 are needed; nine holes and twenty distances are a good start. Measure "
+                 "also ");
+}
+
+TEST(HolesDiagnosisBadInput, AHookThatWasForgotten) {
+  MeasuredHoles set = holes({}, 1);
+  for (HoleDistance& distance : set.distances) distance.distance_mm += 40.0;
+  expect_refused(set,
+                 DiagnosisFailure::Reason::contradictory_settings,
+                 "all distances are about 40 mm longer than commanded, long ones and short ones "
+                 "alike: it looks as if the tape's hook offset, stated as 0 mm, is 40 mm");
+}
+
+TEST(HolesDiagnosisBadInput, NoMachine) {
+  MeasuredHoles set = holes({}, 1);
+  set.machine.reset();
+  expect_refused(set, DiagnosisFailure::Reason::no_machine, "give --machine M.json");
+}
+
+TEST(HolesDiagnosisBadInput, AHoleOutOfReach) {
+  MeasuredHoles set = holes({}, 1);
+  set.holes[0].commanded = {0.0, 5000.0};
+  expect_refused(set, DiagnosisFailure::Reason::point_unreachable, "hole A at (0.0, 5000.0)");
+}
+
+// The unknowns of the rows reproduce the covariance that a set of distances has as one observation.
+TEST(HolesDiagnosis, RowsAreTheObservation) {
+  MeasuredHoles set = holes({}, 3);
+  set.distances.push_back({.from = 0, .edge = SheetEdge::left, .distance_mm = 50.0});
+  set.distances.push_back({.from = 8, .edge = SheetEdge::right, .distance_mm = 50.0});
+  const auto session = make_session(set);
+  ASSERT_TRUE(session);
+  const State state = stated_state(*session);
+  const auto rows = base_rows(*session, state, {});
+  ASSERT_TRUE(rows);
+  const auto line = session->distances->linearise(
+      model::ReadingModel(state.machine), state.sheet, session->settings);
+  ASSERT_TRUE(line);
+  const auto tape = rows->row_sigma_mm.asDiagonal();
+  const Eigen::MatrixXd nuisance =
+      tape * nuisance_columns(*rows) * rows->sigma.tail(rows->nuisances).asDiagonal();
+  Eigen::MatrixXd covariance = nuisance * nuisance.transpose();
+  covariance.diagonal() += rows->row_sigma_mm.cwiseAbs2();
+  // Two ways to the same sums of some forty products each.
+  EXPECT_LT((covariance - line->covariance).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((tape * rows->e - line->residual).cwiseAbs().maxCoeff(), 1e-9);
+  const auto settings = static_cast<Eigen::Index>(session->settings.size());
+  EXPECT_LT(
+      (tape * rows->by_setting.leftCols(settings) - line->setting_jacobian).cwiseAbs().maxCoeff(),
+      1e-9 * line->setting_jacobian.cwiseAbs().maxCoeff());
+}
+
+// A setting's column foretells what moving the setting does: the whole path by differences.
+TEST(HolesDiagnosis, ColumnsAreDerivativesOfTheWholePath) {
+  const MeasuredHoles set = holes({}, 3);
+  const auto session = make_session(set);
+  const State state = stated_state(*session);
+  const auto rows = base_rows(*session, state, {});
+  constexpr double kStepMm = 0.01;
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    SCOPED_TRACE(model::name(session->settings[static_cast<std::size_t>(k)]));
+    Eigen::VectorXd up = rows->setting;
+    up(k) += kStepMm;
+    Eigen::VectorXd down = rows->setting;
+    down(k) -= kStepMm;
+    const auto above = base_rows(*session, with_settings(*session, state, up), {});
+    const auto below = base_rows(*session, with_settings(*session, state, down), {});
+    const Eigen::VectorXd slope = (below->e - above->e) / (2.0 * kStepMm);
+    // Poses are found to 1e-9 mm, divided by the step and the tape's half millimetre.
+    EXPECT_LT((slope - rows->by_setting.col(k)).cwiseAbs().maxCoeff(), 1e-6);
+  }
+}
+
+// What an addition to the chains does, by the linear map, is what the same addition does on the
+// whole path where it is an effect of the machine: a pitch error is an addition in proportion.
+TEST(HolesDiagnosis, AdditionsToTheChainsMoveDistancesAsThePathDoes) {
+  const auto session = make_session(holes({}, 3));
+  const State state = stated_state(*session);
+  const auto rows = base_rows(*session, state, {});
+  const model::effects::Effect& pitch = *model::effects::find_effect("chain_pitch_error");
+  constexpr double kElongation = 1e-5;
+  const auto path =
+      signature(*session, state, *rows, {&pitch, model::effects::EffectSide::left}, {kElongation});
+  ASSERT_TRUE(path);
+  Eigen::VectorXd linear = Eigen::VectorXd::Zero(session->rows());
+  for (std::size_t u = 0; u < rows->units.size(); ++u) {
+    for (const SeenPlace& seen : rows->units[u]) {
+      const double added = -kElongation * session->points[seen.place].lengths.left_mm;
+      linear(static_cast<Eigen::Index>(u)) += seen.by_chain(0, 0) * added;
+    }
+  }
+  // 1e-5 of the chain is some 0.02 mm; what is not linear in it is a millionth of that.
+  EXPECT_LT((*path - linear).norm(), 1e-4 * path->norm());
+}
+
+TEST(HolesDiagnosis, NeitherTheOrderOfTheFileNorTheDirectionOfTheTapeMatters) {
+  const MeasuredHoles set = holes({{"chain_pitch_error", "left", {{"elongation", 0.0015}}}}, 5);
+  DiagnosisOptions all = quick();
+  all.gain = all.next_measurements = true;
+  const Diagnosis first = diagnosed(set, all);
+  synthetic::Random random(11, 1);
+  for (int turn = 0; turn < 3; ++turn) {
+    SCOPED_TRACE(fmt::format("seed 11, turn {}", turn));
+    std::vector<std::size_t> hole(set.holes.size());
+    for (std::size_t i = 0; i < hole.size(); ++i) hole[i] = i;
+    random.shuffle(hole);
+    std::vector<std::size_t> distance(set.distances.size());
+    for (std::size_t k = 0; k < distance.size(); ++k) distance[k] = k;
+    random.shuffle(distance);
+    MeasuredHoles other = set;
+    for (std::size_t i = 0; i < hole.size(); ++i) other.holes[hole[i]] = set.holes[i];
+    for (std::size_t k = 0; k < distance.size(); ++k) {
+      HoleDistance moved = set.distances[k];
+      moved.from = hole[moved.from];
+      moved.to = hole[moved.to];
+      if (k % 2 == 0) std::swap(moved.from, moved.to);
+      other.distances[distance[k]] = moved;
+    }
+    const Diagnosis again = diagnosed(other, all);
+    EXPECT_EQ(again.sentence, first.sentence);
+    ASSERT_EQ(again.causes.size(), first.causes.size());
+    // Sums in another order: the last digits of some thousand additions.
+    EXPECT_NEAR(again.causes[0].parameters[0].value, first.causes[0].parameters[0].value, 1e-12);
+    EXPECT_NEAR(again.gain->extended.rms_mm, first.gain->extended.rms_mm, 1e-9);
+    for (std::size_t k = 0; k < distance.size(); ++k) {
+      EXPECT_NEAR(again.distances[distance[k]].before_mm, first.distances[k].before_mm, 1e-9);
+    }
+  }
+}
+
+TEST(HolesDiagnosis, TheFileHoldsAllOfIt) {
+  MeasuredHoles set = holes({{"chain_pitch_error", "left", {{"elongation", 0.0015}}}}, 5);
+  set.distances[3].distance_mm += 15.0;
+  const Diagnosis found = diagnosed(set, {});
+  ASSERT_EQ(found.bad_points.size(), 1u);
+  EXPECT_EQ(found.bad_points[0].index, 3u);
+  const std::string text = files::write_diagnosis(found);
+  const Diagnosis again = files::parse_diagnosis(text, "d.json");
+  EXPECT_EQ(files::write_diagnosis(again), text);
+  EXPECT_EQ(again.observations, Observations::distances);
+  EXPECT_EQ(again.bad_points[0].off_mm, found.bad_points[0].off_mm);
+  std::string spoilt = text;
+  spoilt.replace(spoilt.find("\"off_mm\""), 8, "\"of_mmm\"");
+  EXPECT_THROW((void)files::parse_diagnosis(spoilt, "d.json"), files::InputError);
+}
+
+// Where edges were measured the sheet is found, with its place among the settings.
+TEST(HolesDiagnosis, EdgesPlaceTheSheet) {
+  MeasuredHoles design = nine_holes();
+  const std::vector<std::pair<std::size_t, SheetEdge>> edges = {{0, SheetEdge::left},
+                                                                {0, SheetEdge::top},
+                                                                {6, SheetEdge::left},
+                                                                {6, SheetEdge::bottom},
+                                                                {8, SheetEdge::right},
+                                                                {8, SheetEdge::bottom}};
+  for (const auto& [hole, edge] : edges) {
+    design.distances.push_back({.from = hole, .edge = edge, .distance_mm = 0.0});
+  }
+  synthetic::HolesSpec spec;
+  spec.seed = 8;
+  const auto made = synthetic::simulate_holes(design, spec);
+  MeasuredHoles set = made->set;
+  // The sheet lies 12 mm further right than the bed's middle: marks on it are 12 mm further left.
+  constexpr double kShiftMm = 12.0;
+  for (HoleDistance& distance : set.distances) {
+    if (distance.edge == SheetEdge::left) distance.distance_mm -= kShiftMm;
+    if (distance.edge == SheetEdge::right) distance.distance_mm += kShiftMm;
+  }
+  const Diagnosis found = diagnosed(set, {});
+  EXPECT_FALSE(names_something(found)) << found.sentence;
+  const auto sheet =
+      std::find_if(found.settings.begin(), found.settings.end(), [](const CalibratedSetting& s) {
+        return s.setting == model::Setting::sheet_x_mm;
+      });
+  ASSERT_NE(sheet, found.settings.end());
+  EXPECT_LT(sheet->sigma, 4.0) << "mm: the motors' 3 mm and the sheet move together";
+  EXPECT_NEAR(sheet->calibrated, kShiftMm, 3.0 * sheet->sigma);
+  ASSERT_TRUE(found.gain && found.gain->placed);
+  EXPECT_LT(found.gain->placed->rms_mm, 0.5 * found.gain->as_delivered.rms_mm);
+}
+
+TEST(HolesDiagnosis, ADistanceThatIsOffIsNamedWithItsAmount) {
+  int right = 0;
+  int others = 0;
+  const int sets = 20;
+  for (std::uint64_t seed = 1; seed <= sets; ++seed) {
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    MeasuredHoles set = holes({}, seed);
+    const std::size_t k = seed % set.distances.size();
+    set.distances[k].distance_mm -= 12.0;
+    const Diagnosis found = diagnosed(set);
+    for (const BadPoint& bad : found.bad_points) {
+      if (bad.index != k) {
+        ++others;
+        continue;
+      }
+      right += found.verdict == Verdict::bad_points;
+      // One sigma of the tape, of both holes and of what the others leave open: about 1 mm.
+      EXPECT_NEAR(bad.off_mm, -12.0, 4.0);
+      EXPECT_THAT(found.sentence, HasSubstr("mm too short"));
+    }
+  }
+  // 12 mm are ten and more of what the others leave open.
+  EXPECT_GE(right, sets - 1);
+  EXPECT_LE(others, 1);
+}
+
+TEST(HolesDiagnosis, WhereNothingIsHiddenNothingIsNamed) {
+  const int sets = is_long() ? 1000 : 60;
+  int named = 0;
+  for (int seed = 1; seed <= sets; ++seed) {
+    named += names_something(diagnosed(holes({}, static_cast<std::uint64_t>(seed))));
+  }
+  RecordProperty("named", named);
+  std::printf("nothing hidden: %d of %d named\n", named, sets);
+  EXPECT_LE(named, most_of(sets, 0.01));
+}
+
+TEST(HolesDiagnosis, ACauseAloneIsNamed) {
+  // Each of a size that a workshop would know: seven units of noise and more.
+  const std::vector<model::AppliedEffect> all = {
+      {"chain_pitch_error", "left", {{"elongation", 0.0015}}},
+      {"chain_pitch_error", "right", {{"elongation", 0.0015}}},
+      {"chain_pitch_error", "both", {{"elongation", 0.002}}},
+      {"tape_scale", "both", {{"scale", 0.002}}},
+      {"ring_radius", "", {{"offset_mm", 10.0}}},
+      {"chain_sag", "", {{"relative_weight", 0.5}}},
+      {"side_pull", "", {{"force_n", 8.0}}},
+      {"chain_stretch", "", {{"compliance_per_n", 2e-5}}},
+      {"beam_flex", "", {{"flexibility_mm_per_n", 0.03}}},
+      {"angular_kink", "left", {{"slope_mm_per_rad", 20.0}, {"knee_rad", 0.6}}},
+  };
+  for (const model::AppliedEffect& planted : all) {
+    int right = 0;
+    int in_set = 0;
+    int wrong = 0;
+    const int sets = is_long() ? 100 : 8;
+    for (int seed = 1; seed <= sets; ++seed) {
+      const Diagnosis found = diagnosed(holes({planted}, static_cast<std::uint64_t>(seed)));
+      if (!names_something(found)) continue;
+      const auto is_it = [&](const Cause& cause) {
+        return speaks_of(cause, planted.effect, planted.side);
+      };
+      right += is_it(found.causes.front());
+      const bool held = std::any_of(found.causes.begin(), found.causes.end(), is_it);
+      in_set += held;
+      wrong += !held;
+    }
+    std::printf("%s %s: first %d, in the set %d, misnamed %d of %d\n",
+                planted.effect.c_str(),
+                planted.side.c_str(),
+                right,
+                in_set,
+                wrong,
+                sets);
+    EXPECT_GE(right, sets - most_of(sets, 0.1)) << planted.effect;
+    EXPECT_LE(wrong, most_of(sets, 0.05)) << planted.effect;
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis

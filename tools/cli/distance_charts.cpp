@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/distance_charts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tools/cli/diagnosis_words.hpp"
+#include "tools/report/bed_chart.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::DistancePicture;
+using grid::diagnosis::NextMeasurement;
+using model::BedPoint;
+using report::Chart;
+using report::DataTable;
+
+constexpr double kWidestPx = 9.0;
+constexpr double kThinPx = 1.2;
+
+struct Ends {
+  BedPoint from;
+  BedPoint to;
+};
+
+/// Where a hole lies, or an edge beside another place; a name that nobody bears lies there too.
+BedPoint place_of(const Diagnosis& found, const std::string& name, const BedPoint& beside) {
+  for (const auto& hole : found.holes) {
+    if (hole.name == name) return hole.mark;
+  }
+  const model::Bed& bed = found.extended_machine.bed;
+  if (name == "left") return {-0.5 * bed.width_mm, beside.y_mm};
+  if (name == "right") return {0.5 * bed.width_mm, beside.y_mm};
+  if (name == "top") return {beside.x_mm, 0.5 * bed.height_mm};
+  if (name == "bottom") return {beside.x_mm, -0.5 * bed.height_mm};
+  return beside;
+}
+
+Ends ends_of(const Diagnosis& found, const DistancePicture& distance) {
+  const BedPoint from = place_of(found, distance.from, {});
+  return {from, place_of(found, distance.to, from)};
+}
+
+std::vector<report::Arrow> marks_of(const Diagnosis& found) {
+  std::vector<report::Arrow> marks;
+  for (const auto& hole : found.holes)
+    marks.push_back({.name = hole.name, .x_mm = hole.mark.x_mm, .y_mm = hole.mark.y_mm});
+  return marks;
+}
+
+struct Panel {
+  std::string title;
+  double DistancePicture::*residual;
+};
+
+double rms(const Diagnosis& found, double DistancePicture::*residual) {
+  double squares = 0.0, count = 0.0;
+  for (const DistancePicture& distance : found.distances) {
+    if (distance.bad) continue;
+    squares += std::pow(distance.*residual, 2);
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+/// The panels' tables, filled one by one.
+class Panels {
+ public:
+  explicit Panels(const Diagnosis& found) : found_(found) {}
+
+  /// A panel with its holes; lines are drawn in the one begun last.
+  void begin(const std::string& title, const std::string& note) {
+    number_ = static_cast<double>(heads_.rows.size());
+    heads_.rows.push_back({number_, title, note});
+    for (const auto& hole : found_.holes)
+      holes_.rows.push_back({number_, hole.name, hole.mark.x_mm, hole.mark.y_mm});
+  }
+  void hole(const std::string& name, const BedPoint& at) {
+    holes_.rows.push_back({number_, name, at.x_mm, at.y_mm});
+    marks_.push_back({.x_mm = at.x_mm, .y_mm = at.y_mm});
+  }
+  void line(const Ends& ends,
+            const std::string& name,
+            const std::string& text,
+            const std::string& color,
+            double width_px,
+            bool is_bad) {
+    lines_.rows.push_back({number_,
+                           name,
+                           ends.from.x_mm,
+                           ends.from.y_mm,
+                           ends.to.x_mm,
+                           ends.to.y_mm,
+                           text,
+                           color,
+                           width_px,
+                           is_bad});
+  }
+  Chart finish(Chart chart) {
+    chart.specification = "hole_distances";
+    const model::Bed& bed = found_.extended_machine.bed;
+    std::vector<report::Arrow> marks = marks_of(found_);
+    marks.insert(marks.end(), marks_.begin(), marks_.end());
+    chart.signals = report::bed_signals(
+        {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm},
+        marks);
+    chart.signals.push_back({"panels", static_cast<double>(heads_.rows.size())});
+    chart.data = {std::move(heads_), std::move(lines_), std::move(holes_)};
+    return chart;
+  }
+
+ private:
+  const Diagnosis& found_;
+  double number_ = 0.0;
+  std::vector<report::Arrow> marks_;
+  DataTable heads_{"heads", {"panel", "title", "note"}, {}};
+  DataTable lines_{
+      "lines",
+      {"panel", "name", "x1_mm", "y1_mm", "x2_mm", "y2_mm", "text", "color", "width_px", "is_bad"},
+      {}};
+  DataTable holes_{"holes", {"panel", "name", "x_mm", "y_mm"}, {}};
+};
+
+double largest(const Diagnosis& found, const std::vector<Panel>& panels) {
+  double value = 0.0;
+  for (const DistancePicture& distance : found.distances) {
+    if (distance.bad) continue;
+    for (const Panel& panel : panels) value = std::max(value, std::abs(distance.*panel.residual));
+  }
+  return value;
+}
+
+Chart residual_panels(const Diagnosis& found, const std::vector<Panel>& panels, std::string title) {
+  const double full_mm = largest(found, panels);
+  double noise_mm = 0.0;
+  Panels drawn(found);
+  for (const Panel& panel : panels) {
+    drawn.begin(panel.title, fmt::format("rms {:.2f} mm", rms(found, panel.residual)));
+    for (const DistancePicture& distance : found.distances) {
+      const double mm = distance.*panel.residual;
+      noise_mm = std::max(noise_mm, distance.noise_sigma_mm);
+      const double share = std::min(1.0, std::abs(mm) / std::max(full_mm, 1e-9));
+      drawn.line(ends_of(found, distance),
+                 words_of_ends(distance),
+                 fixed(mm, 2) + " mm",
+                 mm < 0.0 ? report::kAfterColor : report::kBeforeColor,
+                 std::max(kThinPx, kWidestPx * share),
+                 distance.bad);
+    }
+  }
+  return drawn.finish(
+      {.title = std::move(title),
+       .caption = fmt::format("Vermilion: more was read than predicted; blue: less. The widest "
+                              "lines are off by {:.2f} mm; one sigma of the noise is up to {:.2f} "
+                              "mm. Dashed: set aside.",
+                              full_mm,
+                              noise_mm)});
+}
+
+/// Dots of one kind against something of the distance.
+struct Scatter {
+  std::string title;
+  std::string caption;
+  std::string x_title;
+  double (*x)(const DistancePicture&, const Ends&);
+};
+
+struct Window {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+Window window_of(const std::vector<double>& values, double share, double least) {
+  if (values.empty()) return {0.0, least};
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double margin = std::max(share * (*high - *low), 0.5 * (least - (*high - *low)));
+  return {*low - margin, *high + margin};
+}
+
+Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
+  constexpr double kLeastSpanMm = 0.5;
+  const bool has_after = !found.causes.empty();
+  std::vector<double> along, up = {0.0};
+  for (const DistancePicture& distance : found.distances) {
+    along.push_back(scatter.x(distance, ends_of(found, distance)));
+    if (distance.bad) continue;
+    up.push_back(distance.before_mm);
+    if (has_after) up.push_back(distance.after_mm);
+  }
+  const Window x = window_of(along, 0.04, 1e-6), y = window_of(up, 0.08, kLeastSpanMm);
+  DataTable points{"points", {"name", "x", "y_mm", "is_first", "is_bad"}, {}};
+  for (std::size_t k = 0; k < found.distances.size(); ++k) {
+    const DistancePicture& distance = found.distances[k];
+    const auto add = [&](double mm, bool is_first) {
+      points.rows.push_back({words_of_ends(distance),
+                             along[k],
+                             std::clamp(mm, y.low, y.high),
+                             is_first,
+                             distance.bad});
+    };
+    add(distance.before_mm, true);
+    if (has_after) add(distance.after_mm, false);
+  }
+  Chart chart{
+      .specification = "residual_scatter", .title = scatter.title, .caption = scatter.caption};
+  chart.data = {std::move(points), DataTable{"curve", {"x", "y_mm"}, {}}};
+  chart.signals = {{"x_title", scatter.x_title},
+                   {"x_min", x.low},
+                   {"x_max", x.high},
+                   {"bottom_mm", y.low},
+                   {"top_mm", y.high},
+                   {"first_label", std::string("calibrated")},
+                   {"second_label", std::string(has_after ? "with the cause" : "")},
+                   {"first_color", std::string(report::kBeforeColor)},
+                   {"second_color", std::string(report::kAfterColor)}};
+  return chart;
+}
+
+}  // namespace
+
+Chart distance_chart(const Diagnosis& found) {
+  std::vector<Panel> panels = {{"Before: the machine calibrated", &DistancePicture::before_mm}};
+  if (!found.causes.empty())
+    panels.push_back({"After: with what was named", &DistancePicture::after_mm});
+  return residual_panels(found, panels, "The distances, as read less as predicted");
+}
+
+Chart distance_strip_chart(const Diagnosis& found) {
+  std::vector<Panel> panels = {{"Measured", &DistancePicture::before_mm}};
+  const bool several =
+      found.causes.size() > 1 && found.verdict != grid::diagnosis::Verdict::named_set;
+  panels.push_back({several ? fmt::format("The {} causes named", found.causes.size())
+                            : cause_title(found.causes.front().cause),
+                    &DistancePicture::best_mm});
+  if (found.causes.front().rival) {
+    panels.push_back({fmt::format("Rival: {}", cause_title(*found.causes.front().rival)),
+                      &DistancePicture::rival_mm});
+  }
+  panels.push_back({"What is left", &DistancePicture::after_mm});
+  return residual_panels(found, panels, "Distance by distance");
+}
+
+report::ChartRow distance_scatter_charts(const Diagnosis& found) {
+  return {{scatter_chart(found,
+                         {"Against the distance's length",
+                          "A slope is a scale: a tape, or both chains, long or short.",
+                          "distance, mm",
+                          [](const DistancePicture& d, const Ends&) { return d.read_mm; }}),
+           scatter_chart(found,
+                         {"Against the way it was measured",
+                          "",
+                          "degrees from the horizontal",
+                          [](const DistancePicture&, const Ends& ends) {
+                            return std::atan2(std::abs(ends.to.y_mm - ends.from.y_mm),
+                                              std::abs(ends.to.x_mm - ends.from.x_mm)) *
+                                   180.0 / std::numbers::pi;
+                          }})}};
+}
+
+Chart next_distances_chart(const Diagnosis& found) {
+  Panels drawn(found);
+  drawn.begin("Next, on the bed", "");
+  for (const DistancePicture& distance : found.distances)
+    drawn.line(ends_of(found, distance),
+               words_of_ends(distance),
+               "measured",
+               report::kNeutralColor,
+               kThinPx,
+               false);
+  for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
+    const NextMeasurement& next = found.next_measurements[i];
+    const std::string number = fmt::format("{}.", i + 1);
+    const BedPoint from = next.mark ? *next.mark : place_of(found, next.from, {});
+    if (next.mark) drawn.hole(number, from);
+    for (const std::string& to : next.to)
+      drawn.line({from, place_of(found, to, from)},
+                 fmt::format("{} {}", number, next.what),
+                 "to be measured",
+                 report::kAfterColor,
+                 3.0,
+                 false);
+  }
+  return drawn.finish({.title = "What to measure",
+                       .caption = "Blue: to be measured, holes to be cut by their number in the "
+                                  "table. Grey: measured already."});
+}
+
+}  // namespace chaintrue::cli

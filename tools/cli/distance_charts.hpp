@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The pictures of a diagnosis whose readings are distances between holes: a line a distance,
+/// vermilion where more was read than predicted, blue where less, as wide as it is off.
+#pragma once
+
+#include "grid/diagnosis/diagnosis.hpp"
+#include "tools/report/page.hpp"
+
+namespace chaintrue::cli {
+
+/// The calibrated machine and, beside it, the machine with what was named.
+[[nodiscard]] report::Chart distance_chart(const grid::diagnosis::Diagnosis& found);
+/// Measured, best cause, rival, remainder. Precondition: a cause is named.
+[[nodiscard]] report::Chart distance_strip_chart(const grid::diagnosis::Diagnosis& found);
+/// Residuals against the distance's length, and against the way it was measured.
+[[nodiscard]] report::ChartRow distance_scatter_charts(const grid::diagnosis::Diagnosis& found);
+/// What was measured, in grey, and what to measure next.
+[[nodiscard]] report::Chart next_distances_chart(const grid::diagnosis::Diagnosis& found);
+
+}  // namespace chaintrue::cli

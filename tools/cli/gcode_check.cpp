@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue gcode check and lengths: what a program does, without changing it.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <iterator>
+#include <string>
+
+#include "grid/files/machine_file.hpp"
+#include "tools/cli/gcode_verbs.hpp"
+#include "tools/gcode/path_lengths.hpp"
+#include "tools/gcode/survey.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using gcode::Findings;
+
+gcode::BedRectangle sheet(const GcodeOptions& options) {
+  const model::Bed bed =
+      options.machine.empty() ? model::Bed{} : grid::files::read_machine(options.machine).bed;
+  return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
+}
+
+void print_survey(const gcode::Survey& survey, bool json) {
+  const gcode::Box box = survey.box.value_or(gcode::Box{});
+  const double slowest = survey.slowest_mm_per_min.value_or(0.0);
+  const double fastest = survey.fastest_mm_per_min.value_or(0.0);
+  if (json) {
+    fmt::print(
+        "{{\"lines\": {}, \"rapids\": {}, \"feeds\": {}, \"arcs\": {}, \"probes\": {}, "
+        "\"path_mm\": {:.3f}, "
+        "\"x_mm\": [{:.3f}, {:.3f}], \"y_mm\": [{:.3f}, {:.3f}], \"z_mm\": [{:.3f}, {:.3f}], "
+        "\"feed_mm_per_min\": [{:.3f}, {:.3f}]}}\n",
+        survey.program.lines,
+        survey.rapids,
+        survey.feeds,
+        survey.arcs,
+        survey.probes,
+        survey.path_mm,
+        box.least.x_mm,
+        box.most.x_mm,
+        box.least.y_mm,
+        box.most.y_mm,
+        box.least.z_mm,
+        box.most.z_mm,
+        slowest,
+        fastest);
+    return;
+  }
+  fmt::print("{} lines: {} rapids, {} straight cuts, {} arcs; {:.1f} m of path\n",
+             survey.program.lines,
+             survey.rapids,
+             survey.feeds,
+             survey.arcs,
+             survey.path_mm / 1000.0);
+  if (!survey.box) {
+    fmt::print("the program goes nowhere in X and Y\n");
+    return;
+  }
+  fmt::print("X {:.3f} to {:.3f} mm, Y {:.3f} to {:.3f} mm, Z {:.3f} to {:.3f} mm\n",
+             box.least.x_mm,
+             box.most.x_mm,
+             box.least.y_mm,
+             box.most.y_mm,
+             box.least.z_mm,
+             box.most.z_mm);
+  if (survey.slowest_mm_per_min) fmt::print("feed {:.6g} to {:.6g} mm/min\n", slowest, fastest);
+}
+
+}  // namespace
+
+int run_gcode_check(const GcodeOptions& options) {
+  const GcodeText text(options.program);
+  auto source = text.open();
+  Findings findings;
+  const auto survey =
+      gcode::survey(source, options.dialect(), options.home_mm(), sheet(options), findings);
+  if (!survey) {
+    report(options.program, findings);
+    return report(options.program, survey.error());
+  }
+  print_survey(*survey, options.json);
+  if (options.map.empty()) return report(options.program, findings);
+  // With a map: everything that compensating would object to; what it would write is thrown away.
+  const GcodeMachine machine(options);
+  gcode::Compensator compensator(
+      machine.corrector(), compensate_options(options, machine), [](std::string_view) {});
+  auto again = text.open();
+  const auto outcome = compensator.run(again, options.dialect());
+  int code = report(options.program, compensator.findings());
+  for (const gcode::Problem& problem : findings.problems) {
+    const int own = report(options.program, problem);
+    if (code == kDone) code = own;
+  }
+  if (!outcome) return report(options.program, outcome.error());
+  if (!options.json && code == kDone) {
+    fmt::print("the largest correction is {:.2f} mm, on line {}\n",
+               outcome->largest_correction_mm,
+               outcome->largest_correction_line);
+  }
+  return code;
+}
+
+int run_gcode_lengths(const GcodeOptions& options) {
+  const GcodeMachine machine(options);
+  auto source = GcodeText(options.program).open();
+  PendingFile output(options.output);
+  if (!options.json) {
+    output.write(
+        "line,kind,x_mm,y_mm,z_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,feed_mm_per_min\n");
+  }
+  std::string row;
+  const auto write = [&](const gcode::PathLengths& place) {
+    row.clear();
+    const auto& [left, right] = place.answer.lengths;
+    const auto& [left_sigma, right_sigma] = place.answer.sigma;
+    if (options.json) {
+      fmt::format_to(std::back_inserter(row),
+                     "{{\"line\": {}, \"kind\": \"{}\", \"x_mm\": {:.6f}, \"y_mm\": {:.6f}, "
+                     "\"z_mm\": {:.6f}, \"left_mm\": {:.6f}, "
+                     "\"right_mm\": {:.6f}, \"left_sigma_mm\": {:.4f}, \"right_sigma_mm\": {:.4f}, "
+                     "\"feed_mm_per_min\": {}}}\n",
+                     place.line,
+                     gcode::name(place.kind),
+                     place.place.x_mm,
+                     place.place.y_mm,
+                     place.place.z_mm,
+                     left,
+                     right,
+                     left_sigma,
+                     right_sigma,
+                     place.kind == gcode::MoveKind::rapid
+                         ? std::string("null")
+                         : fmt::format("{:.3f}", place.feed_mm_per_min));
+    } else {
+      fmt::format_to(std::back_inserter(row),
+                     "{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{}\n",
+                     place.line,
+                     gcode::name(place.kind),
+                     place.place.x_mm,
+                     place.place.y_mm,
+                     place.place.z_mm,
+                     left,
+                     right,
+                     left_sigma,
+                     right_sigma,
+                     place.kind == gcode::MoveKind::rapid
+                         ? std::string()
+                         : fmt::format("{:.3f}", place.feed_mm_per_min));
+    }
+    output.write(row);
+  };
+  Findings findings;
+  const auto outcome = gcode::path_lengths(source,
+                                           options.dialect(),
+                                           machine.target(),
+                                           options.home_mm(),
+                                           options.every_mm,
+                                           write,
+                                           findings);
+  if (!outcome) return report(options.program, outcome.error());
+  output.commit();
+  return report(options.program, findings);
+}
+
+}  // namespace chaintrue::cli

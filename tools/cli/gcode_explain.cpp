@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue gcode explain.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid/files/input_error.hpp"
+#include "tools/cli/gcode_verbs.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+/// Keeps what one line does.
+struct LineEvents final : gcode::Sink {
+  gcode::Result<void> move(const gcode::Move& move) override {
+    if (listening) moves.push_back(move);
+    return {};
+  }
+  gcode::Result<void> word(const gcode::PassedWord& word) override {
+    if (listening) words += fmt::format(" {}", word.text);
+    return {};
+  }
+  bool listening = false;
+  std::vector<gcode::Move> moves;
+  std::string words;
+};
+
+void explain_move(const gcode::Move& move, model::BedPoint home, const GcodeMachine* machine) {
+  const model::BedPoint target{move.to.x_mm + home.x_mm, move.to.y_mm + home.y_mm};
+  fmt::print("  {} to X{:.4f} Y{:.4f} Z{:.4f} mm on the sheet, {:.4f} mm long\n",
+             gcode::name(move.kind),
+             target.x_mm,
+             target.y_mm,
+             move.to.z_mm,
+             gcode::length_mm(move));
+  if (move.arc) {
+    fmt::print("    centre X{:.4f} Y{:.4f}, radius {:.4f} mm, {:.4f} degrees\n",
+               move.arc->centre.x_mm + home.x_mm,
+               move.arc->centre.y_mm + home.y_mm,
+               move.arc->start_radius_mm,
+               move.arc->sweep_rad * 57.29577951308232);
+  }
+  if (machine == nullptr) return;
+  const auto answer = machine->target().query(target);
+  const auto command = machine->corrector().command(target);
+  if (!answer || !command) {
+    fmt::print("    {}\n",
+               answer ? gcode::explain(command.error()) : gcode::explain(answer.error()));
+    return;
+  }
+  fmt::print("    chains: left {:.4f} mm (sigma {:.3f}), right {:.4f} mm (sigma {:.3f})\n",
+             answer->lengths.left_mm,
+             answer->sigma.left_mm,
+             answer->lengths.right_mm,
+             answer->sigma.right_mm);
+  fmt::print("    command for {}: X{:.4f} Y{:.4f}, corrected by X{:+.4f} Y{:+.4f} mm\n",
+             machine->corrector().firmware().name,
+             command->x_mm,
+             command->y_mm,
+             command->x_mm - target.x_mm,
+             command->y_mm - target.y_mm);
+}
+
+}  // namespace
+
+int run_gcode_explain(const GcodeOptions& options) {
+  const std::size_t colon = options.program.rfind(':');
+  std::size_t line = 0;
+  const char* begin = options.program.data() + (colon == std::string::npos ? 0 : colon + 1);
+  const char* end = options.program.data() + options.program.size();
+  if (colon == std::string::npos || std::from_chars(begin, end, line).ptr != end || line == 0) {
+    throw grid::files::InputError(
+        {{"explain", "", options.program, "a file and a line, such as part.nc:12"}});
+  }
+  const std::string file = options.program.substr(0, colon);
+  std::unique_ptr<GcodeMachine> machine;
+  if (!options.map.empty()) machine = std::make_unique<GcodeMachine>(options);
+  auto source = GcodeText(file).open();
+  LineEvents events;
+  gcode::Program program(source, options.dialect(), events);
+  const auto print_state = [&](const char* title) {
+    fmt::print("{}\n", title);
+    for (const std::string& text : program.interpreter().describe()) fmt::print("  {}\n", text);
+  };
+  while (program.next_line() != line) {
+    const auto more = program.step();
+    if (!more) return report(file, more.error());
+    if (!*more)
+      return report(
+          file,
+          gcode::Problem{
+              gcode::ProblemName::bad_flow, {line, 0}, "the program never comes to this line"});
+  }
+  print_state("before:");
+  events.listening = true;
+  const auto more = program.step();
+  if (!more) return report(file, more.error());
+  fmt::print("line {}:{}\n", line, events.words.empty() ? "" : " passes" + events.words);
+  for (const gcode::Move& move : events.moves) explain_move(move, options.home_mm(), machine.get());
+  print_state("after:");
+  return kDone;
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/simulate_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "grid/files/points_file.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+namespace synthetic = grid::synthetic;
+
+constexpr std::pair<std::string_view, model::Model> kModels[] = {
+    {"straight", model::Model::straight},
+    {"wrap", model::Model::wrap},
+    {"firmware", model::Model::firmware},
+    {"one_shot", model::Model::one_shot},
+    {"inextensible", model::Model::inextensible},
+    {"elastic", model::Model::elastic},
+    {"elastic_3d", model::Model::elastic_3d},
+};
+
+template <class Enum>
+Enum parse_word(std::string_view option,
+                const std::string& word,
+                const std::optional<Enum>& value,
+                std::string expected,
+                OptionProblems& problems) {
+  if (!value) problems.add(option, word, std::move(expected));
+  return value.value_or(Enum{});
+}
+
+void parse_grid_size(const std::string& text, synthetic::Design& design, OptionProblems& problems) {
+  constexpr double kMost = 1000.0;
+  const std::size_t times = text.find('x');
+  double columns = 0.0;
+  double rows = 0.0;
+  const bool numbers = times != std::string::npos && parse_number(text.substr(0, times), columns) &&
+                       parse_number(text.substr(times + 1), rows);
+  const auto whole = [](double n) { return n == static_cast<int>(n); };
+  if (!numbers || columns < 2.0 || rows < 2.0 || columns > kMost || rows > kMost ||
+      !whole(columns) || !whole(rows)) {
+    problems.add("--grid", text, "columns x rows, each 2 to 1000, as in 7x4");
+    return;
+  }
+  design.columns = static_cast<int>(columns);
+  design.rows = static_cast<int>(rows);
+}
+
+synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& problems) {
+  synthetic::Design design;
+  design.margin_mm = options.margin_mm;
+  design.without_corners = options.without_corners;
+  design.region = parse_word("--region",
+                             options.region,
+                             synthetic::region(options.region),
+                             "whole, left, right, top or bottom",
+                             problems);
+  if (!options.marks.empty()) {
+    design.kind = synthetic::DesignKind::given;
+    design.given = files::read_points(options.marks);
+  } else if (options.random_points != 0) {
+    constexpr double kMostPoints = 1e6;
+    problems.require("--random", options.random_points, 1.0, kMostPoints);
+    design.kind = synthetic::DesignKind::random;
+    design.points = options.random_points;
+  } else {
+    parse_grid_size(options.grid, design, problems);
+    const auto kind = synthetic::design_kind(options.spacing);
+    const bool lattice =
+        kind == synthetic::DesignKind::regular || kind == synthetic::DesignKind::chebyshev;
+    if (!lattice) problems.add("--spacing", options.spacing, "regular or chebyshev");
+    design.kind = lattice ? *kind : synthetic::DesignKind::regular;
+  }
+  return design;
+}
+
+std::optional<grid::StatedNoise> parse_stated(const SimulateOptions& options,
+                                              OptionProblems& problems) {
+  constexpr double kMost_mm = 100.0;
+  if (!options.stated_length_mm && !options.stated_position_mm && !options.stated_dof)
+    return std::nullopt;
+  grid::StatedNoise stated;
+  stated.length_mm = options.stated_length_mm.value_or(options.noise.length_mm);
+  stated.position_mm = options.stated_position_mm.value_or(options.noise.position_mm);
+  stated.dof = options.stated_dof.value_or(stated.dof);
+  problems.require("--stated-length-noise-mm", stated.length_mm, 0.0, kMost_mm);
+  problems.require("--stated-position-noise-mm", stated.position_mm, 0.0, kMost_mm);
+  problems.require("--stated-dof", stated.dof, 1.0, 1e9);
+  return stated;
+}
+
+void check_ranges(const SimulateOptions& options,
+                  const model::Machine& machine,
+                  OptionProblems& problems) {
+  constexpr double kMostNoise_mm = 100.0;
+  constexpr double kMostRepeats = 1e6;
+  problems.require("--jitter-mm", options.jitter_mm, 0.0, 1000.0);
+  problems.require("--length-noise-mm", options.noise.length_mm, 0.0, kMostNoise_mm);
+  problems.require("--position-noise-mm", options.noise.position_mm, 0.0, kMostNoise_mm);
+  problems.require("--length-rounding-mm", options.noise.length_rounding_mm, 0.0, kMostNoise_mm);
+  problems.require(
+      "--position-rounding-mm", options.noise.position_rounding_mm, 0.0, kMostNoise_mm);
+  problems.require("--repeats", options.repeats, 0.0, kMostRepeats);
+  problems.require("--bad-points", options.bad.count, 0.0, kMostRepeats);
+  problems.require("--bad-size-mm", options.bad.size_mm, 0.0, 10000.0);
+  if (options.margin_mm) {
+    const double half = 0.49 * std::min(machine.bed.width_mm, machine.bed.height_mm);
+    problems.require("--margin-mm", *options.margin_mm, 0.0, half);
+  }
+  if (options.sheet_shift_mm)
+    problems.require("--sheet-shift-mm", *options.sheet_shift_mm, 0.0, 1000.0);
+  if (options.sheet_rotation_mrad) {
+    problems.require("--sheet-rotation-mrad", *options.sheet_rotation_mrad, 0.0, 500.0);
+  }
+}
+
+}  // namespace
+
+model::Model parse_model(const std::string& word, OptionProblems& problems) {
+  std::string known;
+  for (const auto& [name, value] : kModels) {
+    if (name == word) return value;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
+  }
+  problems.add("--model", word, "one of " + known);
+  return model::Model::elastic;
+}
+
+std::vector<synthetic::SettingOffset> parse_offsets(const std::vector<std::string>& arguments,
+                                                    OptionProblems& problems) {
+  std::vector<synthetic::SettingOffset> offsets;
+  for (const std::string& argument : arguments) {
+    const std::size_t equals = argument.find('=');
+    const auto setting = model::setting_from_name(argument.substr(0, equals));
+    double offset = 0.0;
+    if (!setting || equals == std::string::npos ||
+        !parse_number(argument.substr(equals + 1), offset)) {
+      problems.add("--offset", argument, "setting=number, as in motor_left_x_mm=1.5");
+      continue;
+    }
+    offsets.push_back({*setting, offset});
+  }
+  return offsets;
+}
+
+synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model::Machine& machine) {
+  OptionProblems problems;
+  synthetic::SyntheticSpec spec;
+  spec.design = parse_design(options, problems);
+  spec.order = parse_word("--order",
+                          options.order,
+                          synthetic::visiting_order(options.order),
+                          "rows, columns, serpentine_rows, serpentine_columns or random",
+                          problems);
+  spec.repeats = options.repeats;
+  spec.jitter_mm = options.jitter_mm;
+  spec.noise = options.noise;
+  spec.stated = parse_stated(options, problems);
+  spec.bad = options.bad;
+  spec.hidden = parse_effects(options.effects, machine, problems);
+  spec.offsets = parse_offsets(options.offsets, problems);
+  spec.draw_settings = options.draw_settings;
+  if (options.sheet_shift_mm || options.sheet_rotation_mrad) {
+    grid::SheetUncertainty sheet;
+    sheet.shift_mm = options.sheet_shift_mm.value_or(sheet.shift_mm);
+    sheet.rotation_mrad = options.sheet_rotation_mrad.value_or(sheet.rotation_mrad);
+    spec.sheet = sheet;
+  }
+  spec.model = parse_model(options.model, problems);
+  spec.seed = options.seed;
+  check_ranges(options, machine, problems);
+  problems.throw_if_any();
+  for (const model::MachineProblem& problem :
+       problems_of(synthetic::truth_of(machine, spec).machine)) {
+    problems.add(
+        "--offset", fmt::format("{} = {}", problem.parameter, problem.value), problem.expected);
+  }
+  problems.throw_if_any();
+  return spec;
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What is said to chaintrue simulate, and what it means.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grid/synthetic/generator.hpp"
+#include "tools/cli/effect_argument.hpp"
+#include "tools/cli/simulate_holes.hpp"
+
+namespace chaintrue::cli {
+
+struct SimulateOptions {
+  std::string machine;
+  std::string grid;
+  std::string spacing = "regular";
+  int random_points = 0;
+  std::string marks;
+  std::string points;
+  HolesOptions holes;
+  std::string model = "elastic";
+  std::optional<double> margin_mm;
+  bool without_corners = false;
+  std::string region = "whole";
+  std::string order = "rows";
+  int repeats = 0;
+  double jitter_mm = 0.0;
+  grid::synthetic::SyntheticNoise noise;
+  std::optional<double> stated_length_mm;
+  std::optional<double> stated_position_mm;
+  std::optional<double> stated_dof;
+  grid::synthetic::BadPoints bad;
+  std::vector<std::string> effects;
+  std::vector<std::string> offsets;
+  bool draw_settings = false;
+  std::optional<double> sheet_shift_mm;
+  std::optional<double> sheet_rotation_mrad;
+  std::uint64_t seed = 1;
+  std::string name;
+  std::string output = "-";
+  std::string answer;
+};
+
+/// Of --model; a word that is none becomes a problem.
+[[nodiscard]] model::Model parse_model(const std::string& word, OptionProblems& problems);
+/// Of --offset.
+[[nodiscard]] std::vector<grid::synthetic::SettingOffset> parse_offsets(
+    const std::vector<std::string>& arguments, OptionProblems& problems);
+/// A session's whole specification. \throws files::InputError with all that is wrong.
+[[nodiscard]] grid::synthetic::SyntheticSpec parse_spec(const SimulateOptions& options,
+                                                        const model::Machine& machine);
+
+}  // namespace chaintrue::cli
