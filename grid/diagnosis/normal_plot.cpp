@@ -12,8 +12,7 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr int kDraws = 499;
-constexpr int kInside = 475;    // 95 % of them
-constexpr int kOutermost = 12;  // 2.5 % of them
+constexpr int kInside = 474;  // 95 % of them
 
 /// Rows of the space that are points' rows: readings of the machine are none of the plot's.
 Eigen::Index rows_of_points(const Session& session, const Space& space) {
@@ -56,33 +55,31 @@ std::vector<double> shape_of(Eigen::VectorXd values) {
   return {values.begin(), values.end()};
 }
 
-/// How far the draws go at one rank.
-struct Reach {
+/// One rank over the draws: its mean, and how far 95 % of them lie below and above it.
+struct Rank {
   double mean = 0.0;
-  double below = 0.0;  ///< from the mean down to what 2.5 % are below
+  double below = 0.0;
   double above = 0.0;
 };
 
-Reach reach_at(const std::vector<std::vector<double>>& curves, std::size_t rank) {
-  std::vector<double> draws;
-  double sum = 0.0;
-  for (const auto& curve : curves) {
-    draws.push_back(curve[rank]);
-    sum += curve[rank];
-  }
+Rank rank_of(std::vector<double> draws) {
   std::sort(draws.begin(), draws.end());
-  const double mean = sum / static_cast<double>(draws.size());
-  return {mean, mean - draws[kOutermost], draws[draws.size() - 1 - kOutermost] - mean};
+  Rank rank;
+  for (const double value : draws) rank.mean += value / kDraws;
+  constexpr std::size_t kTail = kDraws / 40;
+  rank.below = rank.mean - draws[kTail];
+  rank.above = draws[kDraws - 1 - kTail] - rank.mean;
+  return rank;
 }
 
-/// Largest deviation of a curve over all ranks, in units of the reach there.
-double largest_deviation(const std::vector<Reach>& reaches, const std::vector<double>& curve) {
-  double largest = 0.0;
+/// How far a curve strays, as a multiple of what is usual at the rank where it strays most.
+double strays(const std::vector<Rank>& ranks, const std::vector<double>& curve) {
+  double most = 0.0;
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    const double off = curve[i] - reaches[i].mean;
-    largest = std::max(largest, off < 0.0 ? -off / reaches[i].below : off / reaches[i].above);
+    const double off = curve[i] - ranks[i].mean;
+    most = std::max(most, off < 0.0 ? -off / ranks[i].below : off / ranks[i].above);
   }
-  return largest;
+  return most;
 }
 
 }  // namespace
@@ -104,21 +101,23 @@ std::optional<NormalPlot> normal_plot(const Session& session,
   for (Eigen::Index draw = 0; draw < kDraws; ++draw) {
     curves.push_back(shape_of(noise.col(draw).head(rows)));
   }
-  std::vector<Reach> reaches;
-  for (std::size_t i = 0; i < plot.values.size(); ++i) reaches.push_back(reach_at(curves, i));
-  std::vector<double> deviations;
-  for (const auto& curve : curves) deviations.push_back(largest_deviation(reaches, curve));
-  std::sort(deviations.begin(), deviations.end());
-  const double own = largest_deviation(reaches, plot.values);
-  const auto as_far =
-      deviations.end() - std::lower_bound(deviations.begin(), deviations.end(), own);
-  // The data count as one draw.
-  plot.p_value = (static_cast<double>(as_far) + 1.0) / (kDraws + 1.0);
-  const double band = deviations[kInside - 1];
-  for (const Reach& reach : reaches) {
-    plot.expected.push_back(reach.mean);
-    plot.low.push_back(reach.mean - band * reach.below);
-    plot.high.push_back(reach.mean + band * reach.above);
+  std::vector<Rank> ranks;
+  for (std::size_t i = 0; i < plot.values.size(); ++i) {
+    std::vector<double> draws;
+    for (const auto& curve : curves) draws.push_back(curve[i]);
+    ranks.push_back(rank_of(std::move(draws)));
+  }
+  std::vector<double> usual;
+  for (const auto& curve : curves) usual.push_back(strays(ranks, curve));
+  std::sort(usual.begin(), usual.end());
+  const double own = strays(ranks, plot.values);
+  const auto as_far = usual.end() - std::lower_bound(usual.begin(), usual.end(), own);
+  plot.p_value = static_cast<double>(as_far + 1) / (kDraws + 1);
+  const double wide = usual[kInside - 1];
+  for (const Rank& rank : ranks) {
+    plot.expected.push_back(rank.mean);
+    plot.low.push_back(rank.mean - wide * rank.below);
+    plot.high.push_back(rank.mean + wide * rank.above);
   }
   return plot;
 }
