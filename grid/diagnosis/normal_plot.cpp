@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "grid/diagnosis/leading.hpp"
 #include "grid/synthetic/random.hpp"
@@ -56,19 +55,31 @@ std::vector<double> shape_of(Eigen::VectorXd values) {
   return {values.begin(), values.end()};
 }
 
-/// At each rank the draws' values, ascending.
-using Ranks = std::vector<std::vector<double>>;
+/// One rank over the draws: its mean, and how far 95 % of them lie below and above it.
+struct Rank {
+  double mean = 0.0;
+  double below = 0.0;
+  double above = 0.0;
+};
 
-/// How deep inside the draws a curve lies at its shallowest rank: 0 outside of all.
-int depth(const Ranks& ranks, const std::vector<double>& curve) {
-  auto least = static_cast<std::ptrdiff_t>(kDraws);
+Rank rank_of(std::vector<double> draws) {
+  std::sort(draws.begin(), draws.end());
+  Rank rank;
+  for (const double value : draws) rank.mean += value / kDraws;
+  constexpr std::size_t kTail = kDraws / 40;
+  rank.below = rank.mean - draws[kTail];
+  rank.above = draws[kDraws - 1 - kTail] - rank.mean;
+  return rank;
+}
+
+/// How far a curve strays, as a multiple of what is usual at the rank where it strays most.
+double strays(const std::vector<Rank>& ranks, const std::vector<double>& curve) {
+  double most = 0.0;
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    const std::vector<double>& at = ranks[i];
-    const auto below = std::lower_bound(at.begin(), at.end(), curve[i]) - at.begin();
-    const auto above = at.end() - std::upper_bound(at.begin(), at.end(), curve[i]);
-    least = std::min({least, below, above});
+    const double off = curve[i] - ranks[i].mean;
+    most = std::max(most, off < 0.0 ? -off / ranks[i].below : off / ranks[i].above);
   }
-  return static_cast<int>(least);
+  return most;
 }
 
 }  // namespace
@@ -90,28 +101,23 @@ std::optional<NormalPlot> normal_plot(const Session& session,
   for (Eigen::Index draw = 0; draw < kDraws; ++draw) {
     curves.push_back(shape_of(noise.col(draw).head(rows)));
   }
-  Ranks ranks(plot.values.size());
-  for (std::size_t i = 0; i < ranks.size(); ++i) {
-    double sum = 0.0;
-    for (const auto& curve : curves) {
-      ranks[i].push_back(curve[i]);
-      sum += curve[i];
-    }
-    std::sort(ranks[i].begin(), ranks[i].end());
-    plot.expected.push_back(sum / kDraws);
+  std::vector<Rank> ranks;
+  for (std::size_t i = 0; i < plot.values.size(); ++i) {
+    std::vector<double> draws;
+    for (const auto& curve : curves) draws.push_back(curve[i]);
+    ranks.push_back(rank_of(std::move(draws)));
   }
-  std::vector<int> depths;
-  for (const auto& curve : curves) depths.push_back(depth(ranks, curve));
-  const int own = depth(ranks, plot.values);
-  // The data count as one draw; of draws as deep as the data half are counted.
-  double shallower = 0.0;
-  for (const int d : depths) shallower += d < own ? 1.0 : d == own ? 0.5 : 0.0;
-  plot.p_value = (shallower + 1.0) / (kDraws + 1.0);
-  std::sort(depths.begin(), depths.end(), std::greater<>());
-  const auto edge = static_cast<std::size_t>(depths[kInside - 1]);
-  for (const auto& at : ranks) {
-    plot.low.push_back(at[edge]);
-    plot.high.push_back(at[at.size() - 1 - edge]);
+  std::vector<double> usual;
+  for (const auto& curve : curves) usual.push_back(strays(ranks, curve));
+  std::sort(usual.begin(), usual.end());
+  const double own = strays(ranks, plot.values);
+  const auto as_far = usual.end() - std::lower_bound(usual.begin(), usual.end(), own);
+  plot.p_value = static_cast<double>(as_far + 1) / (kDraws + 1);
+  const double wide = usual[kInside - 1];
+  for (const Rank& rank : ranks) {
+    plot.expected.push_back(rank.mean);
+    plot.low.push_back(rank.mean - wide * rank.below);
+    plot.high.push_back(rank.mean + wide * rank.above);
   }
   return plot;
 }

@@ -4,10 +4,10 @@
 /// normal noise that went through the same fit of settings and causes.
 ///
 /// Each set is divided by its own rms, so that the shape alone is judged; the size of the noise is
-/// the noise factor's business. The band is of all ranks together: it holds 95 of 100 draws whole
-/// (global envelope of extreme ranks, M. Myllymaki et al., J. R. Stat. Soc. B 79 (2017) 381,
-/// section 4), and the chance is the draws' share whose most extreme rank is as extreme as the
-/// data's.
+/// the noise factor's business. The band is of all ranks together: it holds 95 of 100 draws whole,
+/// each rank as wide as the draws scatter there to either side (global envelope scaled by
+/// directional quantiles, M. Myllymaki et al., J. R. Stat. Soc. B 79 (2017) 381). The
+/// chance is the draws' share that strays as far from the mean as the data do.
 #pragma once
 
 #include <cstdint>

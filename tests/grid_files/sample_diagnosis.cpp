@@ -146,7 +146,8 @@ void add_follow_up(Diagnosis& found) {
 
 /// Every point and a column left out; without the third point another cause would be named.
 diagnosis::Stability sample_stability(const std::vector<PointPicture>& points) {
-  diagnosis::Stability stability{.probability = 0.97};
+  diagnosis::Stability stability;
+  stability.probability = 0.97;
   for (const PointPicture& point : points) {
     const bool rests = point.index == 2;
     stability.removals.push_back(

@@ -52,6 +52,15 @@ std::string distances_in_words(const grid::MeasuredHoles& set, const grid::Holes
   return text;
 }
 
+std::string distances_in_number(const grid::MeasuredHoles& set) {
+  const auto edges = std::count_if(set.distances.begin(),
+                                   set.distances.end(),
+                                   [](const auto& distance) { return distance.edge.has_value(); });
+  const auto all = static_cast<std::ptrdiff_t>(set.distances.size());
+  return edges == 0 ? fmt::format("{} distances", all)
+                    : fmt::format("{} distances and {} to the sheet's edges", all - edges, edges);
+}
+
 std::string workshop_list(const grid::HolesPlan& plan) {
   std::string text = "hole,x_mm,y_mm\n";
   for (const grid::Hole& hole : plan.set.holes) {
