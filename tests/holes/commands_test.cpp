@@ -304,7 +304,7 @@ TEST_F(HolesCommands, DiagnoseRefusesWhatIsSaidOfPointsAlone) {
   // A hook of 40 mm that nobody stated.
   const Outcome hook = run("diagnose " + holes_ + " --hook-offset-mm -40");
   EXPECT_EQ(hook.code, 3);
-  EXPECT_THAT(hook.err, HasSubstr("all distances are about 40 mm longer than commanded"));
+  EXPECT_THAT(hook.err, HasSubstr("all distances are about 41 mm longer than commanded"));
 }
 
 TEST_F(HolesCommands, BadInputExitsWithThreeAndWritesNothing) {
