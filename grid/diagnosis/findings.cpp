@@ -76,23 +76,6 @@ double marginal(const Analysis& a, std::size_t index) {
   return 0.0;
 }
 
-void find_rival(const Analysis& a, int column, Cause& cause) {
-  const Space& space = space_of(a);
-  const auto own = space.g.col(column);
-  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
-    const CauseId& other = a.rows.directions[k].cause;
-    if (other == cause.cause || same_class(a, other, cause.cause)) continue;
-    const auto g = space.g.col(static_cast<Eigen::Index>(k));
-    const double length = g.norm() * own.norm();
-    if (!(length > 1e-12)) continue;
-    const double rho = std::abs(own.dot(g)) / length;
-    if (rho > cause.rival_rho) {
-      cause.rival_rho = rho;
-      cause.rival = other;
-    }
-  }
-}
-
 Cause describe(const Session& session, const Analysis& a, std::size_t index, bool order_assumed) {
   const CauseClass& members = a.judgement.classes[index];
   Cause cause;
@@ -119,7 +102,10 @@ Cause describe(const Session& session, const Analysis& a, std::size_t index, boo
       cause.delta = std::abs(fitted.coefficient(at)) * length;
       cause.share_left = length / std::max(raw_length(a, column), 1e-12);
       cause.parameters = std::move(found);
-      find_rival(a, column, cause);
+      if (const Nearest other = nearest_other(a, column); other.column >= 0) {
+        cause.rival = direction(a, other.column).cause;
+        cause.rival_rho = other.rho;
+      }
     } else {
       cause.same_as.push_back({member, std::move(found)});
     }

@@ -45,22 +45,40 @@ bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
   return x == y;
 }
 
+Nearest nearest_other(const Analysis& a, int column) {
+  const Space& space = space_of(a);
+  const auto own = space.g.col(column);
+  const auto excluded = [&](const CauseId& other) {
+    if (same_class(a, other, direction(a, column).cause)) return true;
+    if (a.judgement.verdict != Verdict::several_causes) return false;
+    return std::any_of(a.judgement.directions.begin(), a.judgement.directions.end(), [&](int k) {
+      return same_class(a, other, direction(a, k).cause);
+    });
+  };
+  Nearest nearest;
+  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
+    const auto g = space.g.col(static_cast<Eigen::Index>(k));
+    const double length = g.norm() * own.norm();
+    if (!(length > 1e-12) || excluded(a.rows.directions[k].cause)) continue;
+    const double rho = std::abs(own.dot(g)) / length;
+    if (rho > nearest.rho) nearest = {static_cast<int>(k), rho};
+  }
+  return nearest;
+}
+
 Shown shown(const Analysis& a) {
   Shown result{a.judgement.directions, {}};
   if (result.best.empty() && !a.judgement.marginal.empty()) {
     result.best = {
         best_direction(a, a.judgement.classes[a.judgement.marginal.front().index].front())};
   }
-  for (const ClassProbability& one : a.judgement.marginal) {
-    const int column = best_direction(a, a.judgement.classes[one.index].front());
-    const bool new_one = std::none_of(result.best.begin(), result.best.end(), [&](int k) {
-      return same_class(a, direction(a, k).cause, direction(a, column).cause);
-    });
-    if (column >= 0 && new_one) {
-      result.rival = {column};
-      break;
-    }
+  if (result.best.empty()) return result;
+  int first = result.best.front();
+  if (!a.judgement.listed.empty()) {
+    first = best_direction(a, a.judgement.classes[a.judgement.listed.front()].front());
   }
+  const Nearest other = nearest_other(a, first);
+  if (other.column >= 0) result.rival = {other.column};
   return result;
 }
 

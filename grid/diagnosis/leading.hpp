@@ -22,7 +22,15 @@ namespace chaintrue::grid::diagnosis {
 /// Whether no points tell the two apart.
 [[nodiscard]] bool same_class(const Analysis& analysis, const CauseId& x, const CauseId& y);
 
-/// What is named, or else leads, and the first that is no part of it: for pictures beside each
+/// The column most like another of all causes that are neither of its class nor named; -1 where
+/// there is none.
+struct Nearest {
+  int column = -1;
+  double rho = 0.0;  ///< |cosine| of the two
+};
+[[nodiscard]] Nearest nearest_other(const Analysis& analysis, int column);
+
+/// What is named, or else leads, and what is most like the first of it: for pictures beside each
 /// other.
 struct Shown {
   std::vector<int> best;

@@ -43,14 +43,19 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
   if (!set.machine) throw std::invalid_argument("effects on distances need a machine");
   const auto distances = HoleDistances::of(set);
   if (!distances) return std::nullopt;
-  const std::vector<model::Setting> settings(model::kMachineSettings.begin(),
-                                             model::kMachineSettings.end());
+  std::vector<model::Setting> settings(model::kMachineSettings.begin(),
+                                       model::kMachineSettings.end());
+  // Distances between holes do not know where the sheet lies; those to its edges must not take a
+  // shift of the whole for an effect.
+  settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
   const auto line = distances->linearise(model::ReadingModel(*set.machine), {}, settings);
   if (!line) return std::nullopt;
-  const auto count = static_cast<Eigen::Index>(settings.size());
-  const Eigen::MatrixXd prior = stated_prior(*set.machine).covariance.topLeftCorner(count, count);
-  Stated stated{
-      line->covariance + line->setting_jacobian * prior * line->setting_jacobian.transpose(), {}};
+  Eigen::VectorXd prior(static_cast<Eigen::Index>(settings.size()));
+  prior << stated_prior(*set.machine).covariance.diagonal().head(model::kMachineSettings.size()),
+      std::pow(kSheetShiftMm, 2), std::pow(kSheetShiftMm, 2), std::pow(kSheetTurnRad, 2);
+  Stated stated{line->covariance + line->setting_jacobian * prior.asDiagonal() *
+                                       line->setting_jacobian.transpose(),
+                {}};
   for (const model::effects::Effect* effect : model::effects::catalogue()) {
     if (!is_seen_by_distances(*effect)) continue;
     for (const model::effects::EffectSide side : effect->sides) {

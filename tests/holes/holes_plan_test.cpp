@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -166,6 +167,27 @@ TEST(HolesPlan, SaysWhichEffectsItSees) {
   // A tape cannot see what depends on the visit, nor what is written on paper.
   EXPECT_EQ(find("drift", "left"), seen.end());
   EXPECT_EQ(find("tape_scale", "both"), seen.end());
+}
+
+TEST(HolesPlan, WhereTheSheetLiesIsNoEffect) {
+  // The sheet may lie anywhere: three readings to its edges say where it does, and nothing is seen
+  // with them that was not seen before, however far an effect moves or turns all holes alike.
+  MeasuredHoles between = testing_support::nine_holes();
+  const auto sigmas_of = [](const MeasuredHoles& set) {
+    std::map<std::pair<std::string, std::string>, double> sigmas;
+    for (const SeenEffect& one : seen_effects(set)) sigmas[{one.effect, one.side}] = one.sigmas;
+    return sigmas;
+  };
+  MeasuredHoles placed = between;
+  placed.sheet.size_sigma_mm = 0.0;
+  for (const std::size_t hole : {std::size_t{0}, std::size_t{8}})
+    placed.distances.push_back({.from = hole, .edge = SheetEdge::left});
+  placed.distances.push_back({.from = 0, .edge = SheetEdge::top});
+  const auto before = sigmas_of(between);
+  for (const auto& [effect, sigmas] : sigmas_of(placed)) {
+    // Three readings place the sheet and no more; 50 mm and 30 mrad beforehand are all but free.
+    EXPECT_NEAR(sigmas, before.at(effect), 0.01 * std::max(1.0, sigmas)) << effect.first;
+  }
 }
 
 TEST(HolesPlan, NumbersOutOfRangeThrow) {
