@@ -252,7 +252,7 @@ class Judge {
     }
     const double most =
         std::max({result_.nothing, result_.noise, result_.bad_points, result_.unknown});
-    if (result_.unknown + result_.pattern > 0.5 || result_.unknown == most) {
+    if (result_.pattern > 0.5 || result_.unknown == most) {
       result_.verdict = Verdict::unknown_pattern;
       result_.pattern_left = true;
     } else if (result_.bad_points == most) {
