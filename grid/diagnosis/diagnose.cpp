@@ -8,6 +8,7 @@
 #include "grid/diagnosis/gain.hpp"
 #include "grid/diagnosis/next_measurements.hpp"
 #include "grid/diagnosis/normal_plot.hpp"
+#include "grid/diagnosis/single_reading.hpp"
 #include "grid/diagnosis/slips.hpp"
 #include "grid/diagnosis/stability.hpp"
 
@@ -43,9 +44,14 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(
     const tl::expected<Session, DiagnosisFailure>& session, const DiagnosisOptions& options) {
   if (!session) return tl::unexpected(session.error());
   if (const auto slip = suspected_slip(*session)) return tl::unexpected(*slip);
-  const auto analysis = analyse(*session, options);
+  auto analysis = analyse(*session, options);
   if (!analysis) return tl::unexpected(analysis.error());
   Diagnosis d;
+  if (options.stability) d.stability = examine_stability(*session, *analysis, options);
+  if (auto refused = refuse_name_of_one_reading(*session, options, d.stability, *analysis)) {
+    d.notes.push_back(std::move(*refused));
+    d.stability.reset();
+  }
   d.observations = session->distances ? Observations::distances : Observations::points;
   d.seed = options.seed;
   d.verdict = analysis->judgement.verdict;
@@ -67,7 +73,6 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(
   if (options.gain) d.gain = measure_gain(*session, *analysis, options);
   extend(*session, *analysis, options.accept_class, d);
   if (options.next_measurements) d.next_measurements = next_measurements(*session, *analysis);
-  if (options.stability) d.stability = examine_stability(*session, *analysis, options);
   put_into_words(*session, d);
   return d;
 }

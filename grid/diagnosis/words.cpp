@@ -19,28 +19,8 @@ std::string percent(double probability) {
   return fmt::format("{:.0f} %", 100.0 * probability);
 }
 
-std::string where(const CauseId& cause) {
-  using model::effects::EffectSide;
-  switch (cause.side) {
-    case EffectSide::left:
-      return " on the left";
-    case EffectSide::right:
-      return " on the right";
-    case EffectSide::both:
-      return cause.effect->station == model::effects::Station::paper ? " along both axes"
-                                                                     : " on both sides alike";
-    case EffectSide::x:
-      return " along x";
-    case EffectSide::y:
-      return " along y";
-    case EffectSide::none:
-      break;
-  }
-  return "";
-}
-
 std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {
-  std::string text = fmt::format("{}{}", cause.effect->cause, where(cause));
+  std::string text = fmt::format("{}{}", cause.effect->cause, side_words(cause));
   if (parameters.empty()) return text;
   text += fmt::format(" ({}", in_workshop_units(parameters.front()));
   if (parameters.size() > 1) text += fmt::format(", {}", in_workshop_units(parameters[1]));
@@ -271,7 +251,7 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
           " A cause outside the catalogue that looks alike would carry the same "
           "name; the nearest inside it is this: {}{} (likeness {:.3f}).",
           lead.rival->effect->cause,
-          where(*lead.rival),
+          side_words(*lead.rival),
           lead.rival_rho);
     }
   } else if (d.verdict == Verdict::unknown_pattern) {

@@ -91,6 +91,26 @@ std::string coordinate_words(std::string_view coordinate) {
   return std::string(coordinate);
 }
 
+std::string side_words(const CauseId& cause) {
+  using model::effects::EffectSide;
+  switch (cause.side) {
+    case EffectSide::left:
+      return " on the left";
+    case EffectSide::right:
+      return " on the right";
+    case EffectSide::both:
+      return cause.effect->station == model::effects::Station::paper ? " along both axes"
+                                                                     : " on both sides alike";
+    case EffectSide::x:
+      return " along x";
+    case EffectSide::y:
+      return " along y";
+    case EffectSide::none:
+      break;
+  }
+  return "";
+}
+
 std::string reading_words(std::string_view what, std::string_view side) {
   if (what == "motor_spacing_mm") return "the distance between the motors' axes, with a tape";
   if (what == "beam_rise_mm")

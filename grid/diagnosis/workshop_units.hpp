@@ -16,6 +16,9 @@ namespace chaintrue::grid::diagnosis {
 /// "the angle of the left chain" for angle_left.
 [[nodiscard]] std::string coordinate_words(std::string_view coordinate);
 
+/// " on the left", " along x": after a cause; empty where it has no side.
+[[nodiscard]] std::string side_words(const CauseId& cause);
+
 /// "the distance between the motors' axes, with a tape" for motor_spacing_mm.
 [[nodiscard]] std::string reading_words(std::string_view what, std::string_view side);
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/single_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// Position in the session of the point without which nothing would be named.
+std::optional<std::size_t> made_by(const Session& session, const Stability& stability) {
+  const Removal* most = nullptr;
+  for (const Removal& removal : stability.removals) {
+    if (removal.what != Removal::What::point || !removal.causes.empty()) continue;
+    if (most == nullptr || removal.support > most->support) most = &removal;
+  }
+  if (most == nullptr) return std::nullopt;
+  for (std::size_t i = 0; i < session.points.size(); ++i) {
+    if (session.points[i].index == most->index) return i;
+  }
+  return std::nullopt;
+}
+
+bool may_be_refused(const Analysis& a) {
+  const Verdict verdict = a.judgement.verdict;
+  if (verdict != Verdict::named && verdict != Verdict::several_causes) return false;
+  return std::none_of(a.judgement.directions.begin(), a.judgement.directions.end(), [&](int k) {
+    return direction(a, k).fixed;
+  });
+}
+
+}  // namespace
+
+std::optional<std::string> refuse_name_of_one_reading(const Session& session,
+                                                      const DiagnosisOptions& options,
+                                                      const std::optional<Stability>& stability,
+                                                      Analysis& a) {
+  if (!stability || session.distances || options.told || !may_be_refused(a)) return std::nullopt;
+  const auto point = made_by(session, *stability);
+  if (!point) return std::nullopt;
+  const ClassProbability leader = a.judgement.marginal.front();
+  const CauseId cause = a.judgement.classes[leader.index].front();
+  std::vector<bool> aside(session.units(), false);
+  aside[*point] = true;
+  const std::vector<bool> none(session.units(), false);
+  a.contest = hold_contest(session, a.rows, aside, {options.steps, true, options.told});
+  a.judgement = decide(session, a.rows, a.contest, none, false);
+  a.estimate = estimate(session,
+                        a.rows,
+                        space_of(a),
+                        a.judgement.directions,
+                        a.judgement.pattern_left ? a.judgement.best_pattern : -1);
+  return fmt::format(
+      "Point {} by itself would make a name of it ({}{}, {:.0f} %); without it nothing is named. A "
+      "lasting cause shows in more than one point, so the point is set aside: measure it again, "
+      "and "
+      "once more beside it.",
+      session.points[*point].index + 1,
+      cause.effect->cause,
+      side_words(cause),
+      100.0 * leader.probability);
+}
+
+}  // namespace chaintrue::grid::diagnosis
