@@ -100,7 +100,6 @@ Reweighing::Reweighing(const Session& session,
                        const DiagnosisOptions& options)
     : session_(session),
       a_(analysis),
-      options_(options),
       dof_(options.steps.anchor_noise ? session.noise_dof : 1e-3),
       score_(analysis.rows, analysis.contest.spaces[analysis.contest.best().space], dof_) {
   for (auto& [key, models] : followed(a_.rows, a_.contest)) {

@@ -58,7 +58,6 @@ class Reweighing {
 
   const Session& session_;
   const Analysis& a_;
-  const DiagnosisOptions& options_;
   double dof_;
   SingleScore score_;
   std::vector<Lens> lenses_;
