@@ -11,55 +11,33 @@
 #include "grid/synthetic/generator.hpp"
 #include "grid/synthetic/strength.hpp"
 #include "model/effects/catalogue.hpp"
+#include "tests/diagnosis/sessions.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
 using synthetic::SyntheticSpec;
 using testing::HasSubstr;
-
-MeasuredGrid session(const std::vector<model::AppliedEffect>& hidden,
-                     std::uint64_t seed,
-                     int columns = 7,
-                     int rows = 4) {
-  SyntheticSpec spec;
-  spec.design.columns = columns;
-  spec.design.rows = rows;
-  spec.order = synthetic::VisitingOrder::random;
-  spec.repeats = 6;
-  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
-  spec.stated = StatedNoise{0.2, 0.3, 12.0};
-  spec.hidden = hidden;
-  spec.seed = seed;
-  const auto made = synthetic::generate(model::Machine{}, spec);
-  EXPECT_TRUE(made);
-  return made->grid;
-}
-
-DiagnosisOptions quick() {
-  DiagnosisOptions options;
-  options.gain = false;
-  options.next_measurements = false;
-  return options;
-}
+using testing_support::session_of;
+using testing_support::verdict_alone;
 
 void expect_refused(const MeasuredGrid& grid,
                     DiagnosisFailure::Reason reason,
                     const std::string& words) {
-  const auto answer = diagnose(grid, quick());
+  const auto answer = diagnose(grid, verdict_alone());
   ASSERT_FALSE(answer);
   EXPECT_EQ(answer.error().reason, reason);
   EXPECT_THAT(answer.error().sentence, HasSubstr(words));
 }
 
 TEST(DiagnoseBadInput, TooFewPoints) {
-  MeasuredGrid grid = session({}, 1);
+  MeasuredGrid grid = session_of({}, 1);
   grid.points.resize(7);
   expect_refused(grid, DiagnosisFailure::Reason::too_few_points, "7 points are too few");
 }
 
 TEST(DiagnoseBadInput, NoNoiseAndNoRepeats) {
-  MeasuredGrid grid = session({}, 1);
+  MeasuredGrid grid = session_of({}, 1);
   grid.noise.reset();
   grid.points.resize(20);
   std::erase_if(grid.points, [&](const MeasuredPoint& p) {
@@ -71,21 +49,21 @@ TEST(DiagnoseBadInput, NoNoiseAndNoRepeats) {
 }
 
 TEST(DiagnoseBadInput, RepeatsStandInForStatedNoise) {
-  MeasuredGrid grid = session({}, 2);
+  MeasuredGrid grid = session_of({}, 2);
   grid.noise.reset();
-  const auto answer = diagnose(grid, quick());
+  const auto answer = diagnose(grid, verdict_alone());
   ASSERT_TRUE(answer);
   EXPECT_THAT(answer->notes, testing::Contains(HasSubstr("come from the repeats")));
 }
 
 TEST(DiagnoseBadInput, NoMachine) {
-  MeasuredGrid grid = session({}, 1);
+  MeasuredGrid grid = session_of({}, 1);
   grid.machine.reset();
   expect_refused(grid, DiagnosisFailure::Reason::no_machine, "--machine");
 }
 
 TEST(DiagnoseBadInput, ReadingAgainstStatement) {
-  MeasuredGrid grid = session({}, 1);
+  MeasuredGrid grid = session_of({}, 1);
   grid.readings.push_back({"motor_spacing_mm", "", 2900.0, 1.0});
   expect_refused(grid,
                  DiagnosisFailure::Reason::contradictory_settings,
@@ -93,7 +71,7 @@ TEST(DiagnoseBadInput, ReadingAgainstStatement) {
 }
 
 TEST(DiagnoseBadInput, TwoReadingsAgainstEachOther) {
-  MeasuredGrid grid = session({}, 1);
+  MeasuredGrid grid = session_of({}, 1);
   grid.readings.push_back({"link_pitch_mm", "left", 6.350, 0.001});
   grid.readings.push_back({"link_pitch_mm", "left", 6.370, 0.001});
   expect_refused(grid,
@@ -102,7 +80,7 @@ TEST(DiagnoseBadInput, TwoReadingsAgainstEachOther) {
 }
 
 TEST(DiagnoseBadInput, ExchangedColumnsAreSuspected) {
-  MeasuredGrid grid = session({}, 3);
+  MeasuredGrid grid = session_of({}, 3);
   for (MeasuredPoint& p : grid.points) std::swap(p.lengths->left_mm, p.lengths->right_mm);
   expect_refused(grid,
                  DiagnosisFailure::Reason::contradictory_settings,
@@ -110,7 +88,7 @@ TEST(DiagnoseBadInput, ExchangedColumnsAreSuspected) {
 }
 
 TEST(DiagnoseBadInput, InchesAreSuspected) {
-  MeasuredGrid grid = session({}, 3);
+  MeasuredGrid grid = session_of({}, 3);
   for (MeasuredPoint& p : grid.points) {
     p.lengths = model::ChainLengths{p.lengths->left_mm / 25.4, p.lengths->right_mm / 25.4};
   }
@@ -118,13 +96,13 @@ TEST(DiagnoseBadInput, InchesAreSuspected) {
 }
 
 TEST(DiagnoseBadInput, AxesTurnedRoundAreSuspected) {
-  MeasuredGrid grid = session({}, 3);
+  MeasuredGrid grid = session_of({}, 3);
   for (MeasuredPoint& p : grid.points) p.mark.y_mm = -p.mark.y_mm;
   expect_refused(grid, DiagnosisFailure::Reason::contradictory_settings, "y axis looks turned");
 }
 
 TEST(DiagnoseBadInput, AnotherMachineAltogether) {
-  MeasuredGrid grid = session({}, 3);
+  MeasuredGrid grid = session_of({}, 3);
   for (MeasuredPoint& p : grid.points) {
     // The right chain of another machine: what calibrating leads to is none.
     p.lengths->right_mm = 5000.0 - p.lengths->right_mm;
@@ -154,7 +132,7 @@ TEST_P(EveryEffect, IsFoundWithItsSize) {
     }
   }
   const auto applied = model::effects::applied(effect, side, values);
-  const auto answer = diagnose(session({applied}, 7), quick());
+  const auto answer = diagnose(session_of({applied}, 7), verdict_alone());
   ASSERT_TRUE(answer) << answer.error().sentence;
   SCOPED_TRACE(answer->sentence);
   ASSERT_FALSE(answer->causes.empty());
@@ -181,9 +159,9 @@ INSTANTIATE_TEST_SUITE_P(Catalogue,
                          name_of_effect);
 
 TEST(Diagnose, ClassesComeFromTheSignatures) {
-  const auto made = make_session(session({}, 5));
+  const auto made = make_session(session_of({}, 5));
   ASSERT_TRUE(made);
-  const auto analysis = analyse(*made, quick());
+  const auto analysis = analyse(*made, verdict_alone());
   ASSERT_TRUE(analysis);
   const CauseId pitch{model::effects::find_effect("chain_pitch_error"),
                       model::effects::EffectSide::both};
@@ -200,8 +178,8 @@ TEST(Diagnose, ClassesComeFromTheSignatures) {
 
 TEST(Diagnose, ALinkReadingPartsPitchFromTape) {
   // 0.3 % on the paper; the links are read to be nominal.
-  MeasuredGrid grid = session({{"tape_scale", "both", {{"scale", 0.003}}}}, 9);
-  const auto before = diagnose(grid, quick());
+  MeasuredGrid grid = session_of({{"tape_scale", "both", {{"scale", 0.003}}}}, 9);
+  const auto before = diagnose(grid, verdict_alone());
   ASSERT_TRUE(before);
   ASSERT_EQ(before->verdict, Verdict::named) << before->sentence;
   EXPECT_EQ(before->causes.front().cause.effect->id, "chain_pitch_error");
@@ -209,7 +187,7 @@ TEST(Diagnose, ALinkReadingPartsPitchFromTape) {
   EXPECT_TRUE(before->extended_machine.effects.empty()) << "not before somebody read the links";
   grid.readings.push_back({"link_pitch_mm", "left", 6.350, 0.001});
   grid.readings.push_back({"link_pitch_mm", "right", 6.350, 0.001});
-  const auto after = diagnose(grid, quick());
+  const auto after = diagnose(grid, verdict_alone());
   ASSERT_TRUE(after);
   ASSERT_EQ(after->verdict, Verdict::named) << after->sentence;
   EXPECT_EQ(after->causes.front().cause.effect->id, "tape_scale");
@@ -218,16 +196,16 @@ TEST(Diagnose, ALinkReadingPartsPitchFromTape) {
 }
 
 TEST(Diagnose, AnotherTapePartsTapeFromPitch) {
-  MeasuredGrid grid = session({{"tape_scale", "both", {{"scale", 0.003}}}}, 9);
+  MeasuredGrid grid = session_of({{"tape_scale", "both", {{"scale", 0.003}}}}, 9);
   grid.readings.push_back({"tape_error_mm_per_m", "x", 3.1, 0.15});
   grid.readings.push_back({"tape_error_mm_per_m", "y", 2.9, 0.15});
-  const auto tape = diagnose(grid, quick());
+  const auto tape = diagnose(grid, verdict_alone());
   ASSERT_TRUE(tape);
   ASSERT_EQ(tape->verdict, Verdict::named) << tape->sentence;
   EXPECT_EQ(tape->causes.front().cause.effect->id, "tape_scale");
   ASSERT_EQ(tape->data_corrections.size(), 1u);
   for (auto& reading : grid.readings) reading.value -= 3.0;
-  const auto chain = diagnose(grid, quick());
+  const auto chain = diagnose(grid, verdict_alone());
   ASSERT_TRUE(chain);
   ASSERT_EQ(chain->verdict, Verdict::named) << chain->sentence;
   EXPECT_EQ(chain->causes.front().cause.effect->id, "chain_pitch_error");
@@ -236,9 +214,9 @@ TEST(Diagnose, AnotherTapePartsTapeFromPitch) {
 }
 
 TEST(Diagnose, WithoutOrderTheVisitsAreNotTestable) {
-  MeasuredGrid grid = session({}, 11);
+  MeasuredGrid grid = session_of({}, 11);
   for (MeasuredPoint& p : grid.points) p.order.reset();
-  const auto answer = diagnose(grid, quick());
+  const auto answer = diagnose(grid, verdict_alone());
   ASSERT_TRUE(answer);
   for (const char* id : {"drift", "tooth_skip", "link_miscount", "direction_hysteresis"}) {
     const auto said = std::count_if(answer->not_testable.begin(),
@@ -253,10 +231,10 @@ TEST(Diagnose, WithoutOrderTheVisitsAreNotTestable) {
 }
 
 TEST(Diagnose, PointsInAnotherOrderGiveTheSameBytes) {
-  MeasuredGrid grid = session({{"chain_sag", "", {{"relative_weight", 0.4}}}}, 13);
-  const auto one = diagnose(grid, quick());
+  MeasuredGrid grid = session_of({{"chain_sag", "", {{"relative_weight", 0.4}}}}, 13);
+  const auto one = diagnose(grid, verdict_alone());
   std::reverse(grid.points.begin(), grid.points.end());
-  const auto other = diagnose(grid, quick());
+  const auto other = diagnose(grid, verdict_alone());
   ASSERT_TRUE(one);
   ASSERT_TRUE(other);
   EXPECT_EQ(one->sentence, other->sentence);

@@ -14,37 +14,17 @@
 #include "grid/diagnosis/normal_plot.hpp"
 #include "grid/diagnosis/reweighing.hpp"
 #include "grid/synthetic/generator.hpp"
+#include "tests/diagnosis/sessions.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-MeasuredGrid session_of(const std::vector<model::AppliedEffect>& hidden,
-                        std::uint64_t seed,
-                        int columns = 7,
-                        int rows = 4) {
-  synthetic::SyntheticSpec spec;
-  spec.design.columns = columns;
-  spec.design.rows = rows;
-  spec.order = synthetic::VisitingOrder::random;
-  spec.repeats = 6;
-  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
-  spec.stated = StatedNoise{0.2, 0.3, 12.0};
-  spec.hidden = hidden;
-  spec.seed = seed;
-  return synthetic::generate(model::Machine{}, spec).value().grid;
-}
+using testing_support::session_of;
+using testing_support::verdict_alone;
 
 const model::AppliedEffect kLongLeft{"chain_pitch_error", "left", {{"elongation", 0.0015}}};
-
-DiagnosisOptions quick() {
-  DiagnosisOptions options;
-  options.gain = false;
-  options.next_measurements = false;
-  return options;
-}
 
 std::size_t count(const Stability& stability, Removal::What what) {
   return static_cast<std::size_t>(std::count_if(stability.removals.begin(),
@@ -101,10 +81,10 @@ TEST(LeavingOut, MarksThatLieAnywhereHaveNoColumns) {
 // Nothing left out: the contest itself, but for what the followed models leave aside.
 TEST(Reweighing, OfAllPointsIsTheContest) {
   const auto session = make_session(session_of({kLongLeft}, 3));
-  const auto a = analyse(*session, quick());
+  const auto a = analyse(*session, verdict_alone());
   ASSERT_TRUE(a);
   ASSERT_FALSE(a->judgement.listed.empty());
-  const Reweighing reweighing(*session, *a, quick());
+  const Reweighing reweighing(*session, *a, verdict_alone());
   const auto all = reweighing.without({});
   EXPECT_TRUE(all.seen);
   EXPECT_EQ(all.contest.best().directions, a->contest.best().directions);
@@ -122,10 +102,10 @@ TEST(Reweighing, SaysWhatAContestHeldAnewSays) {
   for (const auto& [hidden, seed] : {std::pair(wave, 1), std::pair(kLongLeft, 2)}) {
     SCOPED_TRACE(hidden.effect);
     const auto session = make_session(session_of({hidden}, static_cast<std::uint64_t>(seed)));
-    const auto a = analyse(*session, quick());
+    const auto a = analyse(*session, verdict_alone());
     ASSERT_TRUE(a);
     ASSERT_EQ(a->judgement.verdict, Verdict::named);
-    const auto stability = examine_stability(*session, *a, quick());
+    const auto stability = examine_stability(*session, *a, verdict_alone());
     ASSERT_TRUE(stability);
     const auto groups = groups_to_leave_out(*session);
     ASSERT_EQ(stability->removals.size(), groups.size());
@@ -133,7 +113,7 @@ TEST(Reweighing, SaysWhatAContestHeldAnewSays) {
       std::vector<bool> excluded(session->points.size(), false);
       for (const std::size_t i : groups[k].points) excluded[i] = true;
       const Contest contest =
-          hold_contest(*session, a->rows, excluded, {quick().steps, true, std::nullopt});
+          hold_contest(*session, a->rows, excluded, {verdict_alone().steps, true, std::nullopt});
       const Judgement judged = judge(a->rows, contest, excluded, true, a->judgement.classes);
       EXPECT_EQ(stability->removals[k].stands, still_named(a->judgement, judged)) << "group " << k;
       // What the models of all points leave aside: sets of bad points and patterns that only show
@@ -145,7 +125,7 @@ TEST(Reweighing, SaysWhatAContestHeldAnewSays) {
 }
 
 TEST(Stability, AStrongNameStandsWithoutAnyPointColumnOrRow) {
-  const auto found = diagnose(session_of({kLongLeft}, 5), quick());
+  const auto found = diagnose(session_of({kLongLeft}, 5), verdict_alone());
   ASSERT_TRUE(found);
   ASSERT_EQ(found->verdict, Verdict::named) << found->sentence;
   ASSERT_TRUE(found->stability);
@@ -163,7 +143,7 @@ TEST(Stability, AStrongNameStandsWithoutAnyPointColumnOrRow) {
 }
 
 TEST(Stability, OfNothingNamedThereIsNone) {
-  const auto found = diagnose(session_of({}, 7), quick());
+  const auto found = diagnose(session_of({}, 7), verdict_alone());
   ASSERT_TRUE(found);
   ASSERT_TRUE(found->causes.empty()) << found->sentence;
   EXPECT_FALSE(found->stability);
@@ -172,9 +152,9 @@ TEST(Stability, OfNothingNamedThereIsNone) {
 // Which points speak for a name depends on the marks, not on where they stand in the file.
 TEST(Stability, DoesNotDependOnTheOrderInTheFile) {
   MeasuredGrid grid = session_of({kLongLeft}, 5);
-  const auto one = diagnose(grid, quick());
+  const auto one = diagnose(grid, verdict_alone());
   std::reverse(grid.points.begin(), grid.points.end());
-  const auto other = diagnose(grid, quick());
+  const auto other = diagnose(grid, verdict_alone());
   ASSERT_TRUE(one && other && one->stability && other->stability);
   const std::size_t points = grid.points.size();
   for (std::size_t i = 0; i < points; ++i) {
@@ -200,7 +180,7 @@ TEST(Stability, OnePointMakesNoName) {
     spec.seed = seed;
     MeasuredGrid grid = synthetic::generate(model::Machine{}, spec).value().grid;
     grid.points[point].lengths->right_mm += off_mm;
-    const auto found = diagnose(grid, quick());
+    const auto found = diagnose(grid, verdict_alone());
     ASSERT_TRUE(found);
     EXPECT_NE(found->verdict, Verdict::named) << found->sentence;
     if (found->notes.empty() || found->notes.front().find("would make a name") == std::string::npos)

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Sessions as a person would measure them on the default machine, with what is hidden in them; and
+/// the options of a diagnosis that asks for the verdict alone.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/synthetic/generator.hpp"
+
+namespace chaintrue::grid::diagnosis::testing_support {
+
+/// Random order, six second visits, 0.2 mm a chain and 0.3 mm a mark, stated so.
+inline MeasuredGrid session_of(const std::vector<model::AppliedEffect>& hidden,
+                               std::uint64_t seed,
+                               int columns = 7,
+                               int rows = 4) {
+  synthetic::SyntheticSpec spec;
+  spec.design.columns = columns;
+  spec.design.rows = rows;
+  spec.order = synthetic::VisitingOrder::random;
+  spec.repeats = 6;
+  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
+  spec.stated = StatedNoise{0.2, 0.3, 12.0};
+  spec.hidden = hidden;
+  spec.seed = seed;
+  return synthetic::generate(model::Machine{}, spec).value().grid;
+}
+
+inline DiagnosisOptions verdict_alone() {
+  DiagnosisOptions options;
+  options.gain = false;
+  options.next_measurements = false;
+  return options;
+}
+
+}  // namespace chaintrue::grid::diagnosis::testing_support
