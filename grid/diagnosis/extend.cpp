@@ -8,7 +8,7 @@
 namespace chaintrue::grid::diagnosis {
 
 void extend(const Session& session, const Analysis& a, bool accept_class, Diagnosis& diagnosis) {
-  const bool pitch_read =
+  const bool scale_read =
       std::any_of(session.readings.begin(), session.readings.end(), [](const ExtraReading& r) {
         return r.what == "link_pitch_mm" || r.what == "tape_error_mm_per_m";
       });
@@ -32,8 +32,8 @@ void extend(const Session& session, const Analysis& a, bool accept_class, Diagno
         std::any_of(cause.same_as.begin(), cause.same_as.end(), [](const auto& s) {
           return s.cause.effect->station == model::effects::Station::paper;
         });
-    // Chain or paper: neither is touched before somebody has read the chain.
-    if (paper_too && !pitch_read && !accept_class) continue;
+    // Chain or paper: neither is touched before somebody has read the links or checked the tape.
+    if (paper_too && !scale_read && !accept_class) continue;
     const bool in_machine = !model::effects::depends_on_visit(*cause.cause.effect) &&
                             cause.cause.effect->station != model::effects::Station::paper;
     (in_machine ? into_machine : diagnosis.data_corrections).push_back(std::move(applied));

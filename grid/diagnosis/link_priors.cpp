@@ -6,9 +6,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// A slip stands beside any number of causes: odds that a visit bears one of a given kind, shared
-/// by all kinds of the catalogue. A session of 34 visits has one more often than not written down
-/// right.
+/// A slip stands beside any number of causes. Odds that a visit bears one, before they are shared
+/// among the effects of the catalogue: one reading in a thousand, for each kind of slip.
 constexpr double kSlipOddsOfVisit = 0.5 / 34.0;
 
 /// Of whole numbers of links, one is the rule.
