@@ -43,7 +43,7 @@ std::vector<BadPoint> bad_distances_found(const Session& session, const Analysis
 std::vector<HolePicture> hole_pictures(const Session& session, const Analysis& a) {
   if (!session.distances) return {};
   const State state = with_settings(session, a.state, a.rows.setting + a.estimate.setting_change);
-  const auto places = session.distances->places(model::ReadingModel(state.machine), state.sheet);
+  const auto places = session.distances->placed({model::ReadingModel(state.machine), state.sheet});
   const auto& holes = session.distances->set().holes;
   std::vector<HolePicture> result(holes.size());
   for (std::size_t i = 0; i < holes.size(); ++i) {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
-#include "grid/holes/hole_distances.hpp"
+#include "grid/observation/tape_distances.hpp"
 #include "model/calibration/observation.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -36,7 +36,7 @@ struct Session {
   std::vector<SessionPoint> points;  ///< by visit, or by place where nobody noted the visits
   bool ordered = false;
   /// Between the holes at `points`; none: the chains were read at each.
-  std::shared_ptr<const HoleDistances> distances;
+  std::shared_ptr<const observation::TapeDistances> distances;
   std::vector<std::size_t> distance_index;  ///< into the set's, in the order of the rows
   /// Sessions of the tape whose hooks are known with a doubt; each is a nuisance.
   std::vector<std::size_t> tape_sessions;

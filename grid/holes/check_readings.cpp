@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "grid/holes/hole_distances.hpp"
+#include "grid/observation/tape_distances.hpp"
 #include "grid/map/length_points.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -143,11 +143,11 @@ tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& m
     return tl::unexpected(std::string(
         "the holes name no machine; what was commanded becomes chain lengths by its controller"));
   }
-  const auto distances = HoleDistances::of(with_machine);
+  const auto distances = observation::TapeDistances::in_given_order(with_machine);
   if (!distances) return tl::unexpected(distances.error());
   std::vector<BedPoint> marks;
   for (std::size_t i = 0; i < set.holes.size(); ++i) {
-    const auto mark = map.inverse(distances->lengths()[i]);
+    const auto mark = map.inverse(distances->places()[i].lengths);
     if (!mark) {
       return tl::unexpected(fmt::format("hole {}: {}", set.holes[i].name, explain(mark.error())));
     }
@@ -155,11 +155,11 @@ tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& m
   }
   auto at = map_at(map, marks);
   if (!at) return tl::unexpected(at.error());
-  const DistanceGeometry geometry = distance_geometry(with_machine, marks);
-  const DistanceNoise noise = distance_noise(with_machine, geometry);
+  const observation::DistanceGeometry geometry = observation::distance_geometry(with_machine, marks);
+  const observation::DistanceNoise noise = observation::distance_noise(with_machine, geometry);
   CheckReadings readings;
   fill_common(readings, map, *at);
-  readings.residual_mm = distances->measured_mm() - geometry.predicted_mm;
+  readings.residual_mm = distances->measured() - geometry.predicted_mm;
   const auto places = static_cast<Eigen::Index>(marks.size());
   Eigen::MatrixXd marks_by_chain = Eigen::MatrixXd::Zero(2 * places, 2 * places);
   for (Eigen::Index i = 0; i < places; ++i) {

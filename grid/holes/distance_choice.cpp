@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "grid/holes/hole_distances.hpp"
+#include "grid/observation/tape_distances.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -68,8 +68,8 @@ DistanceChooser::Measurable DistanceChooser::measurable(const Holes& holes,
                                                         std::vector<HoleDistance> distances) const {
   MeasuredHoles set = frame_;
   set.distances = std::move(distances);
-  const DistanceGeometry geometry = distance_geometry(set, marks_of(holes));
-  const DistanceNoise noise = distance_noise(set, geometry);
+  const observation::DistanceGeometry geometry = observation::distance_geometry(set, marks_of(holes));
+  const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
   Eigen::MatrixXd marks_by_unknown(2 * static_cast<Eigen::Index>(holes.size()), kPlanUnknowns);
   for (std::size_t i = 0; i < holes.size(); ++i) {
     marks_by_unknown.middleRows<2>(2 * static_cast<Eigen::Index>(i)) = holes[i]->by_unknown;

@@ -52,7 +52,7 @@ interp::Rectangle holes_domain(const model::Bed& bed) {
           0.5 * bed.height_mm + kBesideMm};
 }
 
-HoleMarks::HoleMarks(const HoleDistances& distances, SheetMeasured measured)
+HoleMarks::HoleMarks(const observation::TapeDistances& distances, observation::SheetPrior measured)
     : distances_(distances),
       measured_(measured),
       domain_(holes_domain(distances.set().machine->bed)),
@@ -98,7 +98,7 @@ tl::expected<HoleMarks::View, std::string> HoleMarks::at(const Eigen::VectorXd& 
   Eigen::MatrixXd marks_by_unknown(2 * holes, columns_.total());
   for (Eigen::Index i = 0; i < holes; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const ChainLengths paid_out = distances_.lengths()[at];
+    const ChainLengths paid_out = distances_.places()[at].lengths;
     BedPoint near = set.holes[at].commanded;
     Eigen::Matrix2d by_mark;
     model::PointReading reading;
@@ -130,9 +130,9 @@ tl::expected<HoleMarks::View, std::string> HoleMarks::at(const Eigen::VectorXd& 
         -by_mark.inverse() * design_rows(basis_, columns_, near, reading.lengths, by_setting);
     view.marks.push_back(near);
   }
-  view.geometry = distance_geometry(set, view.marks);
-  view.noise = distance_noise(set, view.geometry);
-  view.residual_mm = distances_.measured_mm() - view.geometry.predicted_mm;
+  view.geometry = observation::distance_geometry(set, view.marks);
+  view.noise = observation::distance_noise(set, view.geometry);
+  view.residual_mm = distances_.measured() - view.geometry.predicted_mm;
   view.design = view.geometry.by_mark * marks_by_unknown;
   free_sheet(view, marks_by_unknown);
   return view;
@@ -142,7 +142,7 @@ tl::expected<HoleMarks::View, std::string> HoleMarks::at(const Eigen::VectorXd& 
 void HoleMarks::free_sheet(View& view, const Eigen::MatrixXd& marks_by_unknown) const {
   const std::vector<Hole>& holes = distances_.set().holes;
   std::vector<Eigen::Index> rows;
-  const bool measured[] = {measured_.x, measured_.y, measured_.rotation};
+  const bool measured[] = {measured_.knows_x, measured_.knows_y, measured_.knows_rotation};
   for (Eigen::Index i = 0; i < 3; ++i) {
     if (measured[i]) continue;
     rows.push_back(i);

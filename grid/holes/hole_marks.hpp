@@ -9,7 +9,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/holes/hole_distances.hpp"
+#include "grid/observation/tape_distances.hpp"
 #include "grid/holes/holes_fit.hpp"
 #include "grid/map/residual_surface.hpp"
 
@@ -19,15 +19,15 @@ namespace chaintrue::grid {
 /// splines.
 class HoleMarks {
  public:
-  HoleMarks(const HoleDistances& distances, SheetMeasured measured);
+  HoleMarks(const observation::TapeDistances& distances, observation::SheetPrior measured);
   [[nodiscard]] const FitColumns& columns() const { return columns_; }
 
   struct View {
     std::vector<model::BedPoint> marks;
     /// The same with the sheet laid in its free directions as its frame is defined.
     std::vector<model::BedPoint> aligned;
-    DistanceGeometry geometry;
-    DistanceNoise noise;
+    observation::DistanceGeometry geometry;
+    observation::DistanceNoise noise;
     /// Readings less predictions, the free directions of the sheet put right.
     Eigen::VectorXd residual_mm;
     Eigen::MatrixXd design;   ///< n x total
@@ -51,8 +51,8 @@ class HoleMarks {
   void free_sheet(View& view, const Eigen::MatrixXd& marks_by_unknown) const;
   [[nodiscard]] ResidualSurface residual_at(const Eigen::VectorXd& unknowns) const;
 
-  const HoleDistances& distances_;
-  SheetMeasured measured_;
+  const observation::TapeDistances& distances_;
+  observation::SheetPrior measured_;
   interp::Rectangle domain_;
   interp::BsplineBasis basis_;
   FitColumns columns_;

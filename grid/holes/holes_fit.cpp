@@ -36,14 +36,14 @@ constexpr double kKnownSigma = 1e-7;
 
 class HolesFitter {
  public:
-  HolesFitter(HoleDistances distances, const HolesPrior& prior)
+  HolesFitter(observation::TapeDistances distances, const HolesPrior& prior)
       : distances_(std::move(distances)),
         set_(distances_.set()),
-        measured_(sheet_measured(set_)),
+        measured_(observation::sheet_measured(set_)),
         view_(distances_, measured_),
         mean_(Eigen::VectorXd::Zero(view_.columns().total())),
         prior_(Eigen::MatrixXd::Zero(mean_.size(), mean_.size())),
-        weights_(Eigen::VectorXd::Ones(distances_.measured_mm().size())) {
+        weights_(Eigen::VectorXd::Ones(distances_.measured().size())) {
     const auto place = machine_columns();
     for (Eigen::Index i = 0; i < kHolesUnknowns; ++i) {
       mean_[place[static_cast<std::size_t>(i)]] = prior.mean[i];
@@ -52,8 +52,8 @@ class HolesFitter {
             prior.covariance(i, j);
       }
     }
-    const double sheet[] = {kSheetShiftMm, kSheetShiftMm, kSheetTurnRad};
-    const bool known[] = {measured_.x, measured_.y, measured_.rotation};
+    const double sheet[] = {observation::kSheetShiftMm, observation::kSheetShiftMm, observation::kSheetTurnRad};
+    const bool known[] = {measured_.knows_x, measured_.knows_y, measured_.knows_rotation};
     for (Eigen::Index i = 0; i < 3; ++i) {
       if (known[i]) prior_(6 + i, 6 + i) = sheet[i] * sheet[i];
     }
@@ -79,9 +79,9 @@ class HolesFitter {
   void choose_surface();
   [[nodiscard]] HolesFit result() const;
 
-  HoleDistances distances_;
+  observation::TapeDistances distances_;
   const MeasuredHoles& set_;
-  SheetMeasured measured_;
+  observation::SheetPrior measured_;
   HoleMarks view_;
   Eigen::VectorXd mean_;
   Eigen::MatrixXd prior_;
@@ -233,7 +233,7 @@ HolesFit HolesFitter::result() const {
   for (std::size_t k = 0; k < set_.distances.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
     FittedDistance distance;
-    distance.measured_mm = distances_.measured_mm()[at];
+    distance.measured_mm = distances_.measured()[at];
     distance.commanded_mm = commanded_mm(set_, set_.distances[k]);
     distance.predicted_mm = now_.geometry.predicted_mm[at];
     distance.left_out_mm = solution_.left_out[at];
@@ -245,7 +245,7 @@ HolesFit HolesFitter::result() const {
     const auto at = 2 * static_cast<Eigen::Index>(i);
     const BedPoint mark = now_.marks[i];
     fit.holes.push_back(
-        {distances_.lengths()[i],
+        {distances_.places()[i].lengths,
          as_stated_[i],
          mark,
          {mark.x_mm + solution_.hole_shift[at], mark.y_mm + solution_.hole_shift[at + 1]}});
@@ -299,26 +299,6 @@ HolesPrior stated_prior(const model::Machine& machine) {
   return prior;
 }
 
-SheetMeasured sheet_measured(const MeasuredHoles& set) {
-  // Two readings to upright edges, from holes this far apart in height, tell the turn.
-  constexpr double kApartMm = 100.0;
-  SheetMeasured measured;
-  for (const HoleDistance& a : set.distances) {
-    if (!a.edge) continue;
-    const bool upright = *a.edge == SheetEdge::left || *a.edge == SheetEdge::right;
-    (upright ? measured.x : measured.y) = true;
-    for (const HoleDistance& b : set.distances) {
-      if (!b.edge || (*b.edge == SheetEdge::left || *b.edge == SheetEdge::right) != upright)
-        continue;
-      const BedPoint p = set.holes.at(a.from).commanded;
-      const BedPoint q = set.holes.at(b.from).commanded;
-      if (std::abs(upright ? p.y_mm - q.y_mm : p.x_mm - q.x_mm) > kApartMm)
-        measured.rotation = true;
-    }
-  }
-  return measured;
-}
-
 tl::expected<HolesFit, FitFailure> fit_holes(const MeasuredHoles& set,
                                              const std::optional<HolesPrior>& prior) {
   if (!set.machine || set.distances.empty()) {
@@ -326,7 +306,7 @@ tl::expected<HolesFit, FitFailure> fit_holes(const MeasuredHoles& set,
                                             set.distances.size(),
                                             set.machine ? "with" : "without"));
   }
-  auto distances = HoleDistances::of(set);
+  auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) {
     return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, distances.error()});
   }

@@ -3,14 +3,14 @@
 /// The machine fitted to distances between holes. Unknown are the settings (each stated one is a
 /// datum with its sigma), a length scale of either chain, the sheet's placement where its edges
 /// were measured and, where the distances ask for it, a smooth correction of the chain lengths.
-/// Where the holes are follows from these (hole_distances.hpp).
+/// Where the holes are follows from these (tape_distances.hpp).
 ///
 /// The frame of the sheet is free in each direction that no edge was measured for: there it is laid
 /// so that the holes lie, as a whole, where they were commanded. That defines the frame and tells
 /// nothing of the machine.
 ///
 /// Notation: y, readings less what the settings before the fit predict; A, their derivative by the
-/// unknowns; P, the unknowns' covariance beforehand; V, the readings' (hole_distances.hpp (2)):
+/// unknowns; P, the unknowns' covariance beforehand; V, the readings' (tape_distances.hpp (2)):
 ///
 ///   K = A P A' + s^2 V,  b = P A' K^-1 y,  cov b = P - P A' K^-1 A P                        (1)
 ///   left out:  y_k - E y_k = (K^-1 y)_k / (K^-1)_kk,  variance 1 / (K^-1)_kk                (2)
@@ -29,7 +29,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/holes/hole_distances.hpp"
+#include "grid/observation/tape_distances.hpp"
 #include "grid/map/fit.hpp"
 
 namespace chaintrue::grid {
@@ -37,10 +37,6 @@ namespace chaintrue::grid {
 /// Chance 1.5e-3 for a good reading (Student's t, some 30 degrees of freedom): one set of twenty
 /// readings in thirty-five loses one.
 inline constexpr double kBadDistanceSigmas = 3.5;
-
-/// One sigma beforehand of where a sheet lies whose edges were measured.
-inline constexpr double kSheetShiftMm = 50.0;
-inline constexpr double kSheetTurnRad = 0.03;
 
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
 inline constexpr Eigen::Index kHolesUnknowns = 8;
@@ -79,19 +75,10 @@ struct FittedHole {
   model::BedPoint place;        ///< where the distances say it is
 };
 
-/// Directions in which the sheet was placed by measured edges.
-struct SheetMeasured {
-  bool x = false;
-  bool y = false;
-  bool rotation = false;
-  [[nodiscard]] bool any() const { return x || y || rotation; }
-};
-[[nodiscard]] SheetMeasured sheet_measured(const MeasuredHoles& set);
-
 struct HolesFit {
   model::Machine machine;  ///< calibrated
   model::SheetPlacement sheet;
-  SheetMeasured sheet_measured;
+  observation::SheetPrior sheet_measured;
   ModelSurface surface;
   HolesPrior posterior;  ///< of the machine's own unknowns
   double noise_factor = 1.0;

@@ -109,12 +109,12 @@ std::vector<std::string> fit_notes(const MeasuredHoles& set, const HolesFit& fit
         model::name(setting.setting),
         setting.calibrated - setting.stated));
   }
-  const SheetMeasured& measured = fit.sheet_measured;
-  if (!measured.x || !measured.y || !measured.rotation) {
+  const observation::SheetPrior& measured = fit.sheet_measured;
+  if (!measured.knows_x || !measured.knows_y || !measured.knows_rotation) {
     std::string free;
-    for (const auto& [is_measured, word] : {std::pair(measured.x, "sideways"),
-                                            std::pair(measured.y, "up and down"),
-                                            std::pair(measured.rotation, "in its turn")}) {
+    for (const auto& [is_measured, word] : {std::pair(measured.knows_x, "sideways"),
+                                            std::pair(measured.knows_y, "up and down"),
+                                            std::pair(measured.knows_rotation, "in its turn")}) {
       if (!is_measured) free += fmt::format("{}{}", free.empty() ? "" : ", ", word);
     }
     notes.push_back(

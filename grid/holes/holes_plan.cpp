@@ -209,7 +209,7 @@ Eigen::MatrixXd prior_of(const model::Machine& machine, bool edges) {
   prior.topLeftCorner<kHolesUnknowns, kHolesUnknowns>() = stated_prior(machine).covariance;
   if (edges) {
     prior.diagonal().tail<3>() =
-        Eigen::Array3d(kSheetShiftMm, kSheetShiftMm, kSheetTurnRad).square();
+        Eigen::Array3d(observation::kSheetShiftMm, observation::kSheetShiftMm, observation::kSheetTurnRad).square();
   }
   return prior;
 }

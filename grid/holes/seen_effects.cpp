@@ -41,20 +41,20 @@ struct Stated {
 
 std::optional<Stated> stated_of(const MeasuredHoles& set) {
   if (!set.machine) throw std::invalid_argument("effects on distances need a machine");
-  const auto distances = HoleDistances::of(set);
+  const auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) return std::nullopt;
   std::vector<model::Setting> settings(model::kMachineSettings.begin(),
                                        model::kMachineSettings.end());
   // Distances between holes do not know where the sheet lies; those to its edges must not take a
   // shift of the whole for an effect.
   settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-  const auto line = distances->linearise(model::ReadingModel(*set.machine), {}, settings);
+  const auto line = distances->linearise({model::ReadingModel(*set.machine), {}}, settings);
   if (!line) return std::nullopt;
   Eigen::VectorXd prior(static_cast<Eigen::Index>(settings.size()));
   prior << stated_prior(*set.machine).covariance.diagonal().head(model::kMachineSettings.size()),
-      std::pow(kSheetShiftMm, 2), std::pow(kSheetShiftMm, 2), std::pow(kSheetTurnRad, 2);
-  Stated stated{line->covariance + line->setting_jacobian * prior.asDiagonal() *
-                                       line->setting_jacobian.transpose(),
+      std::pow(observation::kSheetShiftMm, 2), std::pow(observation::kSheetShiftMm, 2), std::pow(observation::kSheetTurnRad, 2);
+  Stated stated{observation::marginal_covariance(*line, distances->nuisance_sigma()) +
+                    line->by_setting * prior.asDiagonal() * line->by_setting.transpose(),
                 {}};
   for (const model::effects::Effect* effect : model::effects::catalogue()) {
     if (!is_seen_by_distances(*effect)) continue;
@@ -63,8 +63,8 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
       machine.effects.push_back(
           model::effects::applied(*effect, side, model::effects::nominal_values(*effect)));
       if (!model::effects::problems_of_effects(machine).empty()) continue;
-      const auto with = distances->linearise(model::ReadingModel(machine), {}, {});
-      if (with) stated.secants.push_back({effect, side, line->residual - with->residual});
+      const auto with = distances->predicted({model::ReadingModel(machine), {}});
+      if (with) stated.secants.push_back({effect, side, *with - line->predicted});
     }
   }
   return stated;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "grid/holes/hole_distances.hpp"
+#include "grid/observation/tape_distances.hpp"
 #include "grid/synthetic/random.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -47,13 +47,13 @@ tl::expected<SyntheticHoles, std::string> simulate_holes(
     const HolesSpec& spec,
     const std::optional<model::Machine>& truth) {
   if (!design.machine) throw std::invalid_argument("holes are cut by a machine; none was given");
-  const auto distances = HoleDistances::of(design);
+  const auto distances = observation::TapeDistances::in_given_order(design);
   if (!distances) return tl::unexpected(distances.error());
   SyntheticHoles made{design, truth ? *truth : hidden_truth(*design.machine, spec), {}};
   const model::ReadingModel model(made.truth);
   Random hole_noise(spec.seed, kHoleStream);
   for (std::size_t i = 0; i < design.holes.size(); ++i) {
-    const auto reading = model.find(distances->lengths()[i], design.holes[i].commanded);
+    const auto reading = model.find(distances->places()[i].lengths, design.holes[i].commanded);
     if (!reading) {
       return tl::unexpected(fmt::format("hole {} at ({:.1f}, {:.1f}) cannot be cut: {}",
                                         design.holes[i].name,
@@ -66,8 +66,8 @@ tl::expected<SyntheticHoles, std::string> simulate_holes(
     const double dy = design.hole_sigma_mm * hole_noise.normal();
     made.places.push_back({at.x_mm + dx, at.y_mm + dy});
   }
-  const DistanceGeometry geometry = distance_geometry(design, made.places);
-  const double tape = tape_factor(made.truth);
+  const observation::DistanceGeometry geometry = observation::distance_geometry(design, made.places);
+  const double tape = observation::tape_factor(made.truth);
   Random tape_noise(spec.seed, kTapeStream);
   for (std::size_t k = 0; k < made.set.distances.size(); ++k) {
     HoleDistance& distance = made.set.distances[k];

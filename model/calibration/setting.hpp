@@ -32,6 +32,13 @@ inline constexpr std::array kMachineSettings = {
 inline constexpr std::array kSheetSettings = {
     Setting::sheet_x_mm, Setting::sheet_y_mm, Setting::sheet_rotation_rad};
 
+/// Of the sheet, not of the machine.
+[[nodiscard]] constexpr bool is_of_sheet(Setting setting) { return setting >= Setting::sheet_x_mm; }
+/// Position among kSheetSettings.
+[[nodiscard]] constexpr int sheet_column(Setting setting) {
+  return static_cast<int>(setting) - static_cast<int>(Setting::sheet_x_mm);
+}
+
 /// The word for a setting in files and messages (`motor_left_x_mm`, ...).
 [[nodiscard]] std::string_view name(Setting setting);
 [[nodiscard]] std::optional<Setting> setting_from_name(std::string_view word);

@@ -124,7 +124,7 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
   const auto rows = base_rows(*session, state, {});
   ASSERT_TRUE(rows);
   const auto line = session->distances->linearise(
-      model::ReadingModel(state.machine), state.sheet, session->settings);
+      {model::ReadingModel(state.machine), state.sheet}, session->settings);
   ASSERT_TRUE(line);
   const auto tape = rows->row_sigma_mm.asDiagonal();
   const Eigen::MatrixXd nuisance =
@@ -132,12 +132,12 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
   Eigen::MatrixXd covariance = nuisance * nuisance.transpose();
   covariance.diagonal() += rows->row_sigma_mm.cwiseAbs2();
   // Two ways to the same sums of some forty products each.
-  EXPECT_LT((covariance - line->covariance).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((tape * rows->e - line->residual).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((covariance - observation::marginal_covariance(*line, session->distances->nuisance_sigma())).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((tape * rows->e - (session->distances->measured() - line->predicted)).cwiseAbs().maxCoeff(), 1e-9);
   const auto settings = static_cast<Eigen::Index>(session->settings.size());
   EXPECT_LT(
-      (tape * rows->by_setting.leftCols(settings) - line->setting_jacobian).cwiseAbs().maxCoeff(),
-      1e-9 * line->setting_jacobian.cwiseAbs().maxCoeff());
+      (tape * rows->by_setting.leftCols(settings) - line->by_setting).cwiseAbs().maxCoeff(),
+      1e-9 * line->by_setting.cwiseAbs().maxCoeff());
 }
 
 // A setting's column foretells what moving the setting does: the whole path by differences.

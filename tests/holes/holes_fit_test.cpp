@@ -36,51 +36,13 @@ double spacing(const model::Machine& machine) {
   return machine.motors.right.x_mm - machine.motors.left.x_mm;
 }
 
-TEST(HoleDistances, DerivativesAreDifferencesOfThePrediction) {
-  const auto distances = HoleDistances::of(with_edges());
-  ASSERT_TRUE(distances);
-  std::vector<model::Setting> settings(model::kMachineSettings.begin(),
-                                       model::kMachineSettings.end());
-  settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-  const model::SheetPlacement sheet{3.0, -2.0, 0.004};
-  const auto line = distances->linearise(model::ReadingModel(classic()), sheet, settings);
-  ASSERT_TRUE(line);
-  for (std::size_t s = 0; s < settings.size(); ++s) {
-    SCOPED_TRACE(std::string(model::name(settings[s])));
-    const bool turn = settings[s] == model::Setting::sheet_rotation_rad;
-    const double step = turn ? 1e-5 : 1e-2;
-    const auto residual_at = [&](double change) {
-      model::Machine machine = classic();
-      model::SheetPlacement at = sheet;
-      if (settings[s] == model::Setting::sheet_x_mm) {
-        at.x_mm += change;
-      } else if (settings[s] == model::Setting::sheet_y_mm) {
-        at.y_mm += change;
-      } else if (turn) {
-        at.rotation_rad += change;
-      } else {
-        machine = model::with_setting(
-            machine, settings[s], model::stated_value(machine, settings[s]) + change);
-      }
-      return distances->linearise(model::ReadingModel(machine), at, {})->residual;
-    };
-    const Eigen::VectorXd by_difference = (residual_at(-step) - residual_at(step)) / (2.0 * step);
-    // A central difference errs by step^2 / 6 times the third derivative, some 1e-6 per mm^2, and
-    // by rounding, 1e-9 mm over the step.
-    EXPECT_LT((line->setting_jacobian.col(static_cast<Eigen::Index>(s)) - by_difference)
-                  .cwiseAbs()
-                  .maxCoeff(),
-              turn ? 2e-3 : 1e-6);
-  }
-}
-
 TEST(HoleDistances, HolesAreWhereTheirChainsPutThem) {
   // Cut by the very machine that is stated, the distances are the commanded ones.
-  const auto distances = HoleDistances::of(with_edges());
-  const auto line = distances->linearise(model::ReadingModel(classic()), {}, {});
-  ASSERT_TRUE(line);
+  const auto distances = observation::TapeDistances::of(with_edges());
+  const auto predicted = distances->predicted({model::ReadingModel(classic()), {}});
+  ASSERT_TRUE(predicted);
   // The inverse settles to 1e-9 mm.
-  EXPECT_LT(line->residual.cwiseAbs().maxCoeff(), 1e-7);
+  EXPECT_LT((distances->measured() - *predicted).cwiseAbs().maxCoeff(), 1e-7);
 }
 
 TEST(HolesFit, WithoutNoiseTheMapIsTheTruth) {
@@ -89,7 +51,7 @@ TEST(HolesFit, WithoutNoiseTheMapIsTheTruth) {
   auto made = synthetic::simulate_holes(design, usual_holes(5));
   ASSERT_TRUE(made);
   // Readings to all digits, and a fit that knows it.
-  const DistanceGeometry exact = distance_geometry(design, made->places);
+  const observation::DistanceGeometry exact = observation::distance_geometry(design, made->places);
   for (std::size_t k = 0; k < made->set.distances.size(); ++k)
     made->set.distances[k].distance_mm = exact.predicted_mm[static_cast<Eigen::Index>(k)];
   made->set.tape.sigma_mm = 0.001;
@@ -110,7 +72,7 @@ TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
   const model::SheetPlacement laid{7.0, -4.0, 0.006};
   std::vector<model::BedPoint> marks;
   for (const model::BedPoint& place : made->places) marks.push_back(laid.to_mark(place));
-  const DistanceGeometry on_sheet = distance_geometry(design, marks);
+  const observation::DistanceGeometry on_sheet = observation::distance_geometry(design, marks);
   for (std::size_t k = 20; k < made->set.distances.size(); ++k)
     made->set.distances[k].distance_mm = on_sheet.predicted_mm[static_cast<Eigen::Index>(k)];
   const auto fit = fit_holes(made->set);
@@ -293,7 +255,7 @@ TEST(HolesFit, BrokenPreconditionsThrow) {
   MeasuredHoles set = nine_holes();
   set.machine.reset();
   EXPECT_THROW((void)fit_holes(set), std::invalid_argument);
-  EXPECT_THROW((void)HoleDistances::of(set), std::invalid_argument);
+  EXPECT_THROW((void)observation::TapeDistances::in_given_order(set), std::invalid_argument);
 }
 
 TEST(HolesFit, AHoleOutOfReachIsSaid) {

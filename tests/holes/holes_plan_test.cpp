@@ -54,7 +54,7 @@ TEST(HolesPlan, WithEdgesTheSheetsPlaceIsMeasured) {
   const auto plan = plan_holes(classic(), request);
   ASSERT_TRUE(plan);
   EXPECT_EQ(plan->set.distances.size(), 24u);
-  const SheetMeasured measured = sheet_measured(plan->set);
+  const observation::SheetPrior measured = sheet_measured(plan->set);
   EXPECT_TRUE(measured.x && measured.y && measured.rotation);
   std::set<std::tuple<std::size_t, std::size_t, std::optional<SheetEdge>>> readings;
   for (const HoleDistance& distance : plan->set.distances) {

@@ -46,12 +46,12 @@ TEST(SetsTogether, HolesAreWhereTheirOwnControllerPutThem) {
   EXPECT_EQ(all->holes[9].name, "A (2)");
   EXPECT_EQ(all->tape.hook_offset_mm, 0.0) << "taken off each reading";
   EXPECT_EQ(all->distances[20].session, 1u);
-  const auto distances = HoleDistances::of(*all);
+  const auto distances = observation::TapeDistances::in_given_order(*all);
   ASSERT_TRUE(distances);
-  const auto line = distances->linearise(model::ReadingModel(truth), {}, {});
-  ASSERT_TRUE(line);
+  const auto predicted = distances->predicted({model::ReadingModel(truth), {}});
+  ASSERT_TRUE(predicted);
   // Commands to 1e-9 mm, poses to 1e-9 mm, the tape's own 1e-9 mm.
-  EXPECT_LT(line->residual.cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((distances->measured() - *predicted).cwiseAbs().maxCoeff(), 1e-6);
 }
 
 TEST(SetsTogether, ASetByItselfStaysWhatItIs) {

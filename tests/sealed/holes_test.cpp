@@ -9,7 +9,7 @@
 
 #include "generator/hidden/effects.hpp"
 #include "generator/hidden/random.hpp"
-#include "grid/holes/hole_distances.hpp"
+#include "grid/observation/tape_distances.hpp"
 #include "sealed/posed.hpp"
 #include "tests/holes/hole_sets.hpp"
 
@@ -62,11 +62,11 @@ grid::MeasuredHoles hidden_holes(const std::vector<Hidden>& effects, std::uint64
     axis.y += 1.5 * dice.normal();
   }
   for (double& zero : truth.chain_zero_mm) zero = 0.5 * dice.normal();
-  const auto distances = grid::HoleDistances::of(set);
+  const auto distances = grid::observation::TapeDistances::in_given_order(set);
   std::vector<Vec2> places;
   for (std::size_t i = 0; i < set.holes.size(); ++i) {
     const model::BedPoint& near = set.holes[i].commanded;
-    Vec2 place = place_of(truth, effects, distances->lengths()[i], {near.x_mm, near.y_mm});
+    Vec2 place = place_of(truth, effects, distances->places()[i].lengths, {near.x_mm, near.y_mm});
     place.x += set.hole_sigma_mm * dice.normal();
     place.y += set.hole_sigma_mm * dice.normal();
     places.push_back(place);

@@ -10,9 +10,9 @@ namespace {
 
 using model::effects::Station;
 
-std::vector<model::BedPoint> marks_of(const std::vector<HolePlace>& places) {
+std::vector<model::BedPoint> marks_of(const std::vector<observation::PlaceState>& places) {
   std::vector<model::BedPoint> marks;
-  for (const HolePlace& place : places) marks.push_back(place.mark);
+  for (const observation::PlaceState& place : places) marks.push_back(place.mark);
   return marks;
 }
 
@@ -20,15 +20,15 @@ class Distances final : public Observed {
  public:
   [[nodiscard]] std::optional<Eigen::VectorXd> predicted(
       const Session& session, const State& state, const model::Machine& machine) const override {
-    const auto places = session.distances->places(model::ReadingModel(machine), state.sheet);
+    const auto places = session.distances->placed({model::ReadingModel(machine), state.sheet});
     if (!places) return std::nullopt;
     return Eigen::VectorXd(
-        tape_factor(machine) *
-        distance_geometry(session.distances->set(), marks_of(*places)).predicted_mm);
+        observation::tape_factor(machine) *
+        observation::distance_geometry(session.distances->set(), marks_of(*places)).predicted_mm);
   }
 
   [[nodiscard]] Eigen::VectorXd measured(const Session& session) const override {
-    return session.distances->measured_mm();
+    return session.distances->measured();
   }
 
   [[nodiscard]] tl::expected<void, model::VisitFailure> linearise(const Session& session,
@@ -37,12 +37,12 @@ class Distances final : public Observed {
                                                                   Rows& rows) const override {
     const MeasuredHoles& set = session.distances->set();
     const model::ReadingModel model(state.machine);
-    const auto places = session.distances->places(model, state.sheet);
+    const auto places = session.distances->placed({model, state.sheet});
     if (!places) {
-      return tl::unexpected(model::VisitFailure{places.error().hole, places.error().reason});
+      return tl::unexpected(model::VisitFailure{places.error().place, places.error().reason});
     }
-    const DistanceGeometry geometry = distance_geometry(set, marks_of(*places));
-    const Eigen::MatrixXd by_mark = tape_factor(state.machine) * geometry.by_mark;
+    const observation::DistanceGeometry geometry = observation::distance_geometry(set, marks_of(*places));
+    const Eigen::MatrixXd by_mark = observation::tape_factor(state.machine) * geometry.by_mark;
     const auto settings = static_cast<Eigen::Index>(session.settings.size());
     const Eigen::Index count = session.observed_rows();
     for (std::size_t i = 0; i < places->size(); ++i) {
@@ -50,14 +50,14 @@ class Distances final : public Observed {
       for (Eigen::Index k = 0; k < settings; ++k) {
         rows.by_setting.col(k).head(count) +=
             by_mark.middleCols<2>(at) *
-            HoleDistances::mark_by_setting(
-                model, state.sheet, (*places)[i], session.settings[static_cast<std::size_t>(k)]);
+            observation::TapeDistances::mark_by_setting(
+                {model, state.sheet}, (*places)[i], session.settings[static_cast<std::size_t>(k)]);
       }
       rows.points.push_back(
           {(*places)[i].reading, (*places)[i].by_mark, Eigen::Matrix2d::Identity()});
     }
     const Eigen::MatrixXd by_hook = hook_columns(session);
-    rows.by_setting.block(0, settings, count, 2) = tape_factor(state.machine) * geometry.by_size;
+    rows.by_setting.block(0, settings, count, 2) = observation::tape_factor(state.machine) * geometry.by_size;
     rows.by_setting.block(0, settings + 2, count, by_hook.cols()) = by_hook;
     rows.by_setting.block(0, settings + 2 + by_hook.cols(), count, by_mark.cols()) = by_mark;
     set_sigmas(set, steps, rows);
@@ -74,7 +74,7 @@ class Distances final : public Observed {
     if (cause.effect->needs == model::effects::DataNeed::order) {
       return "the order in which the holes were cut is not in the file, and no chain was read";
     }
-    if (cause.effect->station == Station::paper && !is_of_tape(*cause.effect, cause.side)) {
+    if (cause.effect->station == Station::paper && !observation::is_of_tape(*cause.effect, cause.side)) {
       return "a tape has one scale whichever way it is held, and no axes: print or set out marks "
              "and read the chains there";
     }

@@ -120,7 +120,7 @@ void state_unknowns(const MeasuredHoles& set, Session& session) {
     session.stated_value(k) = model::stated_value(session.stated, setting);
     session.stated_sigma(k) = model::stated_sigma(session.stated, setting);
   }
-  session.stated_sigma.segment<3>(kOfMachine) << kSheetShiftMm, kSheetShiftMm, kSheetTurnRad;
+  session.stated_sigma.segment<3>(kOfMachine) << observation::kSheetShiftMm, observation::kSheetShiftMm, observation::kSheetTurnRad;
   session.stated_sigma.segment<2>(kSettings).setConstant(
       std::max(set.sheet.size_sigma_mm, kKnownSigmaMm));
   session.stated_sigma.segment(kSettings + 2, hooks)
@@ -128,13 +128,13 @@ void state_unknowns(const MeasuredHoles& set, Session& session) {
   session.stated_sigma.tail(of_holes).setConstant(std::max(set.hole_sigma_mm, kKnownSigmaMm));
 }
 
-void take_holes(HoleDistances distances, const std::vector<std::size_t>& index, Session& session) {
-  session.distances = std::make_shared<const HoleDistances>(std::move(distances));
+void take_holes(observation::TapeDistances distances, const std::vector<std::size_t>& index, Session& session) {
+  session.distances = std::make_shared<const observation::TapeDistances>(std::move(distances));
   session.points.clear();
   const std::vector<Hole>& holes = session.distances->set().holes;
   for (std::size_t i = 0; i < holes.size(); ++i) {
     session.points.push_back(
-        {index[i], holes[i].commanded, session.distances->lengths()[i], static_cast<int>(i)});
+        {index[i], holes[i].commanded, session.distances->places()[i].lengths, static_cast<int>(i)});
   }
   state_unknowns(session.distances->set(), session);
 }
@@ -143,10 +143,10 @@ void take_holes(HoleDistances distances, const std::vector<std::size_t>& index, 
 
 bool Session::knows(model::Setting setting) const {
   if (!distances || setting < model::Setting::sheet_x_mm) return true;
-  const SheetMeasured measured = sheet_measured(distances->set());
-  return setting == model::Setting::sheet_x_mm   ? measured.x
-         : setting == model::Setting::sheet_y_mm ? measured.y
-                                                 : measured.rotation;
+  const observation::SheetPrior measured = observation::sheet_measured(distances->set());
+  return setting == model::Setting::sheet_x_mm   ? measured.knows_x
+         : setting == model::Setting::sheet_y_mm ? measured.knows_y
+                                                 : measured.knows_rotation;
 }
 
 tl::expected<Session, DiagnosisFailure> make_session(const MeasuredHoles& set) {
@@ -157,7 +157,7 @@ tl::expected<Session, DiagnosisFailure> make_session(const MeasuredHoles& set) {
   }
   if (set.distances.size() < kFewestDistances) return failure(Reason::too_few_points, too_few(set));
   const Ordered ordered = in_order(set);
-  auto distances = HoleDistances::of(ordered.set);
+  auto distances = observation::TapeDistances::in_given_order(ordered.set);
   if (!distances) return failure(Reason::point_unreachable, distances.error());
   Session session;
   session.stated = *set.machine;
@@ -175,7 +175,7 @@ tl::expected<Session, DiagnosisFailure> make_session(const MeasuredHoles& set) {
 std::optional<Session> with_holes(const Session& session, MeasuredHoles set) {
   std::vector<std::size_t> index(set.holes.size());
   std::iota(index.begin(), index.end(), std::size_t{0});
-  auto distances = HoleDistances::of(std::move(set));
+  auto distances = observation::TapeDistances::in_given_order(std::move(set));
   if (!distances) return std::nullopt;
   Session other = session;
   other.readings.clear();

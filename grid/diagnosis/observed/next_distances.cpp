@@ -92,8 +92,8 @@ class HoleCandidates {
     MeasuredHoles alone = measured_;
     alone.holes = {hole};
     alone.distances.clear();
-    const auto one = HoleDistances::of(std::move(alone));
-    return one && one->places(model::ReadingModel(a_.state.machine), a_.state.sheet);
+    const auto one = observation::TapeDistances::in_given_order(std::move(alone));
+    return one && one->placed({model::ReadingModel(a_.state.machine), a_.state.sheet});
   }
 
   void add_hole(const model::BedPoint& place) {

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/observation/chain_lengths.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace chaintrue::grid::observation {
+
+const Kind chain_lengths{"chain_lengths", "point", "points", "point", true};
+
+ChainLengthReadings::ChainLengthReadings(std::vector<Place> places,
+                                         bool ordered,
+                                         PointNoise noise,
+                                         double noise_dof,
+                                         std::optional<SheetPrior> sheet)
+    : places_(std::move(places)),
+      ordered_(ordered),
+      noise_(noise),
+      noise_dof_(noise_dof),
+      sheet_(sheet) {
+  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.order, a.mark.x_mm, a.mark.y_mm, a.lengths.left_mm, a.lengths.right_mm) <
+           std::tie(b.order, b.mark.x_mm, b.mark.y_mm, b.lengths.left_mm, b.lengths.right_mm);
+  });
+  measured_.resize(2 * static_cast<Eigen::Index>(places_.size()));
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto row = 2 * static_cast<Eigen::Index>(i);
+    measured_(row) = places_[i].lengths.left_mm;
+    measured_(row + 1) = places_[i].lengths.right_mm;
+    units_.push_back({row, 2, places_[i].index});
+  }
+}
+
+tl::expected<Eigen::VectorXd, Unreachable> ChainLengthReadings::predicted(const View& view) const {
+  const model::Paper paper(view.model.machine());
+  std::vector<model::Visit> visits;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    visits.push_back({view.sheet.to_bed(paper.place(places_[i].mark)),
+                      ordered_ ? places_[i].order : static_cast<int>(i)});
+  }
+  const auto lengths = model::readings(view.model, visits);
+  if (!lengths) return tl::unexpected(Unreachable{lengths.error().index, lengths.error().reason});
+  Eigen::VectorXd all(rows());
+  for (std::size_t i = 0; i < lengths->size(); ++i) {
+    model::ChainLengths own = (*lengths)[i];
+    if (view.correction != nullptr) {
+      own = view.correction->at(places_[i].mark, own, Eigen::Matrix2d::Zero()).lengths;
+    }
+    const auto row = 2 * static_cast<Eigen::Index>(i);
+    all(row) = own.left_mm;
+    all(row + 1) = own.right_mm;
+  }
+  return all;
+}
+
+tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
+    const View& view, const std::vector<model::Setting>& settings) const {
+  const model::Paper paper(view.model.machine());
+  Linearisation line;
+  line.predicted.resize(rows());
+  line.by_setting.resize(rows(), static_cast<Eigen::Index>(settings.size()));
+  line.by_nuisance.resize(rows(), 0);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const model::BedPoint place = paper.place(places_[i].mark);
+    const auto reading = view.model.at(view.sheet.to_bed(place));
+    if (!reading) return tl::unexpected(Unreachable{i, reading.error()});
+    PlaceState state{
+        *reading, places_[i].mark, reading->position_jacobian * view.sheet.rotation()};
+    model::ChainLengths lengths = reading->lengths;
+    if (view.correction != nullptr) {
+      const auto corrected = view.correction->at(places_[i].mark, lengths, state.by_mark);
+      lengths = corrected.lengths;
+      state.by_mark = corrected.by_mark;
+    }
+    const auto row = 2 * static_cast<Eigen::Index>(i);
+    line.predicted(row) = lengths.left_mm;
+    line.predicted(row + 1) = lengths.right_mm;
+    const Eigen::Matrix<double, 2, 3> by_sheet =
+        reading->position_jacobian * view.sheet.sensitivity(place);
+    for (std::size_t s = 0; s < settings.size(); ++s) {
+      line.by_setting.block<2, 1>(row, static_cast<Eigen::Index>(s)) =
+          model::is_of_sheet(settings[s])
+              ? Eigen::Vector2d(by_sheet.col(model::sheet_column(settings[s])))
+              : view.model.sensitivity(*reading, settings[s]);
+    }
+    UnitState unit;
+    unit.covariance = std::pow(noise_.length_mm, 2) * Eigen::Matrix2d::Identity() +
+                      std::pow(noise_.position_mm, 2) * state.by_mark * state.by_mark.transpose();
+    unit.places.push_back({i, Eigen::Matrix2d::Identity()});
+    line.places.push_back(std::move(state));
+    line.units.push_back(std::move(unit));
+  }
+  return line;
+}
+
+std::string ChainLengthReadings::untestable(const model::effects::Effect& effect,
+                                            model::effects::EffectSide /*side*/) const {
+  const bool needs_order = effect.needs == model::effects::DataNeed::order;
+  return needs_order && !ordered_ ? "the order in which the points were visited is not known" : "";
+}
+
+std::string ChainLengthReadings::name_of(std::size_t unit) const {
+  const Place& place = places_.at(unit);
+  return fmt::format(
+      "point {} at ({:.1f}, {:.1f}) mm", place.name, place.mark.x_mm, place.mark.y_mm);
+}
+
+}  // namespace chaintrue::grid::observation

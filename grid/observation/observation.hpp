@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The one currency of calibration and diagnosis: an observation, numbers that somebody read, with
+/// what the machine makes of them. Estimators and diagnosis know nothing else of how something was
+/// measured; a kind of observation is one file pair here and one line in kinds.def.
+///
+/// Notation
+///   y      what was read                       n numbers, mm or the reading's own unit
+///   f      what a machine would give to be read there
+///   theta  settings of the machine and of the sheet                       p of them
+///   b      nuisances: errors that several readings share, each about zero with a sigma   q of them
+///   c_i    what is added to the two chains at place i (effects, a surface) [mm]
+///
+///   y = f + A (theta - theta_0) + B b + sum_i D_i c_i + noise,   noise of unit u ~ N(0, C_u)   (1)
+///
+/// A place is where the tool stood while the machine held it: a mark, or a hole. A unit is the rows
+/// that one slip of the hand spoils together; noise of different units is independent given b.
+/// Whitening W_u with W_u C_u W_u' = I brings a unit to units of noise.
+///
+/// \code
+///   const auto tape = TapeDistances::of(set);                // or ChainLengthReadings, ...
+///   const model::ReadingModel model(machine);
+///   const auto line = tape->linearise({model, {}}, settings);
+///   if (line) residual = tape->measured() - line->predicted;   // y - f
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "model/calibration/setting.hpp"
+#include "model/calibration/sheet_placement.hpp"
+#include "model/effects/effect.hpp"
+#include "model/reading_model.hpp"
+
+namespace chaintrue::grid::observation {
+
+/// What a kind is called, in files and in sentences. One constant for each line of kinds.def.
+struct Kind {
+  std::string_view id;        ///< of the .def and of files
+  std::string_view unit;      ///< "point", "distance": what is good or bad as one
+  std::string_view units;     ///< "points"
+  std::string_view place;     ///< "point", "hole"; empty where the tool stood nowhere
+  bool reads_chains = false;  ///< lengths at a place were read, not paid out by a controller
+};
+
+/// Where the tool stood.
+struct Place {
+  std::size_t index = 0;  ///< into the file's points, or holes
+  std::string name;       ///< "3", "A"
+  model::BedPoint mark;   ///< as it was written, or commanded
+  model::ChainLengths lengths;  ///< read there, or paid out to get there
+  int order = 0;                ///< of the visit
+};
+
+/// Rows that are good or bad together.
+struct Unit {
+  Eigen::Index first_row = 0;
+  Eigen::Index rows = 1;
+  std::size_t index = 0;  ///< into the file's points, or distances
+};
+
+/// How well the frame of the marks is known that somebody laid on the bed by hand.
+struct SheetPrior {
+  double shift_sigma_mm = 0.0;
+  double rotation_sigma_rad = 0.0;
+  /// Directions in which the readings notice at all where it lies.
+  bool knows_x = true;
+  bool knows_y = true;
+  bool knows_rotation = true;
+  [[nodiscard]] bool knows(model::Setting setting) const;
+};
+
+/// A correction of the machine's lengths over the sheet, as a fit has it.
+class LengthCorrection {
+ public:
+  virtual ~LengthCorrection() = default;
+  struct At {
+    model::ChainLengths lengths;  ///< corrected
+    Eigen::Matrix2d by_mark;      ///< d(corrected)/d(mark)
+  };
+  /// At a mark where the machine alone has `lengths` and their derivative by the mark.
+  [[nodiscard]] virtual At at(model::BedPoint mark,
+                              model::ChainLengths lengths,
+                              const Eigen::Matrix2d& by_mark) const = 0;
+};
+
+/// Who is asked: a machine, where the sheet of the marks lies, and what corrects its lengths.
+struct View {
+  model::ReadingModel model;
+  model::SheetPlacement sheet;
+  const LengthCorrection* correction = nullptr;
+};
+
+/// A place as a view has it.
+struct PlaceState {
+  model::PointReading reading;  ///< of the machine alone
+  model::BedPoint mark;         ///< on the sheet; of a hole where the machine puts it
+  Eigen::Matrix2d by_mark;      ///< d(L, R)/d(mark), corrected
+};
+
+/// What a unit sees of the chains at a place: D_i, rows x 2.
+struct PlaceColumns {
+  std::size_t place = 0;
+  Eigen::Matrix<double, Eigen::Dynamic, 2> by_chain;
+};
+
+struct UnitState {
+  Eigen::MatrixXd covariance;  ///< C_u
+  std::vector<PlaceColumns> places;
+};
+
+/// (1) about one view.
+struct Linearisation {
+  Eigen::VectorXd predicted;   ///< f, n
+  Eigen::MatrixXd by_setting;  ///< A, n x p
+  Eigen::MatrixXd by_nuisance; ///< B, n x q
+  std::vector<PlaceState> places;
+  std::vector<UnitState> units;
+};
+
+/// The machine cannot hold the tool at a place.
+struct Unreachable {
+  std::size_t place = 0;
+  model::PoseFailure reason = model::PoseFailure::not_converged;
+};
+
+/// Readings of one kind, taken in one session with one sheet. Immutable, thread safe. The order of
+/// rows does not depend on the file's.
+class Observation {
+ public:
+  virtual ~Observation() = default;
+  [[nodiscard]] virtual const Kind& kind() const = 0;
+
+  [[nodiscard]] virtual Eigen::Index rows() const = 0;
+  [[nodiscard]] virtual const std::vector<Place>& places() const = 0;
+  /// In the order of their rows, which they cover without a gap.
+  [[nodiscard]] virtual const std::vector<Unit>& units() const = 0;
+  [[nodiscard]] virtual const Eigen::VectorXd& measured() const = 0;
+  /// One sigma of each nuisance.
+  [[nodiscard]] virtual const Eigen::VectorXd& nuisance_sigma() const = 0;
+  /// Absent: the marks' frame is the bed's.
+  [[nodiscard]] virtual const std::optional<SheetPrior>& sheet() const = 0;
+  /// The visits' order is known.
+  [[nodiscard]] virtual bool ordered() const = 0;
+  /// How well the noise is known, degrees of freedom.
+  [[nodiscard]] virtual double noise_dof() const = 0;
+  /// A slip may spoil a unit; not so what was measured with care, once, and is stated with a sigma.
+  [[nodiscard]] virtual bool may_slip() const = 0;
+
+  /// f, visit by visit where the order is known.
+  [[nodiscard]] virtual tl::expected<Eigen::VectorXd, Unreachable> predicted(
+      const View& view) const = 0;
+  /// Columns of A in the order of `settings`; `sheet_*` are this observation's own.
+  [[nodiscard]] virtual tl::expected<Linearisation, Unreachable> linearise(
+      const View& view, const std::vector<model::Setting>& settings) const = 0;
+
+  /// Why nothing of the kind can show this effect; empty where it can.
+  [[nodiscard]] virtual std::string untestable(const model::effects::Effect& effect,
+                                               model::effects::EffectSide side) const = 0;
+  /// A unit in a workshop's words: "point 3 at (-900, 400) mm", "the distance A-B".
+  [[nodiscard]] virtual std::string name_of(std::size_t unit) const = 0;
+};
+
+using Observations = std::vector<std::shared_ptr<const Observation>>;
+
+/// Every kind, in the order of kinds.def.
+[[nodiscard]] const std::vector<const Kind*>& kinds();
+
+#define CHAINTRUE_OBSERVATION(id) extern const Kind id;
+#include "grid/observation/kinds.def"
+#undef CHAINTRUE_OBSERVATION
+
+/// C of all units and, beside it, B diag(sigma^2) B'.
+[[nodiscard]] Eigen::MatrixXd marginal_covariance(const Linearisation& line,
+                                                  const Eigen::VectorXd& nuisance_sigma);
+
+/// C_u = L L': L^-1.
+[[nodiscard]] Eigen::MatrixXd whitening(const UnitState& unit);
+
+}  // namespace chaintrue::grid::observation

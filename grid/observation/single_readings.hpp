@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Readings of the machine itself: the motors' spacing with a tape, the beam's rise with a level,
+/// a link's pitch with a caliper, a chain's mass on a scale, another tape against the one at hand.
+/// Each was taken with care, once, and is stated with a sigma: a row for each, none is set aside.
+///
+/// They are linear in the settings.
+#pragma once
+
+#include "grid/measured_grid.hpp"
+#include "grid/observation/observation.hpp"
+
+namespace chaintrue::grid::observation {
+
+/// A machine predicts it: motor_spacing_mm, beam_rise_mm, ring_radius_mm (on a ring), link_pitch_mm,
+/// chain_mass_kg_per_m, tape_error_mm_per_m.
+[[nodiscard]] bool is_predictable(const model::Machine& machine, const ExtraReading& reading);
+
+/// What the machine, with its effects, says where a person would measure.
+/// \throws std::out_of_range for a reading that no machine predicts.
+[[nodiscard]] double predicted_reading(const model::Machine& machine, const ExtraReading& reading);
+
+class SingleReadings final : public Observation {
+ public:
+  /// Sorted by what is read. \throws std::invalid_argument for a sigma that is not positive.
+  explicit SingleReadings(std::vector<ExtraReading> readings);
+
+  [[nodiscard]] const Kind& kind() const override { return single_readings; }
+  [[nodiscard]] Eigen::Index rows() const override { return measured_.size(); }
+  [[nodiscard]] const std::vector<Place>& places() const override { return places_; }
+  [[nodiscard]] const std::vector<Unit>& units() const override { return units_; }
+  [[nodiscard]] const Eigen::VectorXd& measured() const override { return measured_; }
+  [[nodiscard]] const Eigen::VectorXd& nuisance_sigma() const override { return nuisance_sigma_; }
+  [[nodiscard]] const std::optional<SheetPrior>& sheet() const override { return sheet_; }
+  [[nodiscard]] bool ordered() const override { return false; }
+  [[nodiscard]] double noise_dof() const override;
+  [[nodiscard]] bool may_slip() const override { return false; }
+  [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
+      const View& view) const override;
+  [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
+      const View& view, const std::vector<model::Setting>& settings) const override;
+  [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
+                                       model::effects::EffectSide side) const override;
+  [[nodiscard]] std::string name_of(std::size_t unit) const override;
+
+  [[nodiscard]] const std::vector<ExtraReading>& readings() const { return readings_; }
+
+ private:
+  std::vector<ExtraReading> readings_;
+  std::vector<Place> places_;
+  std::vector<Unit> units_;
+  Eigen::VectorXd measured_;
+  Eigen::VectorXd nuisance_sigma_;
+  std::optional<SheetPrior> sheet_;
+};
+
+}  // namespace chaintrue::grid::observation

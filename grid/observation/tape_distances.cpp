@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/observation/tape_distances.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+
+#include "model/calibration/setting.hpp"
+#include "model/controllers/payout.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::observation {
+namespace {
+
+using model::BedPoint;
+
+struct EdgeRow {
+  double size_mm;  ///< of the sheet, square to the edge
+  int axis;        ///< 0: x, 1: y
+  double sign;     ///< of the hole's coordinate in its distance from the edge
+};
+
+EdgeRow edge_row(const MeasuredHoles& set, SheetEdge edge) {
+  const model::Bed bed = set.machine ? set.machine->bed : model::Bed{};
+  const double width_mm = set.sheet.width_mm.value_or(bed.width_mm);
+  const double height_mm = set.sheet.height_mm.value_or(bed.height_mm);
+  switch (edge) {
+    case SheetEdge::left:
+      return {width_mm, 0, 1.0};
+    case SheetEdge::right:
+      return {width_mm, 0, -1.0};
+    case SheetEdge::top:
+      return {height_mm, 1, -1.0};
+    case SheetEdge::bottom:
+      break;
+  }
+  return {height_mm, 1, 1.0};
+}
+
+Eigen::MatrixXd hook_covariance(const MeasuredHoles& set) {
+  const auto count = static_cast<Eigen::Index>(set.distances.size());
+  Eigen::VectorXd session(count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    session[k] = static_cast<double>(set.distances[static_cast<std::size_t>(k)].session);
+  const Eigen::MatrixXd all = session.replicate(1, count);
+  return std::pow(set.tape.hook_sigma_mm.value_or(0.0), 2) *
+         (all.array() == all.transpose().array()).cast<double>().matrix();
+}
+
+/// A set in an order that the file's does not change.
+struct Sorted {
+  MeasuredHoles set;
+  std::vector<std::size_t> hole;      ///< into the given set's
+  std::vector<std::size_t> distance;  ///< into the given set's
+};
+
+/// Holes by place and distances by their holes.
+Sorted sorted_set(const MeasuredHoles& set) {
+  Sorted result{set, {}, {}};
+  result.hole.resize(set.holes.size());
+  std::iota(result.hole.begin(), result.hole.end(), std::size_t{0});
+  std::sort(result.hole.begin(), result.hole.end(), [&](std::size_t a, std::size_t b) {
+    const Hole& x = set.holes[a];
+    const Hole& y = set.holes[b];
+    return std::tie(x.commanded.x_mm, x.commanded.y_mm, x.name) <
+           std::tie(y.commanded.x_mm, y.commanded.y_mm, y.name);
+  });
+  std::vector<std::size_t> place(set.holes.size());
+  for (std::size_t i = 0; i < result.hole.size(); ++i) {
+    place[result.hole[i]] = i;
+    result.set.holes[i] = set.holes[result.hole[i]];
+  }
+  const auto key = [&](std::size_t k) {
+    const HoleDistance& d = set.distances[k];
+    const std::size_t a = place[d.from];
+    const std::size_t b = d.edge ? a : place[d.to];
+    return std::tuple(
+        std::min(a, b), std::max(a, b), d.edge, d.distance_mm, d.session, sigma_of(set, d));
+  };
+  result.distance.resize(set.distances.size());
+  std::iota(result.distance.begin(), result.distance.end(), std::size_t{0});
+  std::stable_sort(result.distance.begin(),
+                   result.distance.end(),
+                   [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  for (std::size_t k = 0; k < result.distance.size(); ++k) {
+    HoleDistance own = set.distances[result.distance[k]];
+    own.from = place[own.from];
+    if (!own.edge) own.to = place[own.to];
+    result.set.distances[k] = own;
+  }
+  return result;
+}
+
+std::vector<BedPoint> marks_of(const std::vector<PlaceState>& states) {
+  std::vector<BedPoint> marks;
+  for (const PlaceState& state : states) marks.push_back(state.mark);
+  return marks;
+}
+
+}  // namespace
+
+const Kind tape_distances{"tape_distances", "distance", "distances", "hole", false};
+
+DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<BedPoint>& marks) {
+  const auto count = static_cast<Eigen::Index>(set.distances.size());
+  DistanceGeometry geometry{
+      Eigen::VectorXd::Zero(count),
+      Eigen::MatrixXd::Zero(count, 2 * static_cast<Eigen::Index>(marks.size())),
+      Eigen::MatrixXd::Zero(count, 2)};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const HoleDistance& distance = set.distances[static_cast<std::size_t>(k)];
+    const BedPoint from = marks.at(distance.from);
+    const auto a = 2 * static_cast<Eigen::Index>(distance.from);
+    if (distance.edge) {
+      const EdgeRow row = edge_row(set, *distance.edge);
+      geometry.predicted_mm[k] =
+          0.5 * row.size_mm + row.sign * (row.axis == 0 ? from.x_mm : from.y_mm);
+      geometry.by_mark(k, a + row.axis) = row.sign;
+      // Half of what the sheet is too large stands before each of its edges.
+      geometry.by_size(k, row.axis) = 0.5;
+      continue;
+    }
+    const BedPoint to = marks.at(distance.to);
+    const auto b = 2 * static_cast<Eigen::Index>(distance.to);
+    const Eigen::Vector2d way(from.x_mm - to.x_mm, from.y_mm - to.y_mm);
+    geometry.predicted_mm[k] = way.norm();
+    const Eigen::Vector2d unit = way / way.norm();
+    geometry.by_mark.block<1, 2>(k, a) = unit.transpose();
+    geometry.by_mark.block<1, 2>(k, b) = -unit.transpose();
+  }
+  return geometry;
+}
+
+DistanceNoise distance_noise(const MeasuredHoles& set, const DistanceGeometry& geometry) {
+  const Eigen::Index count = geometry.predicted_mm.size();
+  DistanceNoise noise;
+  noise.tape_mm2.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    noise.tape_mm2[k] = std::pow(sigma_of(set, set.distances[static_cast<std::size_t>(k)]), 2);
+  }
+  noise.holes_mm2 =
+      set.hole_sigma_mm * set.hole_sigma_mm * geometry.by_mark * geometry.by_mark.transpose();
+  noise.size_mm2 =
+      std::pow(set.sheet.size_sigma_mm, 2) * geometry.by_size * geometry.by_size.transpose();
+  noise.hook_mm2 = hook_covariance(set);
+  return noise;
+}
+
+bool is_of_tape(const model::effects::Effect& effect, model::effects::EffectSide side) {
+  return effect.station == model::effects::Station::paper &&
+         side == model::effects::EffectSide::both;
+}
+
+double tape_factor(const model::Machine& machine) {
+  double factor = 1.0;
+  for (const model::effects::ActingEffect& acting : model::effects::acting_effects(machine)) {
+    if (!is_of_tape(*acting.effect, acting.side)) continue;
+    factor *= acting.effect->write({1.0, 0.0}, acting.side, acting.values).x_mm;
+  }
+  return factor;
+}
+
+SheetPrior sheet_measured(const MeasuredHoles& set) {
+  // Two readings to upright edges, from holes this far apart in height, tell the turn.
+  constexpr double kApartMm = 100.0;
+  SheetPrior measured{kSheetShiftMm, kSheetTurnRad, false, false, false};
+  for (const HoleDistance& a : set.distances) {
+    if (!a.edge) continue;
+    const bool upright = *a.edge == SheetEdge::left || *a.edge == SheetEdge::right;
+    (upright ? measured.knows_x : measured.knows_y) = true;
+    for (const HoleDistance& b : set.distances) {
+      if (!b.edge || (*b.edge == SheetEdge::left || *b.edge == SheetEdge::right) != upright)
+        continue;
+      const BedPoint p = set.holes.at(a.from).commanded;
+      const BedPoint q = set.holes.at(b.from).commanded;
+      if (std::abs(upright ? p.y_mm - q.y_mm : p.x_mm - q.x_mm) > kApartMm)
+        measured.knows_rotation = true;
+    }
+  }
+  return measured;
+}
+
+tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredHoles set) {
+  if (!set.machine) throw std::invalid_argument("holes without a machine predict no distances");
+  TapeDistances result(std::move(set));
+  const auto controller = model::make_controller_kinematics(*result.set_.machine);
+  for (std::size_t i = 0; i < result.set_.holes.size(); ++i) {
+    const Hole& hole = result.set_.holes[i];
+    const auto lengths = controller->lengths(hole.commanded);
+    if (!lengths) {
+      return tl::unexpected(
+          fmt::format("hole {} at ({:.1f}, {:.1f}) is out of the controller's "
+                      "reach: {}",
+                      hole.name,
+                      hole.commanded.x_mm,
+                      hole.commanded.y_mm,
+                      model::explain(lengths.error())));
+    }
+    result.places_.push_back({i, hole.name, hole.commanded, *lengths, static_cast<int>(i)});
+  }
+  const std::size_t count = result.set_.distances.size();
+  result.measured_.resize(static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    result.measured_[row] = length_of(result.set_, result.set_.distances[k]);
+    result.units_.push_back({row, 1, k});
+  }
+  result.sheet_ = sheet_measured(result.set_);
+  result.state_nuisances();
+  return result;
+}
+
+tl::expected<TapeDistances, std::string> TapeDistances::of(const MeasuredHoles& set) {
+  const Sorted sorted = sorted_set(set);
+  auto result = in_given_order(sorted.set);
+  if (!result) return result;
+  for (Place& place : result->places_) place.index = sorted.hole[place.index];
+  for (Unit& unit : result->units_) unit.index = sorted.distance[unit.index];
+  return result;
+}
+
+void TapeDistances::state_nuisances() {
+  if (set_.tape.hook_sigma_mm) {
+    std::set<std::size_t> sessions;
+    for (const HoleDistance& d : set_.distances) sessions.insert(d.session);
+    hook_sessions_.assign(sessions.begin(), sessions.end());
+  }
+  const auto hooks = static_cast<Eigen::Index>(hook_sessions_.size());
+  const Eigen::Index of_holes = 2 * static_cast<Eigen::Index>(set_.holes.size());
+  nuisance_sigma_.resize(2 + hooks + of_holes);
+  nuisance_sigma_.head(2).setConstant(std::max(set_.sheet.size_sigma_mm, kKnownNuisanceMm));
+  nuisance_sigma_.segment(2, hooks)
+      .setConstant(std::max(set_.tape.hook_sigma_mm.value_or(0.0), kKnownNuisanceMm));
+  nuisance_sigma_.tail(of_holes).setConstant(std::max(set_.hole_sigma_mm, kKnownNuisanceMm));
+}
+
+Eigen::MatrixXd TapeDistances::hook_columns() const {
+  Eigen::MatrixXd columns =
+      Eigen::MatrixXd::Zero(rows(), static_cast<Eigen::Index>(hook_sessions_.size()));
+  for (std::size_t k = 0; k < set_.distances.size(); ++k) {
+    const auto at =
+        std::find(hook_sessions_.begin(), hook_sessions_.end(), set_.distances[k].session);
+    if (at != hook_sessions_.end()) {
+      columns(static_cast<Eigen::Index>(k), at - hook_sessions_.begin()) = 1.0;
+    }
+  }
+  return columns;
+}
+
+tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const View& view) const {
+  // A correction changes by a thousandth of a hole's way, the chains' scale by 0.2 %: each turn
+  // gains two digits at least, and begins within some mm.
+  constexpr int kTurns = 5;
+  std::vector<PlaceState> states;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const BedPoint start = places_[i].mark;
+    model::ChainLengths own = places_[i].lengths;
+    auto reading = view.model.find(own, start);
+    for (int turn = 0; reading && view.correction != nullptr && turn < kTurns; ++turn) {
+      const BedPoint mark = view.sheet.to_mark(reading->pose.position);
+      const auto corrected = view.correction->at(mark, own, Eigen::Matrix2d::Zero());
+      own.left_mm = places_[i].lengths.left_mm - (corrected.lengths.left_mm - own.left_mm);
+      own.right_mm = places_[i].lengths.right_mm - (corrected.lengths.right_mm - own.right_mm);
+      reading = view.model.find(own, start);
+    }
+    if (!reading) return tl::unexpected(Unreachable{i, reading.error()});
+    PlaceState state{*reading,
+                     view.sheet.to_mark(reading->pose.position),
+                     reading->position_jacobian * view.sheet.rotation()};
+    if (view.correction != nullptr) {
+      state.by_mark = view.correction->at(state.mark, reading->lengths, state.by_mark).by_mark;
+    }
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
+Eigen::Vector2d TapeDistances::mark_by_setting(const View& view,
+                                               const PlaceState& place,
+                                               model::Setting setting) {
+  // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
+  const Eigen::Matrix2d to_mark = place.by_mark.inverse();
+  if (!model::is_of_sheet(setting)) return -to_mark * view.model.sensitivity(place.reading, setting);
+  const Eigen::Matrix<double, 2, 3> by_sheet =
+      place.reading.position_jacobian * view.sheet.sensitivity(place.mark);
+  return -to_mark * by_sheet.col(model::sheet_column(setting));
+}
+
+tl::expected<Eigen::VectorXd, Unreachable> TapeDistances::predicted(const View& view) const {
+  const auto states = placed(view);
+  if (!states) return tl::unexpected(states.error());
+  return Eigen::VectorXd(tape_factor(view.model.machine()) *
+                         distance_geometry(set_, marks_of(*states)).predicted_mm);
+}
+
+tl::expected<Linearisation, Unreachable> TapeDistances::linearise(
+    const View& view, const std::vector<model::Setting>& settings) const {
+  auto states = placed(view);
+  if (!states) return tl::unexpected(states.error());
+  const double factor = tape_factor(view.model.machine());
+  const DistanceGeometry geometry = distance_geometry(set_, marks_of(*states));
+  const Eigen::MatrixXd by_mark = factor * geometry.by_mark;
+  const Eigen::MatrixXd by_hook = hook_columns();
+  Linearisation line;
+  line.predicted = factor * geometry.predicted_mm;
+  line.by_setting = Eigen::MatrixXd::Zero(rows(), static_cast<Eigen::Index>(settings.size()));
+  for (std::size_t i = 0; i < states->size(); ++i) {
+    for (std::size_t s = 0; s < settings.size(); ++s) {
+      line.by_setting.col(static_cast<Eigen::Index>(s)) +=
+          by_mark.middleCols<2>(2 * static_cast<Eigen::Index>(i)) *
+          mark_by_setting(view, (*states)[i], settings[s]);
+    }
+  }
+  line.by_nuisance.resize(rows(), nuisance_sigma_.size());
+  line.by_nuisance << factor * geometry.by_size, by_hook, by_mark;
+  for (Eigen::Index k = 0; k < rows(); ++k) {
+    const double sigma = sigma_of(set_, set_.distances[static_cast<std::size_t>(k)]);
+    UnitState unit{Eigen::MatrixXd::Constant(1, 1, sigma * sigma), {}};
+    for (std::size_t i = 0; i < states->size(); ++i) {
+      const Eigen::RowVector2d own = by_mark.block<1, 2>(k, 2 * static_cast<Eigen::Index>(i));
+      if (!own.isZero(0.0)) unit.places.push_back({i, -own * (*states)[i].by_mark.inverse()});
+    }
+    line.units.push_back(std::move(unit));
+  }
+  line.places = std::move(*states);
+  return line;
+}
+
+std::string TapeDistances::untestable(const model::effects::Effect& effect,
+                                      model::effects::EffectSide side) const {
+  if (effect.needs == model::effects::DataNeed::order) {
+    return "the order in which the holes were cut is not in the file, and no chain was read";
+  }
+  if (effect.station == model::effects::Station::paper && !is_of_tape(effect, side)) {
+    return "a tape has one scale whichever way it is held, and no axes: print or set out marks "
+           "and read the chains there";
+  }
+  return "";
+}
+
+std::string TapeDistances::name_of(std::size_t unit) const {
+  return "the distance " + words_of(set_, set_.distances.at(unit));
+}
+
+}  // namespace chaintrue::grid::observation

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Tape distances between holes that the machine cut, and to the sheet's edges. Where the holes are
+/// was not measured; it follows from what the controller paid out for them.
+///
+///   l_i   chain lengths that the controller paid out for hole i
+///   q_i   where the machine puts the tool with them: f(q_i) = l_i
+///   m_i   q_i on the sheet
+///   d_k   |m_a - m_b|, or m_a's distance from an edge                                      (1)
+///   V     tape^2 I + hole^2 B B' + size^2 w w' + hook^2 1 1', B = dd/dm                    (2)
+///
+/// A distance is a unit of one row with the tape's own noise. What holes share with every distance
+/// that ends there, readings of one session with its hook, and edges with the sheet's size, are
+/// nuisances: how much wider and higher the sheet is, the hook of each session whose hook is not
+/// known exactly, and the shift of each hole in x and y, in this order. The frame of the sheet
+/// matters to edges alone: distances between holes do not move with it.
+///
+/// With c added to the chains at a hole it lies elsewhere, dm = -J^-1 c, so D_i = -dd/dm_i J^-1.
+///
+/// \code
+///   const auto distances = TapeDistances::of(set);          // set.machine has the controller
+///   const auto line = distances->linearise({ReadingModel(machine), {}}, settings);
+///   if (line) whiten(distances->measured() - line->predicted, marginal_covariance(*line, ...));
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/holes/measured_holes.hpp"
+#include "grid/observation/observation.hpp"
+
+namespace chaintrue::grid::observation {
+
+/// (1) at given places, with its derivative.
+struct DistanceGeometry {
+  Eigen::VectorXd predicted_mm;  ///< n
+  Eigen::MatrixXd by_mark;       ///< n x 2 N, x and y of each hole
+  Eigen::MatrixXd by_size;       ///< n x 2, by what the sheet is wider and higher than said
+};
+[[nodiscard]] DistanceGeometry distance_geometry(const MeasuredHoles& set,
+                                                 const std::vector<model::BedPoint>& marks);
+
+/// (2) in its parts: the tape's alone (a diagonal), the holes', that of the sheet's size and that
+/// of the hook.
+struct DistanceNoise {
+  Eigen::VectorXd tape_mm2;
+  Eigen::MatrixXd holes_mm2;
+  Eigen::MatrixXd size_mm2;
+  Eigen::MatrixXd hook_mm2;
+};
+[[nodiscard]] DistanceNoise distance_noise(const MeasuredHoles& set,
+                                           const DistanceGeometry& geometry);
+
+/// Of the effects of the paper the one that a tape can have: a scale of its own.
+[[nodiscard]] bool is_of_tape(const model::effects::Effect& effect,
+                              model::effects::EffectSide side);
+/// Read over true length, where the machine's effects say that the tape is long or short.
+[[nodiscard]] double tape_factor(const model::Machine& machine);
+
+/// What is stated without any doubt is taken as known this well, mm: no reading of a workshop is
+/// nearer.
+inline constexpr double kKnownNuisanceMm = 1e-6;
+
+/// One sigma beforehand of where a sheet lies whose edges were measured.
+inline constexpr double kSheetShiftMm = 50.0;
+inline constexpr double kSheetTurnRad = 0.03;
+
+/// Directions in which the edges that were measured tell where the sheet lies.
+[[nodiscard]] SheetPrior sheet_measured(const MeasuredHoles& set);
+
+class TapeDistances final : public Observation {
+ public:
+  /// Sorts holes by place and distances by their holes. Fails in words where a command is out of
+  /// the controller's reach. \throws std::invalid_argument for a set without a machine.
+  [[nodiscard]] static tl::expected<TapeDistances, std::string> of(const MeasuredHoles& set);
+  /// The same in the order of the set.
+  [[nodiscard]] static tl::expected<TapeDistances, std::string> in_given_order(MeasuredHoles set);
+
+  [[nodiscard]] const Kind& kind() const override { return tape_distances; }
+  [[nodiscard]] Eigen::Index rows() const override { return measured_.size(); }
+  [[nodiscard]] const std::vector<Place>& places() const override { return places_; }
+  [[nodiscard]] const std::vector<Unit>& units() const override { return units_; }
+  /// The readings less the hook.
+  [[nodiscard]] const Eigen::VectorXd& measured() const override { return measured_; }
+  [[nodiscard]] const Eigen::VectorXd& nuisance_sigma() const override { return nuisance_sigma_; }
+  [[nodiscard]] const std::optional<SheetPrior>& sheet() const override { return sheet_; }
+  [[nodiscard]] bool ordered() const override { return false; }
+  [[nodiscard]] double noise_dof() const override { return set_.noise_dof; }
+  [[nodiscard]] bool may_slip() const override { return true; }
+  [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
+      const View& view) const override;
+  [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
+      const View& view, const std::vector<model::Setting>& settings) const override;
+  [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
+                                       model::effects::EffectSide side) const override;
+  [[nodiscard]] std::string name_of(std::size_t unit) const override;
+
+  /// In the order of places() and units().
+  [[nodiscard]] const MeasuredHoles& set() const { return set_; }
+  /// Where a view puts the holes with what was paid out for them.
+  [[nodiscard]] tl::expected<std::vector<PlaceState>, Unreachable> placed(const View& view) const;
+  /// How a setting moves a hole's mark.
+  [[nodiscard]] static Eigen::Vector2d mark_by_setting(const View& view,
+                                                       const PlaceState& place,
+                                                       model::Setting setting);
+  /// Sessions of the tape whose hook is a nuisance, in the order of the nuisances.
+  [[nodiscard]] const std::vector<std::size_t>& hook_sessions() const { return hook_sessions_; }
+
+ private:
+  explicit TapeDistances(MeasuredHoles set) : set_(std::move(set)) {}
+  void state_nuisances();
+  [[nodiscard]] Eigen::MatrixXd hook_columns() const;
+
+  MeasuredHoles set_;
+  std::vector<Place> places_;
+  std::vector<Unit> units_;
+  Eigen::VectorXd measured_;
+  Eigen::VectorXd nuisance_sigma_;
+  std::optional<SheetPrior> sheet_;
+  std::vector<std::size_t> hook_sessions_;
+};
+
+}  // namespace chaintrue::grid::observation
