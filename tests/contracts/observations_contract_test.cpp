@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Laws that hold for every kind of observation: a line in kinds.def without a simulation here fails.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "grid/files/machine_file.hpp"
+#include "grid/observation/chain_lengths.hpp"
+#include "grid/observation/single_readings.hpp"
+#include "grid/observation/tape_distances.hpp"
+#include "grid/synthetic/generator.hpp"
+#include "grid/synthetic/holes.hpp"
+#include "grid/synthetic/random.hpp"
+
+namespace chaintrue::grid::observation {
+namespace {
+
+using model::Setting;
+
+const model::Machine& classic() {
+  static const model::Machine machine =
+      files::read_machine(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
+  return machine;
+}
+
+/// Readings that a person might have taken of `classic`, which is just as stated. `slip` spoils one
+/// of them by many sigmas; `turn` puts the file in another order.
+struct Wanted {
+  std::uint64_t seed = 1;
+  bool slip = false;
+  bool turn = false;
+};
+using Simulate = std::function<std::shared_ptr<const Observation>(const Wanted&)>;
+
+constexpr std::size_t kSpoilt = 5;
+
+template <class T>
+void turn_over(std::vector<T>& items, const Wanted& wanted) {
+  if (wanted.turn) std::reverse(items.begin(), items.end());
+}
+
+std::shared_ptr<const Observation> marks(const Wanted& wanted) {
+  synthetic::SyntheticSpec spec;
+  spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
+  spec.seed = wanted.seed;
+  const auto session = synthetic::generate(classic(), spec);
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < session->grid.points.size(); ++i) {
+    const MeasuredPoint& point = session->grid.points[i];
+    places.push_back({i, std::to_string(i + 1), point.mark, *point.lengths, *point.order});
+  }
+  if (wanted.slip) places[kSpoilt].mark.x_mm += 20.0;
+  turn_over(places, wanted);
+  return std::make_shared<ChainLengthReadings>(
+      std::move(places), true, PointNoise{0.2, 0.3}, 15.0, SheetPrior{20.0, 0.01});
+}
+
+MeasuredHoles holes_design() {
+  MeasuredHoles set;
+  set.machine = classic();
+  set.tape.hook_sigma_mm = 0.4;
+  const double x[] = {-900, 0, 900};
+  const double y[] = {-450, 0, 450};
+  for (const double at_y : y) {
+    for (const double at_x : x) {
+      set.holes.push_back({std::string(1, static_cast<char>('A' + set.holes.size())), {at_x, at_y}});
+    }
+  }
+  for (std::size_t i = 0; i < set.holes.size(); ++i) {
+    for (std::size_t j = i + 1; j < set.holes.size(); j += 2) {
+      set.distances.push_back({.from = i, .to = j, .session = j % 2});
+    }
+  }
+  set.distances.push_back({.from = 0, .edge = SheetEdge::left});
+  set.distances.push_back({.from = 6, .edge = SheetEdge::left});
+  set.distances.push_back({.from = 8, .edge = SheetEdge::top});
+  return set;
+}
+
+std::shared_ptr<const Observation> holes(const Wanted& wanted) {
+  MeasuredHoles design = holes_design();
+  auto made = synthetic::simulate_holes(design, {.seed = wanted.seed});
+  synthetic::Random random(wanted.seed, 77);
+  MeasuredHoles set = made->set;
+  const double hook[] = {0.4 * random.normal(), 0.4 * random.normal()};
+  const double wider[] = {random.normal(), random.normal()};
+  for (HoleDistance& distance : set.distances) {
+    distance.distance_mm += hook[distance.session];
+    if (distance.edge) distance.distance_mm += 0.5 * wider[*distance.edge == SheetEdge::top ? 1 : 0];
+  }
+  if (wanted.slip) set.distances[kSpoilt].distance_mm += 20.0;
+  if (wanted.turn) {
+    const std::size_t last = set.holes.size() - 1;
+    std::reverse(set.holes.begin(), set.holes.end());
+    for (HoleDistance& distance : set.distances) {
+      distance.from = last - distance.from;
+      if (!distance.edge) distance.to = last - distance.to;
+    }
+  }
+  turn_over(set.distances, wanted);
+  return std::make_shared<TapeDistances>(*TapeDistances::of(set));
+}
+
+std::shared_ptr<const Observation> parts(const Wanted& wanted) {
+  synthetic::Random random(wanted.seed, 78);
+  std::vector<ExtraReading> readings = {{"motor_spacing_mm", "", 0.0, 1.0},
+                                        {"beam_rise_mm", "", 0.0, 0.5},
+                                        {"ring_radius_mm", "", 0.0, 0.5},
+                                        {"link_pitch_mm", "left", 0.0, 0.001},
+                                        {"chain_mass_kg_per_m", "", 0.0, 0.002},
+                                        {"tape_error_mm_per_m", "x", 0.0, 0.2}};
+  for (ExtraReading& reading : readings) {
+    reading.value = predicted_reading(classic(), reading) + reading.sigma * random.normal();
+  }
+  turn_over(readings, wanted);
+  return std::make_shared<SingleReadings>(std::move(readings));
+}
+
+const std::map<std::string_view, Simulate>& simulations() {
+  static const std::map<std::string_view, Simulate> kSimulations = {
+      {"chain_lengths", marks}, {"tape_distances", holes}, {"single_readings", parts}};
+  return kSimulations;
+}
+
+class EveryObservation : public testing::TestWithParam<const Kind*> {
+ protected:
+  [[nodiscard]] std::shared_ptr<const Observation> simulated(const Wanted& wanted = {}) const {
+    const auto found = simulations().find(GetParam()->id);
+    if (found == simulations().end()) {
+      throw std::logic_error("no simulation of " + std::string(GetParam()->id));
+    }
+    return found->second(wanted);
+  }
+  static View as_stated() { return {model::ReadingModel(classic()), {}}; }
+};
+
+std::vector<Setting> all_settings() {
+  std::vector<Setting> settings(model::kMachineSettings.begin(), model::kMachineSettings.end());
+  settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
+  return settings;
+}
+
+TEST_P(EveryObservation, UnitsCoverTheRowsAndSpeak) {
+  const auto observation = simulated();
+  EXPECT_EQ(&observation->kind(), GetParam());
+  EXPECT_EQ(observation->measured().size(), observation->rows());
+  Eigen::Index row = 0;
+  for (std::size_t u = 0; u < observation->units().size(); ++u) {
+    EXPECT_EQ(observation->units()[u].first_row, row);
+    row += observation->units()[u].rows;
+    EXPECT_FALSE(observation->name_of(u).empty());
+  }
+  EXPECT_EQ(row, observation->rows());
+  EXPECT_GT(observation->noise_dof(), 0.0);
+  const auto line = observation->linearise(as_stated(), all_settings());
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->units.size(), observation->units().size());
+  EXPECT_EQ(line->places.size(), observation->places().size());
+  EXPECT_EQ(line->by_nuisance.cols(), observation->nuisance_sigma().size());
+  EXPECT_EQ(GetParam()->place.empty(), observation->places().empty());
+}
+
+TEST_P(EveryObservation, DerivativesBySettingAreDifferences) {
+  const auto observation = simulated();
+  const model::SheetPlacement sheet{3.0, -2.0, 0.004};
+  const auto line = observation->linearise({model::ReadingModel(classic()), sheet}, all_settings());
+  ASSERT_TRUE(line);
+  for (Eigen::Index s = 0; s < line->by_setting.cols(); ++s) {
+    const Setting setting = all_settings()[static_cast<std::size_t>(s)];
+    SCOPED_TRACE(std::string(model::name(setting)));
+    const bool turn = setting == Setting::sheet_rotation_rad;
+    const double step = turn ? 1e-5 : 1e-2;
+    const auto predicted_at = [&](double change) -> Eigen::VectorXd {
+      model::Machine machine = classic();
+      model::SheetPlacement at = sheet;
+      if (!model::is_of_sheet(setting)) {
+        machine =
+            model::with_setting(machine, setting, model::stated_value(machine, setting) + change);
+      } else {
+        double* const value[] = {&at.x_mm, &at.y_mm, &at.rotation_rad};
+        *value[model::sheet_column(setting)] += change;
+      }
+      return *observation->predicted({model::ReadingModel(machine), at});
+    };
+    const Eigen::VectorXd by_difference = (predicted_at(step) - predicted_at(-step)) / (2.0 * step);
+    // A central difference errs by step^2 / 6 times the third derivative, some 1e-6 per mm^2, and
+    // by rounding, 1e-9 mm over the step.
+    EXPECT_LT((line->by_setting.col(s) - by_difference).cwiseAbs().maxCoeff(), turn ? 2e-3 : 1e-6);
+  }
+}
+
+/// Adds c to the chains in the neighbourhood of one place.
+class AtOnePlace final : public LengthCorrection {
+ public:
+  AtOnePlace(model::BedPoint centre, model::ChainLengths c) : centre_(centre), c_(c) {}
+  [[nodiscard]] At at(model::BedPoint mark,
+                      model::ChainLengths lengths,
+                      const Eigen::Matrix2d& by_mark) const override {
+    const bool near = std::hypot(mark.x_mm - centre_.x_mm, mark.y_mm - centre_.y_mm) < 50.0;
+    if (near) lengths = {lengths.left_mm + c_.left_mm, lengths.right_mm + c_.right_mm};
+    return {lengths, by_mark};
+  }
+
+ private:
+  model::BedPoint centre_;
+  model::ChainLengths c_;
+};
+
+TEST_P(EveryObservation, WhatIsPaidOutMovesAUnitAsItsColumnsSay) {
+  const auto observation = simulated();
+  const auto line = observation->linearise(as_stated(), {});
+  ASSERT_TRUE(line);
+  for (std::size_t i = 0; i < line->places.size(); ++i) {
+    for (const Eigen::Vector2d& c : {Eigen::Vector2d(1e-2, 0.0), Eigen::Vector2d(0.0, 1e-2)}) {
+      View with = as_stated();
+      const AtOnePlace plus(line->places[i].mark, {c.x(), c.y()});
+      const AtOnePlace minus(line->places[i].mark, {-c.x(), -c.y()});
+      with.correction = &plus;
+      Eigen::VectorXd change = *observation->predicted(with);
+      with.correction = &minus;
+      change = 0.5 * (change - *observation->predicted(with));
+      for (std::size_t u = 0; u < line->units.size(); ++u) {
+        const Unit& unit = observation->units()[u];
+        Eigen::VectorXd expected = Eigen::VectorXd::Zero(unit.rows);
+        for (const PlaceColumns& columns : line->units[u].places) {
+          if (columns.place == i) expected += columns.by_chain * c;
+        }
+        // As for the settings: third derivatives, and poses to 1e-9 mm.
+        EXPECT_LT((change.segment(unit.first_row, unit.rows) - expected).cwiseAbs().maxCoeff(), 2e-8)
+            << observation->name_of(u);
+      }
+    }
+  }
+}
+
+TEST_P(EveryObservation, WhitenedResidualsOfGeneratedDataHaveUnitVariance) {
+  constexpr std::uint64_t kSessions = 150;
+  double square = 0.0;
+  double count = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSessions; ++seed) {
+    const auto observation = simulated({.seed = seed});
+    const auto line = observation->linearise(as_stated(), {});
+    ASSERT_TRUE(line);
+    const Eigen::VectorXd residual = observation->measured() - line->predicted;
+    square += residual.dot(
+        marginal_covariance(*line, observation->nuisance_sigma()).llt().solve(residual));
+    count += static_cast<double>(residual.size());
+  }
+  // Chi-square of `count` degrees of freedom; four of its standard deviations, 1 in 16 000.
+  EXPECT_NEAR(square / count, 1.0, 4.0 * std::sqrt(2.0 / count)) << "seeds 1 to " << kSessions;
+}
+
+TEST_P(EveryObservation, TheOrderOfTheFileChangesNothing) {
+  const auto one = simulated();
+  const auto other = simulated({.turn = true});
+  const auto a = one->linearise(as_stated(), all_settings());
+  const auto b = other->linearise(as_stated(), all_settings());
+  ASSERT_TRUE(a && b);
+  // To the last bit.
+  EXPECT_EQ(one->measured(), other->measured());
+  EXPECT_EQ(a->predicted, b->predicted);
+  EXPECT_EQ(a->by_setting, b->by_setting);
+  EXPECT_EQ(a->by_nuisance, b->by_nuisance);
+  EXPECT_EQ(*one->predicted(as_stated()), *other->predicted(as_stated()));
+  const std::size_t last = one->units().size() - 1;
+  for (std::size_t u = 0; u <= last; ++u) {
+    EXPECT_EQ(one->name_of(u), other->name_of(u));
+    if (GetParam()->id != "single_readings") {
+      EXPECT_EQ(one->units()[u].index, last - other->units()[u].index);
+    }
+  }
+}
+
+TEST_P(EveryObservation, ABadUnitIsFound) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto observation = simulated({.seed = seed, .slip = true});
+    if (!observation->may_slip()) return;
+    const auto line = observation->linearise(as_stated(), {});
+    ASSERT_TRUE(line);
+    const Eigen::MatrixXd precision =
+        marginal_covariance(*line, observation->nuisance_sigma())
+            .llt()
+            .solve(Eigen::MatrixXd::Identity(observation->rows(), observation->rows()));
+    const Eigen::VectorXd pulled = precision * (observation->measured() - line->predicted);
+    double worst = -1.0;
+    std::size_t found = 0;
+    for (const Unit& unit : observation->units()) {
+      const auto own = pulled.segment(unit.first_row, unit.rows);
+      const Eigen::MatrixXd block =
+          precision.block(unit.first_row, unit.first_row, unit.rows, unit.rows);
+      const double distance = own.dot(block.llt().solve(Eigen::VectorXd(own)));
+      if (distance <= worst) continue;
+      worst = distance;
+      found = unit.index;
+    }
+    EXPECT_EQ(found, kSpoilt) << "seed " << seed;
+  }
+}
+
+TEST_P(EveryObservation, EveryEffectIsShownOrRefusedInWords) {
+  const auto observation = simulated();
+  for (const Kind* kind : kinds()) EXPECT_FALSE(kind->units.empty());
+  model::effects::Effect nothing;
+  nothing.needs = model::effects::DataNeed::order;
+  if (!observation->ordered()) {
+    EXPECT_FALSE(observation->untestable(nothing, model::effects::EffectSide::none).empty());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds,
+                         EveryObservation,
+                         testing::ValuesIn(kinds()),
+                         [](const auto& kind) { return std::string(kind.param->id); });
+
+}  // namespace
+}  // namespace chaintrue::grid::observation
