@@ -63,7 +63,7 @@ tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const St
 }
 
 /// Strength below which no point plan names a cause: what cannot get there is left out of the
-/// contest, where it would only take probability from the others.
+/// comparison, where it would only take probability from the others.
 constexpr double kLeastReach = 4.0;
 
 /// Takes effects out that could not show at any size that they may have.
@@ -103,7 +103,7 @@ void drop_invisible(const Space& space, Analysis& a) {
 }
 
 /// What is fitted is the member that gives its class the name: settings and sizes belong together.
-void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judged) {
+void speak_of_leaders(const Rows& rows, const ModelComparison& comparison, Judgement& judged) {
   for (int& k : judged.directions) {
     const CauseId own = rows.directions[static_cast<std::size_t>(k)].cause;
     for (const CauseClass& members : judged.classes) {
@@ -112,12 +112,12 @@ void speak_of_leaders(const Rows& rows, const Contest& contest, Judgement& judge
         continue;
       }
       const auto alone =
-          std::find_if(contest.models.begin(), contest.models.end(), [&](const Model& model) {
+          std::find_if(comparison.models.begin(), comparison.models.end(), [&](const Model& model) {
             return model.directions.size() == 1 &&
                    rows.directions[static_cast<std::size_t>(model.directions.front())].cause ==
                        members.front();
           });
-      if (alone != contest.models.end()) k = alone->directions.front();
+      if (alone != comparison.models.end()) k = alone->directions.front();
     }
   }
   std::sort(judged.directions.begin(), judged.directions.end());
@@ -132,17 +132,17 @@ constexpr double kPatternLikely = 0.5;
 
 Judgement decide(const Session& session,
                  const Rows& rows,
-                 const Contest& contest,
+                 const ModelComparison& comparison,
                  const std::vector<bool>& excluded,
                  bool seen) {
-  Judgement judged = judge(rows, contest, excluded, seen);
-  speak_of_leaders(rows, contest, judged);
+  Judgement judged = judge(rows, comparison, excluded, seen);
+  speak_of_leaders(rows, comparison, judged);
   if (judged.listed.empty() || judged.pattern <= kPatternLikely || judged.best_pattern < 0) {
     return judged;
   }
   // A pattern that nobody knows looks somewhat like this cause or that: what is named must explain
   // nearly all that noise does not.
-  const Space& space = contest.spaces[judged.space];
+  const Space& space = comparison.spaces[judged.space];
   const auto unexplained = [&](const std::vector<int>& directions) {
     const Estimate fitted = estimate(session, rows, space, directions, -1);
     const Eigen::VectorXd left = left_of_machine(rows, fitted, fitted.left);
@@ -151,27 +151,27 @@ Judgement decide(const Session& session,
   const double before = unexplained({});
   const double after = unexplained(judged.directions);
   if (after <= (1.0 - kExplained) * before) return judged;
-  return judge(rows, contest, excluded, false);
+  return judge(rows, comparison, excluded, false);
 }
 
 namespace {
 
-void contest_and_judge(const Session& session,
-                       const ContestOptions& options,
-                       bool seen,
-                       Analysis& a) {
+void compare_and_decide(const Session& session,
+                        const ComparisonOptions& options,
+                        bool seen,
+                        Analysis& a) {
   const std::vector<bool> none(session.units(), false);
-  a.contest = hold_contest(session, a.rows, none, options);
-  a.judgement = decide(session, a.rows, a.contest, none, seen);
+  a.comparison = compare_models(session, a.rows, none, options);
+  a.judgement = decide(session, a.rows, a.comparison, none, seen);
   a.estimate = estimate(session,
                         a.rows,
-                        a.contest.spaces[a.judgement.space],
+                        a.comparison.spaces[a.judgement.space],
                         a.judgement.directions,
                         a.judgement.pattern_left ? a.judgement.best_pattern : -1);
 }
 
 void test_significance(const Session& session, const DiagnosisOptions& options, Analysis& a) {
-  const Space& space = a.contest.spaces[a.contest.best().space];
+  const Space& space = a.comparison.spaces[a.comparison.best().space];
   const SingleScore score(a.rows, space, options.steps.anchor_noise ? session.noise_dof : 1e-3);
   // Enough draws for a family-wise 1 in 100; fewer where one draw is long.
   const int draws = session.units() > 150 ? 2000 : 4000;
@@ -189,7 +189,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
   if (!state) return tl::unexpected(state.error());
   a.state = std::move(*state);
   a.candidates = candidates(session);
-  const ContestOptions contest{options.steps, true, options.told};
+  const ComparisonOptions comparison{options.steps, true, options.told};
   constexpr int kPasses = 2;
   std::vector<Refinement> known;
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -201,22 +201,22 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     const Space space = make_space(a.rows, none, options.steps);
     share_out_links(space, a.rows);
     if (pass == 0) drop_invisible(space, a);
-    contest_and_judge(session, contest, true, a);
+    compare_and_decide(session, comparison, true, a);
     if (pass + 1 == kPasses || a.judgement.directions.empty()) break;
     const Judgement& judged = a.judgement;
     const Leaders leaders{judged.directions, judged.pattern_left ? judged.best_pattern : -1};
     Polished polished =
-        polish(session, a.state, a.rows, a.contest.spaces[judged.space], leaders, options.steps);
+        polish(session, a.state, a.rows, a.comparison.spaces[judged.space], leaders, options.steps);
     known = std::move(polished.refinements);
     a.state = std::move(polished.state);
   }
   test_significance(session, options, a);
   if (a.family_wise_p >= kFalseAlarm && !options.told) {
     const std::vector<bool> none(session.units(), false);
-    a.judgement = decide(session, a.rows, a.contest, none, false);
+    a.judgement = decide(session, a.rows, a.comparison, none, false);
     a.estimate = estimate(session,
                           a.rows,
-                          a.contest.spaces[a.judgement.space],
+                          a.comparison.spaces[a.judgement.space],
                           a.judgement.directions,
                           a.judgement.pattern_left ? a.judgement.best_pattern : -1);
   }

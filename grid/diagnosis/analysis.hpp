@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The steps from a session to a judgement: calibrate, linearise, contest, linearise anew about
-/// what was found, contest again.
+/// The steps from a session to a judgement: calibrate, linearise, compare models, linearise anew
+/// about what was found, compare again.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -16,7 +16,7 @@ struct Analysis {
   State state;  ///< settings at which the rows are linear; no effect named is in it
   Candidates candidates;
   Rows rows;
-  Contest contest;
+  ModelComparison comparison;
   NullDistribution null;
   double score = 0.0;  ///< of the strongest single effect
   double family_wise_p = 1.0;
@@ -28,7 +28,7 @@ struct Analysis {
 /// beside.
 [[nodiscard]] Judgement decide(const Session& session,
                                const Rows& rows,
-                               const Contest& contest,
+                               const ModelComparison& comparison,
                                const std::vector<bool>& excluded,
                                bool seen);
 

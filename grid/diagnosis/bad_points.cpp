@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/contest.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

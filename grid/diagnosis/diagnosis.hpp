@@ -81,7 +81,7 @@ struct Cause {
   bool order_assumed = false;
 };
 
-/// One line of the contest: an effect's id and side, or nothing, unknown, noise, bad_points.
+/// One line of the comparison: an effect's id and side, or nothing, unknown, noise, bad_points.
 struct Hypothesis {
   std::string effect;
   std::string side;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Settings, sizes of causes and, where there is one, the unknown pattern, for one model of the
-/// contest; and what is then left at every point, those that were held out included.
+/// comparison; and what is then left at every point, those that were held out included.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "grid/diagnosis/contest.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

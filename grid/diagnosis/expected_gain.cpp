@@ -69,7 +69,7 @@ namespace {
 
 /// Over the distances as they were read: what is between them has no place of its own.
 ExpectedGain gain_of_distances(const Session& session, const Analysis& a) {
-  const Space& space = a.contest.spaces[a.judgement.space];
+  const Space& space = a.comparison.spaces[a.judgement.space];
   const Estimate plain = estimate(session, a.rows, space, {}, -1);
   const Estimate named = estimate(session, a.rows, space, a.judgement.directions, -1);
   const Eigen::VectorXd moved =
@@ -103,7 +103,7 @@ ExpectedGain expected_gain(const Session& session, const Analysis& a, const Step
   const auto there = base_rows(area, a.state, steps);
   if (!there || area.points.empty()) return {};
   const std::vector<int>& causes = a.judgement.directions;
-  const Space& space = a.contest.spaces[a.judgement.space];
+  const Space& space = a.comparison.spaces[a.judgement.space];
   const Estimate plain =
       estimate(session, a.rows, without_slips(session, a.rows, space, causes, steps), {}, -1);
   const Estimate named = estimate(session, a.rows, space, causes, -1);

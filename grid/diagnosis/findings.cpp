@@ -29,17 +29,17 @@ double circular(double difference, const EffectParameter& p) {
   return turns ? std::remainder(difference, 2.0 * std::numbers::pi) : difference;
 }
 
-/// How well the contest knows where a cause sets in.
+/// How well the data say where a cause sets in.
 double place_sigma(const Analysis& a, int column) {
   const Direction& own = direction(a, column);
   const EffectParameter& place = own.cause.effect->parameters.back();
   double weight = 0.0;
   double square = 0.0;
-  for (const Model& model : a.contest.models) {
+  for (const Model& model : a.comparison.models) {
     for (const int k : model.directions) {
       const Direction& other = direction(a, k);
       if (!(other.cause == own.cause)) continue;
-      const double p = a.contest.probability(model);
+      const double p = a.comparison.probability(model);
       const double off = circular(other.values.back() - own.values.back(), place);
       weight += p;
       square += p * off * off;

@@ -42,15 +42,15 @@ class Folds {
   [[nodiscard]] Fold hold_out(const std::vector<std::size_t>& points) const {
     std::vector<bool> excluded(session_.units(), false);
     for (const std::size_t i : points) excluded[i] = true;
-    const ContestOptions contest_options{options_.steps, true, options_.told};
-    const Contest contest = hold_contest(session_, a_.rows, excluded, contest_options);
+    const ComparisonOptions compared{options_.steps, true, options_.told};
+    const ModelComparison comparison = compare_models(session_, a_.rows, excluded, compared);
     // The same gate as for all points: the strongest score against what noise does.
-    const Space& first = contest.spaces[contest.best().space];
+    const Space& first = comparison.spaces[comparison.best().space];
     const SingleScore score(a_.rows, first, session_.noise_dof);
     const bool seen = options_.told.has_value() ||
                       a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
-    const Judgement judged = decide(session_, a_.rows, contest, excluded, seen);
-    const Space& space = contest.spaces[judged.space];
+    const Judgement judged = decide(session_, a_.rows, comparison, excluded, seen);
+    const Space& space = comparison.spaces[judged.space];
     Fold fold;
     for (const std::size_t i : points) {
       if (!bad_in_all(i)) fold.points.push_back(i);
@@ -59,19 +59,19 @@ class Folds {
     const Space plain =
         without_slips(session_, a_.rows, space, a_.judgement.directions, options_.steps);
     fold.errors.calibrated = errors(fit(plain, {}), fold.points);
-    fold.errors.surface_only = beside_pattern(contest, judged.space, {}, fold.points);
+    fold.errors.surface_only = beside_pattern(comparison, judged.space, {}, fold.points);
     fold.errors.extended = errors(fit(space, judged.directions), fold.points);
     fold.errors.extended_and_surface =
-        beside_pattern(contest, judged.space, judged.directions, fold.points);
+        beside_pattern(comparison, judged.space, judged.directions, fold.points);
     const std::vector<int>& all = a_.judgement.directions;
     fold.errors.held_fast = errors(fit(space, all), fold.points);
-    fold.errors.held_fast_and_surface = beside_pattern(contest, judged.space, all, fold.points);
+    fold.errors.held_fast_and_surface = beside_pattern(comparison, judged.space, all, fold.points);
     return fold;
   }
 
  private:
   [[nodiscard]] bool bad_in_all(std::size_t point) const {
-    if (a_.contest.spaces[a_.judgement.space].bad[point]) return true;
+    if (a_.comparison.spaces[a_.judgement.space].bad[point]) return true;
     // A reading wrong at its own visit alone says nothing of any other.
     for (const int k : a_.judgement.directions) {
       const Direction& d = a_.rows.directions[static_cast<std::size_t>(k)];
@@ -87,20 +87,20 @@ class Folds {
   }
 
   [[nodiscard]] std::vector<Eigen::Vector2d> beside_pattern(
-      const Contest& contest,
+      const ModelComparison& comparison,
       std::size_t space,
       const std::vector<int>& directions,
       const std::vector<std::size_t>& points) const {
-    const int pattern = preferred_pattern(contest, space, directions);
-    return errors(fit(contest.spaces[space], directions, pattern), points);
+    const int pattern = preferred_pattern(comparison, space, directions);
+    return errors(fit(comparison.spaces[space], directions, pattern), points);
   }
 
   /// The pattern that the points prefer beside these causes; none where they would rather have
   /// none.
-  static int preferred_pattern(const Contest& contest,
+  static int preferred_pattern(const ModelComparison& comparison,
                                std::size_t space,
                                const std::vector<int>& directions) {
-    for (const Model& model : contest.models) {
+    for (const Model& model : comparison.models) {
       if (model.directions == directions && model.space == space) return model.pattern;
     }
     return -1;
@@ -221,7 +221,7 @@ Delivered delivered(const Session& session,
   const bool moves = sheet > 0 && (session.knows(model::Setting::sheet_x_mm) ||
                                    session.knows(model::Setting::sheet_y_mm));
   if (moves) {
-    const auto& kept = a.contest.spaces[a.judgement.space].kept;
+    const auto& kept = a.comparison.spaces[a.judgement.space].kept;
     const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);
     const Eigen::MatrixXd scaled = by_sheet(kept, Eigen::all) * sigma.asDiagonal();
     Eigen::MatrixXd normal = scaled.transpose() * scaled;

@@ -74,10 +74,10 @@ struct Grouped {
 class Judge {
  public:
   Judge(const Rows& rows,
-        const Contest& contest,
+        const ModelComparison& comparison,
         const std::vector<bool>& excluded,
         std::vector<CauseClass> classes)
-      : rows_(rows), contest_(contest), excluded_(excluded) {
+      : rows_(rows), comparison_(comparison), excluded_(excluded) {
     result_.classes = std::move(classes);
   }
 
@@ -104,8 +104,8 @@ class Judge {
   }
 
   void group() {
-    for (const Model& model : contest_.models) {
-      const double p = contest_.probability(model);
+    for (const Model& model : comparison_.models) {
+      const double p = comparison_.probability(model);
       Key key;
       for (const int k : model.directions) {
         key.push_back(class_of(rows_.directions[static_cast<std::size_t>(k)].cause));
@@ -129,7 +129,7 @@ class Judge {
   }
 
   void share_silence(const Model& model, double p) {
-    const bool bad = contest_.spaces[model.space].bad != excluded_;
+    const bool bad = comparison_.spaces[model.space].bad != excluded_;
     if (model.pattern >= 0) {
       result_.unknown += p;
     } else if (bad) {
@@ -272,7 +272,7 @@ class Judge {
   }
 
   const Rows& rows_;
-  const Contest& contest_;
+  const ModelComparison& comparison_;
   const std::vector<bool>& excluded_;
   std::map<Key, Grouped> groups_;
   Key leading_key_;
@@ -334,19 +334,22 @@ std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
 }
 
 Judgement judge(const Rows& rows,
-                const Contest& contest,
+                const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
                 bool seen) {
-  return judge(
-      rows, contest, excluded, seen, classes_of(rows, contest.spaces[contest.best().space]));
+  return judge(rows,
+               comparison,
+               excluded,
+               seen,
+               classes_of(rows, comparison.spaces[comparison.best().space]));
 }
 
 Judgement judge(const Rows& rows,
-                const Contest& contest,
+                const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
                 bool seen,
                 std::vector<CauseClass> classes) {
-  return Judge(rows, contest, excluded, std::move(classes)).run(seen);
+  return Judge(rows, comparison, excluded, std::move(classes)).run(seen);
 }
 
 }  // namespace chaintrue::grid::diagnosis

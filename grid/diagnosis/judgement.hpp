@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From the contest's probabilities to a verdict: which causes are present, which cannot be told
+/// From the comparison's probabilities to a verdict: which causes are present, which cannot be told
 /// apart, and when to keep silent.
 #pragma once
 
 #include <vector>
 
-#include "grid/diagnosis/contest.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -55,13 +55,13 @@ struct Judgement {
 
 /// `seen`: the strongest effect is beyond what noise does (family-wise).
 [[nodiscard]] Judgement judge(const Rows& rows,
-                              const Contest& contest,
+                              const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool seen);
-/// The same with the classes known: of the contest's spaces nothing but the points set aside is
+/// The same with the classes known: of the comparison's spaces nothing but the points set aside is
 /// asked.
 [[nodiscard]] Judgement judge(const Rows& rows,
-                              const Contest& contest,
+                              const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool seen,
                               std::vector<CauseClass> classes);

@@ -10,13 +10,13 @@ const Direction& direction(const Analysis& a, int k) {
   return a.rows.directions[static_cast<std::size_t>(k)];
 }
 
-const Space& space_of(const Analysis& a) { return a.contest.spaces[a.judgement.space]; }
+const Space& space_of(const Analysis& a) { return a.comparison.spaces[a.judgement.space]; }
 
 int best_direction(const Analysis& a, const CauseId& cause) {
   for (const int k : a.judgement.directions) {
     if (direction(a, k).cause == cause) return k;
   }
-  for (const Model& model : a.contest.models) {
+  for (const Model& model : a.comparison.models) {
     if (model.directions.size() != 1) continue;
     if (direction(a, model.directions.front()).cause == cause) return model.directions.front();
   }

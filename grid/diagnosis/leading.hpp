@@ -15,7 +15,7 @@ namespace chaintrue::grid::diagnosis {
 /// The space in which the judgement was made.
 [[nodiscard]] const Space& space_of(const Analysis& analysis);
 
-/// The most probable column of a cause over the models of the contest, or that with its best
+/// The most probable column of a cause over the models of the comparison, or that with its best
 /// score; -1 where the cause has none.
 [[nodiscard]] int best_direction(const Analysis& analysis, const CauseId& cause);
 

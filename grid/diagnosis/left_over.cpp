@@ -112,7 +112,7 @@ double share_along(const Session& session,
 }  // namespace
 
 LeftOver left_over(const Session& session, const Analysis& a, std::uint64_t seed) {
-  const Space& space = a.contest.spaces[a.judgement.space];
+  const Space& space = a.comparison.spaces[a.judgement.space];
   LeftOver result;
   const Eigen::VectorXd left = left_of_machine(a.rows, a.estimate, a.estimate.left);
   result.p_value = p_of_structure(session, a.rows, space.kept, left, seed);

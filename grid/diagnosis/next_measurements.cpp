@@ -26,7 +26,7 @@ struct Alternative {
   Eigen::MatrixXd spread;  ///< rows x unknowns: a square root of the covariance but for the noise
 };
 
-/// The sets of causes, as many as the verdict speaks of, that the contest leaves; each with its
+/// The sets of causes, as many as the verdict speaks of, that the comparison leaves; each with its
 /// best places. Members of one class count as one.
 std::vector<Alternative> leading(const Analysis& a) {
   const auto class_of = [&](const CauseId& cause) {
@@ -38,7 +38,7 @@ std::vector<Alternative> leading(const Analysis& a) {
   };
   std::map<std::vector<std::size_t>, Alternative> groups;
   const std::size_t together = std::max<std::size_t>(a.judgement.directions.size(), 1);
-  for (const Model& model : a.contest.models) {
+  for (const Model& model : a.comparison.models) {
     if (model.directions.size() != together) continue;
     std::vector<std::size_t> key;
     for (const int k : model.directions) {
@@ -47,7 +47,7 @@ std::vector<Alternative> leading(const Analysis& a) {
     std::sort(key.begin(), key.end());
     Alternative& one = groups[key];
     if (one.probability == 0.0) one.directions = model.directions;
-    one.probability += a.contest.probability(model);
+    one.probability += a.comparison.probability(model);
   }
   std::vector<Alternative> result;
   double all = 0.0;
@@ -94,7 +94,7 @@ void predict(const Session& session,
              const Session& next,
              const Rows& rows,
              Alternative& h) {
-  const Space& space = a.contest.spaces[a.judgement.space];
+  const Space& space = a.comparison.spaces[a.judgement.space];
   const Estimate fitted = estimate(session, a.rows, space, h.directions, -1);
   // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index settings = fitted.setting_change.size();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The causes that lead a contest, refitted without linearisation: sizes, places and settings moved
-/// until the secants taken at them fit as they are.
+/// The causes that lead a model comparison, refitted without linearisation: sizes, places and
+/// settings moved until the secants taken at them fit as they are.
 ///
 /// A secant is exact at its own size alone. Half a chain's weight gone, a pull of several newtons
 /// or the phase of a wave along a chain whose zero moves by a millimetre need several rounds; about
-/// where they end the contest is held again.
+/// where they end the models are compared again.
 #pragma once
 
 #include "grid/diagnosis/estimate.hpp"

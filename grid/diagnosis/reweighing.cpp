@@ -24,10 +24,11 @@ using LensKey = std::pair<std::size_t, int>;  ///< space, pattern
 
 /// The models that may lead once some points are gone: the best, and in each space of these
 /// nothing, and every cause alone at its best place.
-std::map<LensKey, std::vector<Model>> followed(const Rows& rows, const Contest& contest) {
+std::map<LensKey, std::vector<Model>> followed(const Rows& rows,
+                                               const ModelComparison& comparison) {
   std::map<LensKey, double> share;
-  for (const Model& model : contest.models) {
-    share[{model.space, model.pattern}] += contest.probability(model);
+  for (const Model& model : comparison.models) {
+    share[{model.space, model.pattern}] += comparison.probability(model);
   }
   std::vector<std::pair<double, LensKey>> patterns;
   for (const auto& [key, p] : share) {
@@ -40,13 +41,13 @@ std::map<LensKey, std::vector<Model>> followed(const Rows& rows, const Contest& 
              return p.second == key;
            });
   };
-  const double best = contest.best().log_weight;
+  const double best = comparison.best().log_weight;
   std::map<LensKey, std::vector<Model>> result;
   std::map<LensKey, std::vector<CauseId>> alone;
   std::set<std::size_t> spaces;
   std::size_t taken = 0;
   // Best first, so that a space is known before the rest of what is asked for in it.
-  for (const Model& model : contest.models) {
+  for (const Model& model : comparison.models) {
     const LensKey key{model.space, model.pattern};
     if (!is_followed(key)) continue;
     const bool leads = model.log_weight > best - kNegligible && taken < kMostModels;
@@ -83,14 +84,15 @@ std::vector<bool> with_points_out(std::vector<bool> bad, const std::vector<std::
   return bad;
 }
 
-/// The contest's space with these points set aside, made where there is none.
-std::size_t home_of(Contest& contest, std::vector<bool> bad) {
-  const auto same = std::find_if(contest.spaces.begin(),
-                                 contest.spaces.end(),
+/// The comparison's space with these points set aside, made where there is none.
+std::size_t home_of(ModelComparison& comparison, std::vector<bool> bad) {
+  const auto same = std::find_if(comparison.spaces.begin(),
+                                 comparison.spaces.end(),
                                  [&](const Space& space) { return space.bad == bad; });
-  if (same != contest.spaces.end()) return static_cast<std::size_t>(same - contest.spaces.begin());
-  contest.spaces.emplace_back().bad = std::move(bad);
-  return contest.spaces.size() - 1;
+  if (same != comparison.spaces.end())
+    return static_cast<std::size_t>(same - comparison.spaces.begin());
+  comparison.spaces.emplace_back().bad = std::move(bad);
+  return comparison.spaces.size() - 1;
 }
 
 }  // namespace
@@ -101,14 +103,14 @@ Reweighing::Reweighing(const Session& session,
     : session_(session),
       a_(analysis),
       dof_(options.steps.anchor_noise ? session.noise_dof : 1e-3),
-      score_(analysis.rows, analysis.contest.spaces[analysis.contest.best().space], dof_) {
-  for (auto& [key, models] : followed(a_.rows, a_.contest)) {
+      score_(analysis.rows, analysis.comparison.spaces[analysis.comparison.best().space], dof_) {
+  for (auto& [key, models] : followed(a_.rows, a_.comparison)) {
     add_lens(key.first, key.second, std::move(models));
   }
 }
 
 void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Model> models) {
-  const Space& space = a_.contest.spaces[number];
+  const Space& space = a_.comparison.spaces[number];
   Lens lens;
   lens.space = number;
   lens.pattern = pattern;
@@ -170,17 +172,17 @@ Metric Reweighing::metric_without(const Lens& lens, const std::vector<Eigen::Ind
 Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) const {
   const double price = log_price_of_bad(a_.rows);
   Without result;
-  Contest& contest = result.contest;
+  ModelComparison& comparison = result.comparison;
   std::set<std::tuple<std::size_t, int, std::vector<int>>> known;
   std::vector<std::pair<double, std::size_t>> strongest;  // score, by space
   for (const Lens& lens : lenses_) {
-    const Space& whole = a_.contest.spaces[lens.space];
+    const Space& whole = a_.comparison.spaces[lens.space];
     const auto out = rows_of(whole, points);
     const Metric metric = metric_without(lens, out);
     const Eigen::Index rows = lens.inverse.rows() - static_cast<Eigen::Index>(out.size());
     const NoiseDensity noise(dof_, rows);
     // Spaces that differ in the points left out alone are one.
-    const std::size_t home = home_of(contest, with_points_out(whole.bad, points));
+    const std::size_t home = home_of(comparison, with_points_out(whole.bad, points));
     const auto bad = static_cast<double>(
         std::count(whole.bad.begin(), whole.bad.end(), true) -
         std::count_if(points.begin(), points.end(), [&](std::size_t i) { return whole.bad[i]; }));
@@ -189,25 +191,25 @@ Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) 
       if (!known.emplace(home, lens.pattern, model.directions).second) continue;
       const SetEvidence evidence = set_evidence(metric, a_.rows.directions, lens.sets[k], noise);
       if (!std::isfinite(evidence.log_evidence)) continue;
-      contest.models.push_back({model.directions,
-                                lens.pattern,
-                                home,
-                                lens.prior[k] + evidence.log_evidence + bad * price,
-                                noise.larger_share(evidence.quadratic),
-                                evidence.quadratic});
+      comparison.models.push_back({model.directions,
+                                   lens.pattern,
+                                   home,
+                                   lens.prior[k] + evidence.log_evidence + bad * price,
+                                   noise.larger_share(evidence.quadratic),
+                                   evidence.quadratic});
     }
     if (lens.pattern < 0) strongest.emplace_back(score_.largest(metric, rows), home);
   }
-  std::stable_sort(contest.models.begin(),
-                   contest.models.end(),
+  std::stable_sort(comparison.models.begin(),
+                   comparison.models.end(),
                    [](const Model& a, const Model& b) { return a.log_weight > b.log_weight; });
   double sum = 0.0;
-  for (const Model& model : contest.models) {
-    sum += std::exp(model.log_weight - contest.best().log_weight);
+  for (const Model& model : comparison.models) {
+    sum += std::exp(model.log_weight - comparison.best().log_weight);
   }
-  contest.log_total = contest.best().log_weight + std::log(sum);
+  comparison.log_total = comparison.best().log_weight + std::log(sum);
   for (const auto& [score, space] : strongest) {
-    if (space == contest.best().space) {
+    if (space == comparison.best().space) {
       result.seen = result.seen || a_.null.p_value(score) < kFalseAlarm;
     }
   }

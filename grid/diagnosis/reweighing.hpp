@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A contest's models weighed again without some of the points, at a small part of what a contest
-/// of their own would cost.
+/// The models of a comparison weighed again without some of the points, at a small part of what a
+/// comparison of their own would cost.
 ///
 /// Notation
 ///   V     covariance of a space's rows, settings and pattern integrated out; V = L L', P = V^-1
@@ -14,7 +14,7 @@
 /// which are the inverse of a partitioned matrix and Schur's determinant (G. Golub and C. Van Loan,
 /// Matrix Computations (2013), section 3.2.11; F. Zhang, The Schur Complement (2005), theorem 1.1).
 ///
-/// Exact for each model that the contest kept; models that it let go, sets of bad points that it
+/// Exact for each model that the comparison kept; models that it let go, sets of bad points that it
 /// never met, and patterns that hold less than a hundredth of the probability are not looked at.
 #pragma once
 
@@ -31,7 +31,7 @@ class Reweighing {
 
   struct Without {
     /// Best first; its spaces bear the points set aside, those left out among them, and no rows.
-    Contest contest;
+    ModelComparison comparison;
     /// The strongest effect is still beyond what noise does.
     bool seen = false;
   };

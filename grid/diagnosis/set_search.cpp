@@ -39,7 +39,7 @@ class SetSearch::Search {
          const Rows& rows,
          Space& space,
          std::size_t number,
-         const ContestOptions& options)
+         const ComparisonOptions& options)
       : session_(session),
         rows_(rows),
         space_(space),
@@ -302,7 +302,7 @@ class SetSearch::Search {
   const Rows& rows_;
   Space& space_;
   std::size_t number_;
-  const ContestOptions& options_;
+  const ComparisonOptions& options_;
   NoiseDensity noise_;
   Metric metric_;
   std::vector<Model> models_;
@@ -314,7 +314,7 @@ SetSearch::SetSearch(const Session& session,
                      const Rows& rows,
                      Space& space,
                      std::size_t number,
-                     const ContestOptions& options)
+                     const ComparisonOptions& options)
     : search_(std::make_unique<Search>(session, rows, space, number, options)) {}
 SetSearch::~SetSearch() = default;
 SetSearch::SetSearch(SetSearch&&) noexcept = default;

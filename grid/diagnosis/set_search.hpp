@@ -7,18 +7,18 @@
 #include <memory>
 #include <vector>
 
-#include "grid/diagnosis/contest.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 class SetSearch {
  public:
-  /// `number` is the space's in its contest; all references must outlive the search.
+  /// `number` is the space's in its comparison; all references must outlive the search.
   SetSearch(const Session& session,
             const Rows& rows,
             Space& space,
             std::size_t number,
-            const ContestOptions& options);
+            const ComparisonOptions& options);
   ~SetSearch();
   SetSearch(SetSearch&&) noexcept;
   SetSearch& operator=(SetSearch&&) noexcept;

@@ -47,8 +47,8 @@ std::optional<std::string> refuse_name_of_one_reading(const Session& session,
   std::vector<bool> aside(session.units(), false);
   aside[*point] = true;
   const std::vector<bool> none(session.units(), false);
-  a.contest = hold_contest(session, a.rows, aside, {options.steps, true, options.told});
-  a.judgement = decide(session, a.rows, a.contest, none, false);
+  a.comparison = compare_models(session, a.rows, aside, {options.steps, true, options.told});
+  a.judgement = decide(session, a.rows, a.comparison, none, false);
   a.estimate = estimate(session,
                         a.rows,
                         space_of(a),

@@ -59,18 +59,18 @@ class Statement {
   }
 
   /// Logarithm of its odds.
-  [[nodiscard]] double log_odds(const Contest& contest) const {
+  [[nodiscard]] double log_odds(const ModelComparison& comparison) const {
     double with = 0.0;
     double against = 0.0;
-    const double best = contest.best().log_weight;
+    const double best = comparison.best().log_weight;
     // Of what holds and of what does not the larger one first: neither may vanish beside the other.
     double best_with = -std::numeric_limits<double>::infinity();
     double best_against = best_with;
-    for (const Model& model : contest.models) {
+    for (const Model& model : comparison.models) {
       double& highest = holds(model) ? best_with : best_against;
       highest = std::max(highest, model.log_weight - best);
     }
-    for (const Model& model : contest.models) {
+    for (const Model& model : comparison.models) {
       const double weight = model.log_weight - best;
       if (holds(model)) {
         with += std::exp(weight - best_with);
@@ -137,7 +137,7 @@ std::optional<Stability> examine_stability(const Session& session,
   if (groups.empty()) return std::nullopt;
   const Reweighing reweighing(session, a, options);
   const Statement statement(a);
-  const double all = statement.log_odds(reweighing.without({}).contest);
+  const double all = statement.log_odds(reweighing.without({}).comparison);
   Stability result;
   result.probability = probability_of(all);
   for (const LeftOut& group : groups) {
@@ -145,8 +145,8 @@ std::optional<Stability> examine_stability(const Session& session,
     std::vector<bool> excluded(session.points.size(), false);
     for (const std::size_t i : group.points) excluded[i] = true;
     const bool seen = without.seen || options.told.has_value();
-    const Judgement judged = judge(a.rows, without.contest, excluded, seen, a.judgement.classes);
-    const double log_odds = statement.log_odds(without.contest);
+    const Judgement judged = judge(a.rows, without.comparison, excluded, seen, a.judgement.classes);
+    const double log_odds = statement.log_odds(without.comparison);
     Removal removal;
     removal.what = group.what;
     if (group.what == Removal::What::point) {

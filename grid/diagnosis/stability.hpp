@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Does the name hang on a few of the points? The contest judged again without each point, and
+/// Does the name hang on a few of the points? The comparison judged again without each point, and
 /// without each column and row of marks.
 ///
 /// A column is a run of marks whose x differ by less than kLineGap_mm from one to the next; there

@@ -64,7 +64,7 @@ Eigen::VectorXd left_of(const Session& from,
                         const Session& to,
                         const Rows& rows) {
   const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
-  const Space& space = a.contest.spaces[a.judgement.space];
+  const Space& space = a.comparison.spaces[a.judgement.space];
   Eigen::VectorXd left =
       rows.e - rows.by_setting.leftCols(machine) * model.setting_change.head(machine);
   for (std::size_t k = 0; k < model.directions.size(); ++k) {
@@ -143,7 +143,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
     return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::point_unreachable,
                                            "a point of the other grid cannot be reached"});
   }
-  const Space& space = a->contest.spaces[a->judgement.space];
+  const Space& space = a->comparison.spaces[a->judgement.space];
   const std::vector<int>& causes = a->judgement.directions;
   const Placed place(*second, *rows);
   const auto judged = [&](const std::vector<int>& directions, int pattern) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The closed forms of the contest against brute force: numerical integrals over settings, sizes and
-// noise, densities that integrate to one, and the score's distribution under noise alone.
+// The closed forms of the comparison against brute force: numerical integrals over settings, sizes
+// and noise, densities that integrate to one, and the score's distribution under noise alone.
 #include "grid/diagnosis/evidence.hpp"
 
 #include <gtest/gtest.h>

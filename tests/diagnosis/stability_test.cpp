@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a name hangs on a few points: the short way against contests held anew, a name that
+// Whether a name hangs on a few points: the short way against comparisons made anew, a name that
 // stands, and one that rests on a single point.
 #include "grid/diagnosis/stability.hpp"
 
@@ -32,9 +32,9 @@ std::size_t count(const Stability& stability, Removal::What what) {
                                                 [&](const Removal& r) { return r.what == what; }));
 }
 
-double probability_that_all_act(const Analysis& a, const Contest& contest) {
+double probability_that_all_act(const Analysis& a, const ModelComparison& comparison) {
   double p = 0.0;
-  for (const Model& model : contest.models) {
+  for (const Model& model : comparison.models) {
     const bool all =
         std::all_of(a.judgement.listed.begin(), a.judgement.listed.end(), [&](std::size_t index) {
           const CauseClass& members = a.judgement.classes[index];
@@ -43,7 +43,7 @@ double probability_that_all_act(const Analysis& a, const Contest& contest) {
                    members.end();
           });
         });
-    if (all) p += contest.probability(model);
+    if (all) p += comparison.probability(model);
   }
   return p;
 }
@@ -78,8 +78,8 @@ TEST(LeavingOut, MarksThatLieAnywhereHaveNoColumns) {
   }
 }
 
-// Nothing left out: the contest itself, but for what the followed models leave aside.
-TEST(Reweighing, OfAllPointsIsTheContest) {
+// Nothing left out: the comparison itself, but for what the followed models leave aside.
+TEST(Reweighing, OfAllPointsIsTheComparison) {
   const auto session = make_session(session_of({kLongLeft}, 3));
   const auto a = analyse(*session, verdict_alone());
   ASSERT_TRUE(a);
@@ -87,16 +87,16 @@ TEST(Reweighing, OfAllPointsIsTheContest) {
   const Reweighing reweighing(*session, *a, verdict_alone());
   const auto all = reweighing.without({});
   EXPECT_TRUE(all.seen);
-  EXPECT_EQ(all.contest.best().directions, a->contest.best().directions);
+  EXPECT_EQ(all.comparison.best().directions, a->comparison.best().directions);
   // Two factorisations of one matrix.
-  EXPECT_NEAR(all.contest.best().log_weight, a->contest.best().log_weight, 1e-6);
-  EXPECT_NEAR(probability_that_all_act(*a, all.contest),
-              probability_that_all_act(*a, a->contest),
+  EXPECT_NEAR(all.comparison.best().log_weight, a->comparison.best().log_weight, 1e-6);
+  EXPECT_NEAR(probability_that_all_act(*a, all.comparison),
+              probability_that_all_act(*a, a->comparison),
               0.01);  // what patterns of less than a hundredth hold
 }
 
-// The short way against the long one: a contest of its own without each point and line.
-TEST(Reweighing, SaysWhatAContestHeldAnewSays) {
+// The short way against the long one: a comparison of its own without each point and line.
+TEST(Reweighing, SaysWhatAComparisonMadeAnewSays) {
   const model::AppliedEffect wave{
       "sprocket_eccentricity", "left", {{"amplitude_mm", 0.6}, {"phase_rad", 1.0}}};
   for (const auto& [hidden, seed] : {std::pair(wave, 1), std::pair(kLongLeft, 2)}) {
@@ -112,13 +112,13 @@ TEST(Reweighing, SaysWhatAContestHeldAnewSays) {
     for (std::size_t k = 0; k < groups.size(); k += 3) {
       std::vector<bool> excluded(session->points.size(), false);
       for (const std::size_t i : groups[k].points) excluded[i] = true;
-      const Contest contest =
-          hold_contest(*session, a->rows, excluded, {verdict_alone().steps, true, std::nullopt});
-      const Judgement judged = judge(a->rows, contest, excluded, true, a->judgement.classes);
+      const ModelComparison comparison =
+          compare_models(*session, a->rows, excluded, {verdict_alone().steps, true, std::nullopt});
+      const Judgement judged = judge(a->rows, comparison, excluded, true, a->judgement.classes);
       EXPECT_EQ(stability->removals[k].stands, still_named(a->judgement, judged)) << "group " << k;
       // What the models of all points leave aside: sets of bad points and patterns that only show
       // once these points are gone.
-      EXPECT_NEAR(stability->removals[k].probability, probability_that_all_act(*a, contest), 0.1)
+      EXPECT_NEAR(stability->removals[k].probability, probability_that_all_act(*a, comparison), 0.1)
           << "group " << k;
     }
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// One contest of evidence between nothing, every cause, causes together, bad points, noise larger
-/// than stated, an unknown pattern, and causes beside an unknown pattern.
+/// The evidence of the data for each of: nothing, every cause, causes together, bad points, noise
+/// larger than stated, an unknown pattern, and causes beside an unknown pattern.
 ///
 /// Every hypothesis looks for its own bad points, by mean shifts added one after the other without
 /// stopping at the first that does not pay, so that several bad points cannot hide each other; the
-/// few sets of bad points so found are each given the whole contest. Causes are searched
+/// few sets of bad points so found are each given the whole comparison. Causes are searched
 /// exhaustively one and two at a time, three and four at a time from the best of those.
 #pragma once
 
@@ -20,13 +20,13 @@ namespace chaintrue::grid::diagnosis {
 struct Model {
   std::vector<int> directions;  ///< ascending
   int pattern = -1;             ///< number of the unknown pattern, or none
-  std::size_t space = 0;        ///< into Contest::spaces
+  std::size_t space = 0;        ///< into ModelComparison::spaces
   double log_weight = 0.0;      ///< prior times evidence
   double larger_noise = 0.0;    ///< share of it from noise larger than stated
   double quadratic = 0.0;
 };
 
-struct Contest {
+struct ModelComparison {
   std::vector<Space> spaces;
   std::vector<Model> models;  ///< those that matter, best first
   double log_total = 0.0;
@@ -34,7 +34,7 @@ struct Contest {
   [[nodiscard]] double probability(const Model& model) const;
 };
 
-struct ContestOptions {
+struct ComparisonOptions {
   Steps steps;
   bool patterns = true;
   /// Nothing but this cause acts.
@@ -42,10 +42,10 @@ struct ContestOptions {
 };
 
 /// Points already known not to count (held out) are `excluded`.
-[[nodiscard]] Contest hold_contest(const Session& session,
-                                   const Rows& rows,
-                                   const std::vector<bool>& excluded,
-                                   const ContestOptions& options);
+[[nodiscard]] ModelComparison compare_models(const Session& session,
+                                             const Rows& rows,
+                                             const std::vector<bool>& excluded,
+                                             const ComparisonOptions& options);
 
 /// Most causes in one set.
 inline constexpr std::size_t kMostCauses = 4;

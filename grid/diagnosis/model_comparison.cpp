@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/contest.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ constexpr std::array<double, kMostCauses + 1> kPriorOfCount = {0.50, 0.25, 0.05,
 constexpr double kPatternPrior = 0.10;
 /// A set of bad points so much less probable than the best is not tried beside patterns.
 constexpr double kWorthPatterns = 6.0;
-/// Sets of bad points in one contest.
+/// Sets of bad points in one comparison.
 constexpr std::size_t kMostSpaces = 8;
 
 double log_sum(const std::vector<double>& terms) {
@@ -38,7 +38,7 @@ double log_sum(const std::vector<double>& terms) {
 std::vector<std::vector<int>> first_hypotheses(const Session& session,
                                                const Rows& rows,
                                                const std::vector<bool>& excluded,
-                                               const ContestOptions& options) {
+                                               const ComparisonOptions& options) {
   const Space space = make_space(rows, excluded, options.steps);
   const NoiseDensity noise(session.noise_dof, static_cast<Eigen::Index>(space.kept.size()));
   const SingleScores scores = single_scores(rows, space, noise, space.e, false);
@@ -52,7 +52,7 @@ std::vector<std::vector<int>> first_hypotheses(const Session& session,
 
 }  // namespace
 
-double Contest::probability(const Model& model) const {
+double ModelComparison::probability(const Model& model) const {
   return std::exp(model.log_weight - log_total);
 }
 
@@ -122,10 +122,10 @@ namespace {
 std::vector<std::vector<bool>> sets_without_links(const Session& session,
                                                   const Rows& rows,
                                                   const std::vector<bool>& excluded,
-                                                  const Contest& contest) {
+                                                  const ModelComparison& comparison) {
   constexpr double kAlike = 25.0;  // squared, in sigmas: two rows, 1 in 270 000
-  const Model& best = contest.best();
-  const Space& space = contest.spaces[best.space];
+  const Model& best = comparison.best();
+  const Space& space = comparison.spaces[best.space];
   const Estimate fitted = estimate(session, rows, space, best.directions, -1);
   std::vector<std::vector<bool>> result;
   for (std::size_t i = 0; i < space.bad.size(); ++i) {
@@ -142,42 +142,42 @@ std::vector<std::vector<bool>> sets_without_links(const Session& session,
     if (!links) continue;
     std::vector<bool> without = space.bad;
     without[i] = false;
-    const bool known = std::any_of(contest.spaces.begin(),
-                                   contest.spaces.end(),
+    const bool known = std::any_of(comparison.spaces.begin(),
+                                   comparison.spaces.end(),
                                    [&](const Space& s) { return s.bad == without; });
     if (!known) result.push_back(std::move(without));
   }
   return result;
 }
 
-void finish(Contest& contest) {
-  std::stable_sort(contest.models.begin(),
-                   contest.models.end(),
+void finish(ModelComparison& comparison) {
+  std::stable_sort(comparison.models.begin(),
+                   comparison.models.end(),
                    [](const Model& a, const Model& b) { return a.log_weight > b.log_weight; });
   std::vector<double> weights;
-  for (const Model& model : contest.models) weights.push_back(model.log_weight);
-  contest.log_total = log_sum(weights);
+  for (const Model& model : comparison.models) weights.push_back(model.log_weight);
+  comparison.log_total = log_sum(weights);
 }
 
 }  // namespace
 
-Contest hold_contest(const Session& session,
-                     const Rows& rows,
-                     const std::vector<bool>& excluded,
-                     const ContestOptions& options) {
-  Contest contest;
-  const auto hold_with = [&](const std::vector<std::vector<bool>>& sets) {
-    contest.spaces.reserve(kMostSpaces);
+ModelComparison compare_models(const Session& session,
+                               const Rows& rows,
+                               const std::vector<bool>& excluded,
+                               const ComparisonOptions& options) {
+  ModelComparison comparison;
+  const auto compare_with = [&](const std::vector<std::vector<bool>>& sets) {
+    comparison.spaces.reserve(kMostSpaces);
     std::vector<SetSearch> searches;
     double best = kMinusInfinity;
     const auto take = [&](std::vector<Model> models) {
-      std::move(models.begin(), models.end(), std::back_inserter(contest.models));
+      std::move(models.begin(), models.end(), std::back_inserter(comparison.models));
     };
     for (const auto& bad : sets) {
-      if (contest.spaces.size() == kMostSpaces) break;
-      contest.spaces.push_back(make_space(rows, bad, options.steps));
+      if (comparison.spaces.size() == kMostSpaces) break;
+      comparison.spaces.push_back(make_space(rows, bad, options.steps));
       searches.emplace_back(
-          session, rows, contest.spaces.back(), contest.spaces.size() - 1, options);
+          session, rows, comparison.spaces.back(), comparison.spaces.size() - 1, options);
       take(searches.back().run());
       best = std::max(best, searches.back().best());
     }
@@ -186,13 +186,13 @@ Contest hold_contest(const Session& session,
         take(search.run_beside_patterns());
       }
     }
-    finish(contest);
+    finish(comparison);
   };
-  hold_with(bad_point_sets(
+  compare_with(bad_point_sets(
       session, rows, excluded, first_hypotheses(session, rows, excluded, options), options.steps));
-  const auto more = sets_without_links(session, rows, excluded, contest);
-  if (!more.empty()) hold_with(more);
-  return contest;
+  const auto more = sets_without_links(session, rows, excluded, comparison);
+  if (!more.empty()) compare_with(more);
+  return comparison;
 }
 
 }  // namespace chaintrue::grid::diagnosis
