@@ -103,10 +103,10 @@ void drop_invisible(const Space& space, Analysis& a) {
 }
 
 /// What is fitted is the member that gives its class the name: settings and sizes belong together.
-void speak_of_leaders(const Rows& rows, const ModelComparison& comparison, Judgement& judged) {
-  for (int& k : judged.directions) {
+void speak_of_leaders(const Rows& rows, const ModelComparison& comparison, Decision& decision) {
+  for (int& k : decision.directions) {
     const CauseId own = rows.directions[static_cast<std::size_t>(k)].cause;
-    for (const CauseClass& members : judged.classes) {
+    for (const CauseClass& members : decision.classes) {
       if (members.front() == own ||
           std::find(members.begin(), members.end(), own) == members.end()) {
         continue;
@@ -120,7 +120,7 @@ void speak_of_leaders(const Rows& rows, const ModelComparison& comparison, Judge
       if (alone != comparison.models.end()) k = alone->directions.front();
     }
   }
-  std::sort(judged.directions.begin(), judged.directions.end());
+  std::sort(decision.directions.begin(), decision.directions.end());
 }
 
 }  // namespace
@@ -130,28 +130,28 @@ constexpr double kExplained = 0.93;
 /// From this probability of a pattern on; below it what noise leaves would decide.
 constexpr double kPatternLikely = 0.5;
 
-Judgement decide(const Session& session,
-                 const Rows& rows,
-                 const ModelComparison& comparison,
-                 const std::vector<bool>& excluded,
-                 bool seen) {
-  Judgement judged = judge(rows, comparison, excluded, seen);
-  speak_of_leaders(rows, comparison, judged);
-  if (judged.listed.empty() || judged.pattern <= kPatternLikely || judged.best_pattern < 0) {
-    return judged;
+Decision decide_beside_discrepancy(const Session& session,
+                                   const Rows& rows,
+                                   const ModelComparison& comparison,
+                                   const std::vector<bool>& excluded,
+                                   bool seen) {
+  Decision decision = decide(rows, comparison, excluded, seen);
+  speak_of_leaders(rows, comparison, decision);
+  if (decision.listed.empty() || decision.pattern <= kPatternLikely || decision.best_pattern < 0) {
+    return decision;
   }
   // A pattern that nobody knows looks somewhat like this cause or that: what is named must explain
   // nearly all that noise does not.
-  const Space& space = comparison.spaces[judged.space];
+  const Space& space = comparison.spaces[decision.space];
   const auto unexplained = [&](const std::vector<int>& directions) {
     const Estimate fitted = estimate(session, rows, space, directions, -1);
     const Eigen::VectorXd left = left_of_machine(rows, fitted, fitted.left);
     return square_in_noise(rows, space.kept, left) - static_cast<double>(space.kept.size());
   };
   const double before = unexplained({});
-  const double after = unexplained(judged.directions);
-  if (after <= (1.0 - kExplained) * before) return judged;
-  return judge(rows, comparison, excluded, false);
+  const double after = unexplained(decision.directions);
+  if (after <= (1.0 - kExplained) * before) return decision;
+  return decide(rows, comparison, excluded, false);
 }
 
 namespace {
@@ -162,12 +162,12 @@ void compare_and_decide(const Session& session,
                         Analysis& a) {
   const std::vector<bool> none(session.units(), false);
   a.comparison = compare_models(session, a.rows, none, options);
-  a.judgement = decide(session, a.rows, a.comparison, none, seen);
+  a.decision = decide_beside_discrepancy(session, a.rows, a.comparison, none, seen);
   a.estimate = estimate(session,
                         a.rows,
-                        a.comparison.spaces[a.judgement.space],
-                        a.judgement.directions,
-                        a.judgement.pattern_left ? a.judgement.best_pattern : -1);
+                        a.comparison.spaces[a.decision.space],
+                        a.decision.directions,
+                        a.decision.pattern_left ? a.decision.best_pattern : -1);
 }
 
 void test_significance(const Session& session, const DiagnosisOptions& options, Analysis& a) {
@@ -202,23 +202,23 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     share_out_links(space, a.rows);
     if (pass == 0) drop_invisible(space, a);
     compare_and_decide(session, comparison, true, a);
-    if (pass + 1 == kPasses || a.judgement.directions.empty()) break;
-    const Judgement& judged = a.judgement;
-    const Leaders leaders{judged.directions, judged.pattern_left ? judged.best_pattern : -1};
-    Polished polished =
-        polish(session, a.state, a.rows, a.comparison.spaces[judged.space], leaders, options.steps);
+    if (pass + 1 == kPasses || a.decision.directions.empty()) break;
+    const Decision& decision = a.decision;
+    const Leaders leaders{decision.directions, decision.pattern_left ? decision.best_pattern : -1};
+    Polished polished = polish(
+        session, a.state, a.rows, a.comparison.spaces[decision.space], leaders, options.steps);
     known = std::move(polished.refinements);
     a.state = std::move(polished.state);
   }
   test_significance(session, options, a);
   if (a.family_wise_p >= kFalseAlarm && !options.told) {
     const std::vector<bool> none(session.units(), false);
-    a.judgement = decide(session, a.rows, a.comparison, none, false);
+    a.decision = decide_beside_discrepancy(session, a.rows, a.comparison, none, false);
     a.estimate = estimate(session,
                           a.rows,
-                          a.comparison.spaces[a.judgement.space],
-                          a.judgement.directions,
-                          a.judgement.pattern_left ? a.judgement.best_pattern : -1);
+                          a.comparison.spaces[a.decision.space],
+                          a.decision.directions,
+                          a.decision.pattern_left ? a.decision.best_pattern : -1);
   }
   return a;
 }

@@ -54,7 +54,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(
   }
   d.observations = session->distances ? Observations::distances : Observations::points;
   d.seed = options.seed;
-  d.verdict = analysis->judgement.verdict;
+  d.verdict = analysis->decision.verdict;
   d.noise_factor = std::sqrt(analysis->estimate.noise_square);
   d.family_wise_p = analysis->family_wise_p;
   d.causes = causes_found(*session, *analysis, options.order_assumed);

@@ -14,7 +14,7 @@ constexpr int kColumns = 25;  // 100 mm apart on a whole bed: waves of a sprocke
 constexpr int kRows = 13;
 
 bool hangs_on_visits(const Analysis& a) {
-  return std::any_of(a.judgement.directions.begin(), a.judgement.directions.end(), [&](int k) {
+  return std::any_of(a.decision.directions.begin(), a.decision.directions.end(), [&](int k) {
     const Direction& d = a.rows.directions[static_cast<std::size_t>(k)];
     return !d.slip && model::effects::depends_on_visit(*d.cause.effect);
   });
@@ -69,9 +69,9 @@ namespace {
 
 /// Over the distances as they were read: what is between them has no place of its own.
 ExpectedGain gain_of_distances(const Session& session, const Analysis& a) {
-  const Space& space = a.comparison.spaces[a.judgement.space];
+  const Space& space = a.comparison.spaces[a.decision.space];
   const Estimate plain = estimate(session, a.rows, space, {}, -1);
-  const Estimate named = estimate(session, a.rows, space, a.judgement.directions, -1);
+  const Estimate named = estimate(session, a.rows, space, a.decision.directions, -1);
   const Eigen::VectorXd moved =
       left_of_machine(a.rows, plain, plain.left) - left_of_machine(a.rows, named, named.left);
   const Eigen::Index settings = a.rows.by_setting.cols() - a.rows.nuisances;
@@ -102,8 +102,8 @@ ExpectedGain expected_gain(const Session& session, const Analysis& a, const Step
   const Session area = hangs_on_visits(a) ? session : over_the_area(session, a);
   const auto there = base_rows(area, a.state, steps);
   if (!there || area.points.empty()) return {};
-  const std::vector<int>& causes = a.judgement.directions;
-  const Space& space = a.comparison.spaces[a.judgement.space];
+  const std::vector<int>& causes = a.decision.directions;
+  const Space& space = a.comparison.spaces[a.decision.space];
   const Estimate plain =
       estimate(session, a.rows, without_slips(session, a.rows, space, causes, steps), {}, -1);
   const Estimate named = estimate(session, a.rows, space, causes, -1);

@@ -22,7 +22,7 @@ struct ExpectedGain {
                                          const Analysis& analysis,
                                          const Steps& steps);
 
-/// The space of the judgement with the points set aside that causes at one visit alone account for:
+/// The space of the decision with the points set aside that causes at one visit alone account for:
 /// whoever calibrates without these causes still sees that the points are out.
 [[nodiscard]] Space without_slips(const Session& session,
                                   const Rows& rows,

@@ -70,22 +70,22 @@ Eigen::Index position_of(const Estimate& e, int column) {
 }
 
 double marginal(const Analysis& a, std::size_t index) {
-  for (const ClassProbability& one : a.judgement.marginal) {
+  for (const ClassProbability& one : a.decision.marginal) {
     if (one.index == index) return one.probability;
   }
   return 0.0;
 }
 
 Cause describe(const Session& session, const Analysis& a, std::size_t index, bool order_assumed) {
-  const CauseClass& members = a.judgement.classes[index];
+  const CauseClass& members = a.decision.classes[index];
   Cause cause;
   cause.cause = members.front();
   cause.probability = marginal(a, index);
   // Other named causes stay in the model; rivals of a set are each fitted alone.
   std::vector<int> others;
-  for (const int k : a.judgement.directions) {
+  for (const int k : a.decision.directions) {
     const CauseId& acting = direction(a, k).cause;
-    const bool several = a.judgement.verdict == Verdict::several_causes;
+    const bool several = a.decision.verdict == Verdict::several_causes;
     if (several && std::find(members.begin(), members.end(), acting) == members.end()) {
       others.push_back(k);
     }
@@ -117,8 +117,8 @@ Cause describe(const Session& session, const Analysis& a, std::size_t index, boo
 
 std::vector<CauseId> listed_causes(const Analysis& a) {
   std::vector<CauseId> result;
-  for (const std::size_t index : a.judgement.listed) {
-    const CauseClass& members = a.judgement.classes[index];
+  for (const std::size_t index : a.decision.listed) {
+    const CauseClass& members = a.decision.classes[index];
     result.insert(result.end(), members.begin(), members.end());
   }
   return result;
@@ -128,7 +128,7 @@ std::vector<CauseId> listed_causes(const Analysis& a) {
 
 std::vector<Cause> causes_found(const Session& session, const Analysis& a, bool order_assumed) {
   std::vector<Cause> result;
-  for (const std::size_t index : a.judgement.listed) {
+  for (const std::size_t index : a.decision.listed) {
     result.push_back(describe(session, a, index, order_assumed));
   }
   return result;
@@ -136,16 +136,16 @@ std::vector<Cause> causes_found(const Session& session, const Analysis& a, bool 
 
 std::vector<Hypothesis> hypotheses(const Analysis& a) {
   std::vector<Hypothesis> result;
-  for (const ClassProbability& one : a.judgement.marginal) {
-    const CauseId& cause = a.judgement.classes[one.index].front();
+  for (const ClassProbability& one : a.decision.marginal) {
+    const CauseId& cause = a.decision.classes[one.index].front();
     result.push_back({std::string(cause.effect->id),
                       std::string(model::effects::name(cause.side)),
                       one.probability});
   }
-  result.push_back({"nothing", "", a.judgement.nothing});
-  result.push_back({"unknown", "", a.judgement.pattern});
-  result.push_back({"noise", "", a.judgement.noise});
-  result.push_back({"bad_points", "", a.judgement.bad_points});
+  result.push_back({"nothing", "", a.decision.nothing});
+  result.push_back({"unknown", "", a.decision.pattern});
+  result.push_back({"noise", "", a.decision.noise});
+  result.push_back({"bad_points", "", a.decision.bad_points});
   std::stable_sort(result.begin(), result.end(), [](const Hypothesis& x, const Hypothesis& y) {
     return x.probability > y.probability;
   });
@@ -174,8 +174,8 @@ std::vector<Term> terms(const Session& session,
     term.delta = std::abs(alone.coefficient(0)) * length;
     term.share_left = length / std::max(raw_length(a, column), 1e-12);
     term.p_value = a.null.p_value(by_cause(static_cast<Eigen::Index>(k)));
-    for (std::size_t c = 0; c < a.judgement.classes.size(); ++c) {
-      const auto& members = a.judgement.classes[c];
+    for (std::size_t c = 0; c < a.decision.classes.size(); ++c) {
+      const auto& members = a.decision.classes[c];
       if (std::find(members.begin(), members.end(), cause) != members.end())
         term.probability = marginal(a, c);
     }
@@ -206,7 +206,7 @@ std::vector<Bound> bounds(const Session& session,
       result.push_back({cause, std::string(size.name), 0.0});
       continue;
     }
-    std::vector<int> set = a.judgement.directions;
+    std::vector<int> set = a.decision.directions;
     if (std::find(set.begin(), set.end(), column) == set.end()) set.push_back(column);
     const Estimate fitted = estimate_with(session, a, set);
     const Eigen::Index at = position_of(fitted, column);
@@ -251,7 +251,7 @@ std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a
   const auto residuals = chain_residuals(a.rows, a.estimate.left_beside_pattern);
   std::vector<bool> bad = space_of(a).bad;
   // A link counted wrong is a bad point with a name.
-  for (const int k : a.judgement.directions) {
+  for (const int k : a.decision.directions) {
     const Direction& d = direction(a, k);
     if (!d.slip) continue;
     for (std::size_t i = 0; i < session.points.size(); ++i) {
@@ -276,14 +276,14 @@ std::vector<Separation> separations(const Analysis& a) {
   constexpr std::size_t kShown = 10;
   const Space& space = space_of(a);
   std::vector<std::size_t> shown;
-  for (const ClassProbability& one : a.judgement.marginal) {
+  for (const ClassProbability& one : a.decision.marginal) {
     if (shown.size() < kShown) shown.push_back(one.index);
   }
   std::vector<Separation> result;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const CauseId& x = a.judgement.classes[shown[j]].front();
-      const CauseId& y = a.judgement.classes[shown[i]].front();
+      const CauseId& x = a.decision.classes[shown[j]].front();
+      const CauseId& y = a.decision.classes[shown[i]].front();
       const auto gx = space.g.col(best_direction(a, x));
       const auto gy = space.g.col(best_direction(a, y));
       const double rho =

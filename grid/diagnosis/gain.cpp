@@ -49,31 +49,33 @@ class Folds {
     const SingleScore score(a_.rows, first, session_.noise_dof);
     const bool seen = options_.told.has_value() ||
                       a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
-    const Judgement judged = decide(session_, a_.rows, comparison, excluded, seen);
-    const Space& space = comparison.spaces[judged.space];
+    const Decision decision =
+        decide_beside_discrepancy(session_, a_.rows, comparison, excluded, seen);
+    const Space& space = comparison.spaces[decision.space];
     Fold fold;
     for (const std::size_t i : points) {
       if (!bad_in_all(i)) fold.points.push_back(i);
     }
-    for (const std::size_t index : judged.listed) fold.named.push_back(judged.classes[index]);
+    for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
     const Space plain =
-        without_slips(session_, a_.rows, space, a_.judgement.directions, options_.steps);
+        without_slips(session_, a_.rows, space, a_.decision.directions, options_.steps);
     fold.errors.calibrated = errors(fit(plain, {}), fold.points);
-    fold.errors.surface_only = beside_pattern(comparison, judged.space, {}, fold.points);
-    fold.errors.extended = errors(fit(space, judged.directions), fold.points);
+    fold.errors.surface_only = beside_pattern(comparison, decision.space, {}, fold.points);
+    fold.errors.extended = errors(fit(space, decision.directions), fold.points);
     fold.errors.extended_and_surface =
-        beside_pattern(comparison, judged.space, judged.directions, fold.points);
-    const std::vector<int>& all = a_.judgement.directions;
+        beside_pattern(comparison, decision.space, decision.directions, fold.points);
+    const std::vector<int>& all = a_.decision.directions;
     fold.errors.held_fast = errors(fit(space, all), fold.points);
-    fold.errors.held_fast_and_surface = beside_pattern(comparison, judged.space, all, fold.points);
+    fold.errors.held_fast_and_surface =
+        beside_pattern(comparison, decision.space, all, fold.points);
     return fold;
   }
 
  private:
   [[nodiscard]] bool bad_in_all(std::size_t point) const {
-    if (a_.comparison.spaces[a_.judgement.space].bad[point]) return true;
+    if (a_.comparison.spaces[a_.decision.space].bad[point]) return true;
     // A reading wrong at its own visit alone says nothing of any other.
-    for (const int k : a_.judgement.directions) {
+    for (const int k : a_.decision.directions) {
       const Direction& d = a_.rows.directions[static_cast<std::size_t>(k)];
       if (d.slip && session_.points[point].order == static_cast<int>(d.values.back())) return true;
     }
@@ -185,8 +187,8 @@ bool names_agree(const Fold& fold, const Analysis& a) {
     return ids;
   };
   std::vector<CauseId> whole;
-  for (const std::size_t index : a.judgement.listed)
-    whole.push_back(a.judgement.classes[index].front());
+  for (const std::size_t index : a.decision.listed)
+    whole.push_back(a.decision.classes[index].front());
   const std::vector<CauseId> here = leader(fold.named);
   if (whole.empty() || here.empty()) return whole.empty() && here.empty();
   return std::find(whole.begin(), whole.end(), here.front()) != whole.end();
@@ -221,7 +223,7 @@ Delivered delivered(const Session& session,
   const bool moves = sheet > 0 && (session.knows(model::Setting::sheet_x_mm) ||
                                    session.knows(model::Setting::sheet_y_mm));
   if (moves) {
-    const auto& kept = a.comparison.spaces[a.judgement.space].kept;
+    const auto& kept = a.comparison.spaces[a.decision.space].kept;
     const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);
     const Eigen::MatrixXd scaled = by_sheet(kept, Eigen::all) * sigma.asDiagonal();
     Eigen::MatrixXd normal = scaled.transpose() * scaled;
@@ -259,12 +261,12 @@ struct Extension {
 };
 
 Extension extension_of(const Analysis& a, const Errors& errors) {
-  if (!a.judgement.listed.empty() && rms(errors.extended) < rms(errors.calibrated)) {
+  if (!a.decision.listed.empty() && rms(errors.extended) < rms(errors.calibrated)) {
     return {&errors.extended, &errors.extended_and_surface, true, true};
   }
   // A block without which these points leave two names, the wrong one first, says little against
   // the name that all points give.
-  if (!a.judgement.listed.empty() && rms(errors.held_fast) < rms(errors.calibrated)) {
+  if (!a.decision.listed.empty() && rms(errors.held_fast) < rms(errors.calibrated)) {
     return {&errors.held_fast, &errors.held_fast_and_surface, true, false};
   }
   return {&errors.calibrated, &errors.surface_only, false, true};

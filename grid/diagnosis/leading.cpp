@@ -10,10 +10,10 @@ const Direction& direction(const Analysis& a, int k) {
   return a.rows.directions[static_cast<std::size_t>(k)];
 }
 
-const Space& space_of(const Analysis& a) { return a.comparison.spaces[a.judgement.space]; }
+const Space& space_of(const Analysis& a) { return a.comparison.spaces[a.decision.space]; }
 
 int best_direction(const Analysis& a, const CauseId& cause) {
-  for (const int k : a.judgement.directions) {
+  for (const int k : a.decision.directions) {
     if (direction(a, k).cause == cause) return k;
   }
   for (const Model& model : a.comparison.models) {
@@ -36,7 +36,7 @@ int best_direction(const Analysis& a, const CauseId& cause) {
 }
 
 bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
-  for (const CauseClass& members : a.judgement.classes) {
+  for (const CauseClass& members : a.decision.classes) {
     const auto in = [&](const CauseId& c) {
       return std::find(members.begin(), members.end(), c) != members.end();
     };
@@ -50,8 +50,8 @@ Nearest nearest_other(const Analysis& a, int column) {
   const auto own = space.g.col(column);
   const auto excluded = [&](const CauseId& other) {
     if (same_class(a, other, direction(a, column).cause)) return true;
-    if (a.judgement.verdict != Verdict::several_causes) return false;
-    return std::any_of(a.judgement.directions.begin(), a.judgement.directions.end(), [&](int k) {
+    if (a.decision.verdict != Verdict::several_causes) return false;
+    return std::any_of(a.decision.directions.begin(), a.decision.directions.end(), [&](int k) {
       return same_class(a, other, direction(a, k).cause);
     });
   };
@@ -67,15 +67,15 @@ Nearest nearest_other(const Analysis& a, int column) {
 }
 
 Shown shown(const Analysis& a) {
-  Shown result{a.judgement.directions, {}};
-  if (result.best.empty() && !a.judgement.marginal.empty()) {
+  Shown result{a.decision.directions, {}};
+  if (result.best.empty() && !a.decision.marginal.empty()) {
     result.best = {
-        best_direction(a, a.judgement.classes[a.judgement.marginal.front().index].front())};
+        best_direction(a, a.decision.classes[a.decision.marginal.front().index].front())};
   }
   if (result.best.empty()) return result;
   int first = result.best.front();
-  if (!a.judgement.listed.empty()) {
-    first = best_direction(a, a.judgement.classes[a.judgement.listed.front()].front());
+  if (!a.decision.listed.empty()) {
+    first = best_direction(a, a.decision.classes[a.decision.listed.front()].front());
   }
   const Nearest other = nearest_other(a, first);
   if (other.column >= 0) result.rival = {other.column};
@@ -88,7 +88,7 @@ Estimate estimate_with(const Session& session, const Analysis& a, std::vector<in
                   a.rows,
                   space_of(a),
                   directions,
-                  a.judgement.pattern_left ? a.judgement.best_pattern : -1);
+                  a.decision.pattern_left ? a.decision.best_pattern : -1);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -12,7 +12,7 @@ namespace chaintrue::grid::diagnosis {
 /// Column k of the analysis' rows.
 [[nodiscard]] const Direction& direction(const Analysis& analysis, int k);
 
-/// The space in which the judgement was made.
+/// The space in which the decision was made.
 [[nodiscard]] const Space& space_of(const Analysis& analysis);
 
 /// The most probable column of a cause over the models of the comparison, or that with its best
@@ -38,7 +38,7 @@ struct Shown {
 };
 [[nodiscard]] Shown shown(const Analysis& analysis);
 
-/// Estimate with these columns, beside the pattern where the judgement holds one.
+/// Estimate with these columns, beside the pattern where the decision holds one.
 [[nodiscard]] Estimate estimate_with(const Session& session,
                                      const Analysis& analysis,
                                      std::vector<int> columns);

@@ -112,13 +112,13 @@ double share_along(const Session& session,
 }  // namespace
 
 LeftOver left_over(const Session& session, const Analysis& a, std::uint64_t seed) {
-  const Space& space = a.comparison.spaces[a.judgement.space];
+  const Space& space = a.comparison.spaces[a.decision.space];
   LeftOver result;
   const Eigen::VectorXd left = left_of_machine(a.rows, a.estimate, a.estimate.left);
   result.p_value = p_of_structure(session, a.rows, space.kept, left, seed);
-  if (a.judgement.best_pattern >= 0) {
+  if (a.decision.best_pattern >= 0) {
     const Estimate beside =
-        estimate(session, a.rows, space, a.judgement.directions, a.judgement.best_pattern);
+        estimate(session, a.rows, space, a.decision.directions, a.decision.best_pattern);
     const Eigen::VectorXd pattern = beside.left - beside.left_beside_pattern;
     result.delta = length_in_noise(a.rows, space.kept, pattern) / std::sqrt(beside.noise_square);
   }

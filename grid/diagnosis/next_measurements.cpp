@@ -30,14 +30,14 @@ struct Alternative {
 /// best places. Members of one class count as one.
 std::vector<Alternative> leading(const Analysis& a) {
   const auto class_of = [&](const CauseId& cause) {
-    for (std::size_t k = 0; k < a.judgement.classes.size(); ++k) {
-      const CauseClass& members = a.judgement.classes[k];
+    for (std::size_t k = 0; k < a.decision.classes.size(); ++k) {
+      const CauseClass& members = a.decision.classes[k];
       if (std::find(members.begin(), members.end(), cause) != members.end()) return k;
     }
-    return a.judgement.classes.size();
+    return a.decision.classes.size();
   };
   std::map<std::vector<std::size_t>, Alternative> groups;
-  const std::size_t together = std::max<std::size_t>(a.judgement.directions.size(), 1);
+  const std::size_t together = std::max<std::size_t>(a.decision.directions.size(), 1);
   for (const Model& model : a.comparison.models) {
     if (model.directions.size() != together) continue;
     std::vector<std::size_t> key;
@@ -69,8 +69,8 @@ std::vector<Alternative> leading(const Analysis& a) {
 void add_link_reading(const Session& session,
                       const Analysis& a,
                       std::vector<NextMeasurement>& list) {
-  if (a.judgement.listed.empty() || list.size() >= kMostNextMeasurements) return;
-  const CauseClass& members = a.judgement.classes[a.judgement.listed.front()];
+  if (a.decision.listed.empty() || list.size() >= kMostNextMeasurements) return;
+  const CauseClass& members = a.decision.classes[a.decision.listed.front()];
   const bool pitch = std::any_of(members.begin(), members.end(), [](const CauseId& c) {
     return c.effect->elongation != nullptr;
   });
@@ -81,8 +81,8 @@ void add_link_reading(const Session& session,
   }
   NextMeasurement reading{
       MeasurementKind::reading, "link_pitch_mm", "left", std::nullopt, kLinkPitchSigmaMm};
-  for (const ClassProbability& one : a.judgement.marginal) {
-    if (one.index == a.judgement.listed.front()) reading.raises_probability_to = one.probability;
+  for (const ClassProbability& one : a.decision.marginal) {
+    if (one.index == a.decision.listed.front()) reading.raises_probability_to = one.probability;
   }
   if (!list.empty()) reading.raises_probability_to = list.back().raises_probability_to;
   list.push_back(std::move(reading));
@@ -94,7 +94,7 @@ void predict(const Session& session,
              const Session& next,
              const Rows& rows,
              Alternative& h) {
-  const Space& space = a.comparison.spaces[a.judgement.space];
+  const Space& space = a.comparison.spaces[a.decision.space];
   const Estimate fitted = estimate(session, a.rows, space, h.directions, -1);
   // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
@@ -168,7 +168,7 @@ Outlook outlook(const std::vector<Alternative>& alternatives,
 }  // namespace
 
 std::vector<NextMeasurement> next_measurements(const Session& session, const Analysis& a) {
-  if (a.judgement.listed.empty()) return {};
+  if (a.decision.listed.empty()) return {};
   std::vector<NextMeasurement> result;
   std::vector<Alternative> alternatives = leading(a);
   NextCandidates next =
@@ -179,7 +179,7 @@ std::vector<NextMeasurement> next_measurements(const Session& session, const Ana
   std::vector<Candidate>& options = next.all;
   std::vector<Eigen::Index> chosen;
   Outlook now = outlook(alternatives, chosen);
-  double reached = a.judgement.verdict == Verdict::named ? kEnough : now.named_alone;
+  double reached = a.decision.verdict == Verdict::named ? kEnough : now.named_alone;
   while (result.size() < kMostNextMeasurements && reached < kEnough) {
     std::size_t best = options.size();
     Outlook then = now;

@@ -8,8 +8,8 @@
 /// where they end the models are compared again.
 #pragma once
 
+#include "grid/diagnosis/decision.hpp"
 #include "grid/diagnosis/estimate.hpp"
-#include "grid/diagnosis/judgement.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

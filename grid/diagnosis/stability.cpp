@@ -47,13 +47,13 @@ class Statement {
 
   [[nodiscard]] bool holds(const Model& model) const {
     const auto acts = [&](std::size_t index) {
-      const CauseClass& members = a_.judgement.classes[index];
+      const CauseClass& members = a_.decision.classes[index];
       return std::any_of(model.directions.begin(), model.directions.end(), [&](int k) {
         return std::find(members.begin(), members.end(), direction(a_, k).cause) != members.end();
       });
     };
-    const auto& listed = a_.judgement.listed;
-    return a_.judgement.verdict == Verdict::named_set
+    const auto& listed = a_.decision.listed;
+    return a_.decision.verdict == Verdict::named_set
                ? std::any_of(listed.begin(), listed.end(), acts)
                : std::all_of(listed.begin(), listed.end(), acts);
   }
@@ -109,7 +109,7 @@ std::vector<LeftOut> groups_to_leave_out(const Session& session) {
   return groups;
 }
 
-bool still_named(const Judgement& all, const Judgement& without) {
+bool still_named(const Decision& all, const Decision& without) {
   const auto is_listed = [&](std::size_t index) {
     const CauseClass& members = all.classes[index];
     return std::any_of(without.listed.begin(), without.listed.end(), [&](std::size_t other) {
@@ -132,7 +132,7 @@ std::optional<Stability> examine_stability(const Session& session,
                                            const Analysis& a,
                                            const DiagnosisOptions& options) {
   // So few distances that the gain's folds, hole by hole, tell the same.
-  if (a.judgement.listed.empty() || session.distances) return std::nullopt;
+  if (a.decision.listed.empty() || session.distances) return std::nullopt;
   const std::vector<LeftOut> groups = groups_to_leave_out(session);
   if (groups.empty()) return std::nullopt;
   const Reweighing reweighing(session, a, options);
@@ -145,7 +145,8 @@ std::optional<Stability> examine_stability(const Session& session,
     std::vector<bool> excluded(session.points.size(), false);
     for (const std::size_t i : group.points) excluded[i] = true;
     const bool seen = without.seen || options.told.has_value();
-    const Judgement judged = judge(a.rows, without.comparison, excluded, seen, a.judgement.classes);
+    const Decision decision =
+        decide(a.rows, without.comparison, excluded, seen, a.decision.classes);
     const double log_odds = statement.log_odds(without.comparison);
     Removal removal;
     removal.what = group.what;
@@ -154,11 +155,11 @@ std::optional<Stability> examine_stability(const Session& session,
     }
     removal.at_mm = group.at_mm;
     removal.points = group.points.size();
-    removal.verdict = judged.verdict;
-    for (const std::size_t index : judged.listed) {
-      removal.causes.push_back(judged.classes[index].front());
+    removal.verdict = decision.verdict;
+    for (const std::size_t index : decision.listed) {
+      removal.causes.push_back(decision.classes[index].front());
     }
-    removal.stands = still_named(a.judgement, judged);
+    removal.stands = still_named(a.decision, decision);
     removal.probability = probability_of(log_odds);
     removal.support = all - log_odds;
     result.removals.push_back(std::move(removal));

@@ -64,7 +64,7 @@ Eigen::VectorXd left_of(const Session& from,
                         const Session& to,
                         const Rows& rows) {
   const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
-  const Space& space = a.comparison.spaces[a.judgement.space];
+  const Space& space = a.comparison.spaces[a.decision.space];
   Eigen::VectorXd left =
       rows.e - rows.by_setting.leftCols(machine) * model.setting_change.head(machine);
   for (std::size_t k = 0; k < model.directions.size(); ++k) {
@@ -143,10 +143,10 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
     return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::point_unreachable,
                                            "a point of the other grid cannot be reached"});
   }
-  const Space& space = a->comparison.spaces[a->judgement.space];
-  const std::vector<int>& causes = a->judgement.directions;
+  const Space& space = a->comparison.spaces[a->decision.space];
+  const std::vector<int>& causes = a->decision.directions;
   const Placed place(*second, *rows);
-  const auto judged = [&](const std::vector<int>& directions, int pattern) {
+  const auto predicted_by = [&](const std::vector<int>& directions, int pattern) {
     const Estimate model = estimate(*first, a->rows, space, directions, pattern);
     return summary(*second, *rows, place(left_of(*first, *a, model, *second, *rows)), options.seed);
   };
@@ -154,9 +154,9 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   result.points = second->points.size();
   result.as_delivered =
       summary(*second, *stated, Placed(*second, *stated)(stated->e), options.seed);
-  result.calibrated = judged({}, -1);
-  result.extended = judged(causes, -1);
-  result.extended_and_surface = judged(causes, a->judgement.best_pattern);
+  result.calibrated = predicted_by({}, -1);
+  result.extended = predicted_by(causes, -1);
+  result.extended_and_surface = predicted_by(causes, a->decision.best_pattern);
   result.noise_floor_mm = floor_of(*second, *rows);
   return result;
 }

@@ -36,8 +36,8 @@ double probability_that_all_act(const Analysis& a, const ModelComparison& compar
   double p = 0.0;
   for (const Model& model : comparison.models) {
     const bool all =
-        std::all_of(a.judgement.listed.begin(), a.judgement.listed.end(), [&](std::size_t index) {
-          const CauseClass& members = a.judgement.classes[index];
+        std::all_of(a.decision.listed.begin(), a.decision.listed.end(), [&](std::size_t index) {
+          const CauseClass& members = a.decision.classes[index];
           return std::any_of(model.directions.begin(), model.directions.end(), [&](int k) {
             return std::find(members.begin(), members.end(), direction(a, k).cause) !=
                    members.end();
@@ -83,7 +83,7 @@ TEST(Reweighing, OfAllPointsIsTheComparison) {
   const auto session = make_session(session_of({kLongLeft}, 3));
   const auto a = analyse(*session, verdict_alone());
   ASSERT_TRUE(a);
-  ASSERT_FALSE(a->judgement.listed.empty());
+  ASSERT_FALSE(a->decision.listed.empty());
   const Reweighing reweighing(*session, *a, verdict_alone());
   const auto all = reweighing.without({});
   EXPECT_TRUE(all.seen);
@@ -104,7 +104,7 @@ TEST(Reweighing, SaysWhatAComparisonMadeAnewSays) {
     const auto session = make_session(session_of({hidden}, static_cast<std::uint64_t>(seed)));
     const auto a = analyse(*session, verdict_alone());
     ASSERT_TRUE(a);
-    ASSERT_EQ(a->judgement.verdict, Verdict::named);
+    ASSERT_EQ(a->decision.verdict, Verdict::named);
     const auto stability = examine_stability(*session, *a, verdict_alone());
     ASSERT_TRUE(stability);
     const auto groups = groups_to_leave_out(*session);
@@ -114,8 +114,8 @@ TEST(Reweighing, SaysWhatAComparisonMadeAnewSays) {
       for (const std::size_t i : groups[k].points) excluded[i] = true;
       const ModelComparison comparison =
           compare_models(*session, a->rows, excluded, {verdict_alone().steps, true, std::nullopt});
-      const Judgement judged = judge(a->rows, comparison, excluded, true, a->judgement.classes);
-      EXPECT_EQ(stability->removals[k].stands, still_named(a->judgement, judged)) << "group " << k;
+      const Decision decision = decide(a->rows, comparison, excluded, true, a->decision.classes);
+      EXPECT_EQ(stability->removals[k].stands, still_named(a->decision, decision)) << "group " << k;
       // What the models of all points leave aside: sets of bad points and patterns that only show
       // once these points are gone.
       EXPECT_NEAR(stability->removals[k].probability, probability_that_all_act(*a, comparison), 0.1)

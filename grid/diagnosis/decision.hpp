@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// From the comparison's probabilities to a verdict: which causes are present, which cannot be told
-/// apart, and when to keep silent.
+/// apart, and when to abstain.
 #pragma once
 
 #include <vector>
@@ -32,7 +32,7 @@ struct ClassProbability {
   double probability = 0.0;
 };
 
-struct Judgement {
+struct Decision {
   Verdict verdict = Verdict::nothing_found;
   std::vector<CauseClass> classes;
   /// Present at all, with whatever else; most probable first.
@@ -54,13 +54,13 @@ struct Judgement {
 };
 
 /// `seen`: the strongest effect is beyond what noise does (family-wise).
-[[nodiscard]] Judgement judge(const Rows& rows,
+[[nodiscard]] Decision decide(const Rows& rows,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool seen);
 /// The same with the classes known: of the comparison's spaces nothing but the points set aside is
 /// asked.
-[[nodiscard]] Judgement judge(const Rows& rows,
+[[nodiscard]] Decision decide(const Rows& rows,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool seen,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/judgement.hpp"
+#include "grid/diagnosis/decision.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -71,17 +71,17 @@ struct Grouped {
   const Model* with_pattern = nullptr;
 };
 
-class Judge {
+class Decider {
  public:
-  Judge(const Rows& rows,
-        const ModelComparison& comparison,
-        const std::vector<bool>& excluded,
-        std::vector<CauseClass> classes)
+  Decider(const Rows& rows,
+          const ModelComparison& comparison,
+          const std::vector<bool>& excluded,
+          std::vector<CauseClass> classes)
       : rows_(rows), comparison_(comparison), excluded_(excluded) {
     result_.classes = std::move(classes);
   }
 
-  Judgement run(bool seen) {
+  Decision run(bool seen) {
     group();
     marginals();
     const bool caused = seen && result_.caused > kCaused;
@@ -89,7 +89,7 @@ class Judge {
     if (leading != nullptr) {
       name_causes(*leading);
     } else {
-      keep_silent();
+      abstain();
     }
     return std::move(result_);
   }
@@ -121,14 +121,14 @@ class Judge {
         one.best = &model;
       }
       if (key.empty()) {
-        share_silence(model, p);
+        share_abstention(model, p);
       } else {
         result_.caused += p;
       }
     }
   }
 
-  void share_silence(const Model& model, double p) {
+  void share_abstention(const Model& model, double p) {
     const bool bad = comparison_.spaces[model.space].bad != excluded_;
     if (model.pattern >= 0) {
       result_.unknown += p;
@@ -204,7 +204,7 @@ class Judge {
     if (result_.pattern > kPatternPossible &&
         (leading_key_.size() > 1 ? result_.marginal.front().probability : result_.caused) <
             kNeededBesidePattern) {
-      keep_silent();
+      abstain();
       return;
     }
     if (leading_key_.size() > 1) {
@@ -244,7 +244,7 @@ class Judge {
     if (result_.listed.size() == 1) result_.verdict = Verdict::named;
   }
 
-  void keep_silent() {
+  void abstain() {
     const auto found = groups_.find({});
     if (found != groups_.end()) {
       take(found->second);
@@ -276,7 +276,7 @@ class Judge {
   const std::vector<bool>& excluded_;
   std::map<Key, Grouped> groups_;
   Key leading_key_;
-  Judgement result_;
+  Decision result_;
 };
 
 /// An orthonormal basis of what the settings can do. Distances hardly feel some of them, and what
@@ -333,23 +333,23 @@ std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
   return classes;
 }
 
-Judgement judge(const Rows& rows,
+Decision decide(const Rows& rows,
                 const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
                 bool seen) {
-  return judge(rows,
-               comparison,
-               excluded,
-               seen,
-               classes_of(rows, comparison.spaces[comparison.best().space]));
+  return decide(rows,
+                comparison,
+                excluded,
+                seen,
+                classes_of(rows, comparison.spaces[comparison.best().space]));
 }
 
-Judgement judge(const Rows& rows,
+Decision decide(const Rows& rows,
                 const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
                 bool seen,
                 std::vector<CauseClass> classes) {
-  return Judge(rows, comparison, excluded, std::move(classes)).run(seen);
+  return Decider(rows, comparison, excluded, std::move(classes)).run(seen);
 }
 
 }  // namespace chaintrue::grid::diagnosis
