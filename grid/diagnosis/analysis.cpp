@@ -111,8 +111,8 @@ void speak_of_leaders(const Rows& rows, const ModelComparison& comparison, Decis
           std::find(members.begin(), members.end(), own) == members.end()) {
         continue;
       }
-      const auto alone =
-          std::find_if(comparison.models.begin(), comparison.models.end(), [&](const Model& model) {
+      const auto alone = std::find_if(
+          comparison.models.begin(), comparison.models.end(), [&](const CandidateModel& model) {
             return model.directions.size() == 1 &&
                    rows.directions[static_cast<std::size_t>(model.directions.front())].cause ==
                        members.front();

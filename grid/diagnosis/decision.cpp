@@ -67,8 +67,8 @@ using Key = std::vector<std::size_t>;  ///< classes that act, ascending
 struct Grouped {
   double probability = 0.0;
   double pattern = 0.0;
-  const Model* best = nullptr;  ///< without a pattern, where there is one
-  const Model* with_pattern = nullptr;
+  const CandidateModel* best = nullptr;  ///< without a pattern, where there is one
+  const CandidateModel* with_pattern = nullptr;
 };
 
 class Decider {
@@ -104,7 +104,7 @@ class Decider {
   }
 
   void group() {
-    for (const Model& model : comparison_.models) {
+    for (const CandidateModel& model : comparison_.models) {
       const double p = comparison_.probability(model);
       Key key;
       for (const int k : model.directions) {
@@ -128,7 +128,7 @@ class Decider {
     }
   }
 
-  void share_abstention(const Model& model, double p) {
+  void share_abstention(const CandidateModel& model, double p) {
     const bool bad = comparison_.spaces[model.space].bad != excluded_;
     if (model.pattern >= 0) {
       result_.unknown += p;
@@ -173,7 +173,7 @@ class Decider {
   }
 
   void take(const Grouped& grouped) {
-    const Model* model = grouped.best != nullptr ? grouped.best : grouped.with_pattern;
+    const CandidateModel* model = grouped.best != nullptr ? grouped.best : grouped.with_pattern;
     if (model == nullptr) return;
     result_.directions = model->directions;
     result_.space = model->space;

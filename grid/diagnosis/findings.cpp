@@ -35,7 +35,7 @@ double place_sigma(const Analysis& a, int column) {
   const EffectParameter& place = own.cause.effect->parameters.back();
   double weight = 0.0;
   double square = 0.0;
-  for (const Model& model : a.comparison.models) {
+  for (const CandidateModel& model : a.comparison.models) {
     for (const int k : model.directions) {
       const Direction& other = direction(a, k);
       if (!(other.cause == own.cause)) continue;

@@ -102,7 +102,7 @@ class Folds {
   static int preferred_pattern(const ModelComparison& comparison,
                                std::size_t space,
                                const std::vector<int>& directions) {
-    for (const Model& model : comparison.models) {
+    for (const CandidateModel& model : comparison.models) {
       if (model.directions == directions && model.space == space) return model.pattern;
     }
     return -1;

@@ -16,7 +16,7 @@ int best_direction(const Analysis& a, const CauseId& cause) {
   for (const int k : a.decision.directions) {
     if (direction(a, k).cause == cause) return k;
   }
-  for (const Model& model : a.comparison.models) {
+  for (const CandidateModel& model : a.comparison.models) {
     if (model.directions.size() != 1) continue;
     if (direction(a, model.directions.front()).cause == cause) return model.directions.front();
   }

@@ -52,7 +52,7 @@ std::vector<std::vector<int>> first_hypotheses(const Session& session,
 
 }  // namespace
 
-double ModelComparison::probability(const Model& model) const {
+double ModelComparison::probability(const CandidateModel& model) const {
   return std::exp(model.log_weight - log_total);
 }
 
@@ -124,7 +124,7 @@ std::vector<std::vector<bool>> sets_without_links(const Session& session,
                                                   const std::vector<bool>& excluded,
                                                   const ModelComparison& comparison) {
   constexpr double kAlike = 25.0;  // squared, in sigmas: two rows, 1 in 270 000
-  const Model& best = comparison.best();
+  const CandidateModel& best = comparison.best();
   const Space& space = comparison.spaces[best.space];
   const Estimate fitted = estimate(session, rows, space, best.directions, -1);
   std::vector<std::vector<bool>> result;
@@ -151,11 +151,12 @@ std::vector<std::vector<bool>> sets_without_links(const Session& session,
 }
 
 void finish(ModelComparison& comparison) {
-  std::stable_sort(comparison.models.begin(),
-                   comparison.models.end(),
-                   [](const Model& a, const Model& b) { return a.log_weight > b.log_weight; });
+  std::stable_sort(
+      comparison.models.begin(),
+      comparison.models.end(),
+      [](const CandidateModel& a, const CandidateModel& b) { return a.log_weight > b.log_weight; });
   std::vector<double> weights;
-  for (const Model& model : comparison.models) weights.push_back(model.log_weight);
+  for (const CandidateModel& model : comparison.models) weights.push_back(model.log_weight);
   comparison.log_total = log_sum(weights);
 }
 
@@ -170,7 +171,7 @@ ModelComparison compare_models(const Session& session,
     comparison.spaces.reserve(kMostSpaces);
     std::vector<SetSearch> searches;
     double best = kMinusInfinity;
-    const auto take = [&](std::vector<Model> models) {
+    const auto take = [&](std::vector<CandidateModel> models) {
       std::move(models.begin(), models.end(), std::back_inserter(comparison.models));
     };
     for (const auto& bad : sets) {

@@ -17,7 +17,7 @@
 namespace chaintrue::grid::diagnosis {
 
 /// A set of directions, with or without an unknown pattern, and the points set aside.
-struct Model {
+struct CandidateModel {
   std::vector<int> directions;  ///< ascending
   int pattern = -1;             ///< number of the unknown pattern, or none
   std::size_t space = 0;        ///< into ModelComparison::spaces
@@ -28,10 +28,10 @@ struct Model {
 
 struct ModelComparison {
   std::vector<Space> spaces;
-  std::vector<Model> models;  ///< those that matter, best first
+  std::vector<CandidateModel> models;  ///< those that matter, best first
   double log_total = 0.0;
-  [[nodiscard]] const Model& best() const { return models.front(); }
-  [[nodiscard]] double probability(const Model& model) const;
+  [[nodiscard]] const CandidateModel& best() const { return models.front(); }
+  [[nodiscard]] double probability(const CandidateModel& model) const;
 };
 
 struct ComparisonOptions {

@@ -38,7 +38,7 @@ std::vector<Alternative> leading(const Analysis& a) {
   };
   std::map<std::vector<std::size_t>, Alternative> groups;
   const std::size_t together = std::max<std::size_t>(a.decision.directions.size(), 1);
-  for (const Model& model : a.comparison.models) {
+  for (const CandidateModel& model : a.comparison.models) {
     if (model.directions.size() != together) continue;
     std::vector<std::size_t> key;
     for (const int k : model.directions) {

@@ -24,10 +24,10 @@ using LensKey = std::pair<std::size_t, int>;  ///< space, pattern
 
 /// The models that may lead once some points are gone: the best, and in each space of these
 /// nothing, and every cause alone at its best place.
-std::map<LensKey, std::vector<Model>> followed(const Rows& rows,
-                                               const ModelComparison& comparison) {
+std::map<LensKey, std::vector<CandidateModel>> followed(const Rows& rows,
+                                                        const ModelComparison& comparison) {
   std::map<LensKey, double> share;
-  for (const Model& model : comparison.models) {
+  for (const CandidateModel& model : comparison.models) {
     share[{model.space, model.pattern}] += comparison.probability(model);
   }
   std::vector<std::pair<double, LensKey>> patterns;
@@ -42,12 +42,12 @@ std::map<LensKey, std::vector<Model>> followed(const Rows& rows,
            });
   };
   const double best = comparison.best().log_weight;
-  std::map<LensKey, std::vector<Model>> result;
+  std::map<LensKey, std::vector<CandidateModel>> result;
   std::map<LensKey, std::vector<CauseId>> alone;
   std::set<std::size_t> spaces;
   std::size_t taken = 0;
   // Best first, so that a space is known before the rest of what is asked for in it.
-  for (const Model& model : comparison.models) {
+  for (const CandidateModel& model : comparison.models) {
     const LensKey key{model.space, model.pattern};
     if (!is_followed(key)) continue;
     const bool leads = model.log_weight > best - kNegligible && taken < kMostModels;
@@ -109,13 +109,13 @@ Reweighing::Reweighing(const Session& session,
   }
 }
 
-void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Model> models) {
+void Reweighing::add_lens(std::size_t number, int pattern, std::vector<CandidateModel> models) {
   const Space& space = a_.comparison.spaces[number];
   Lens lens;
   lens.space = number;
   lens.pattern = pattern;
   std::vector<int> columns;
-  for (const Model& model : models) {
+  for (const CandidateModel& model : models) {
     columns.insert(columns.end(), model.directions.begin(), model.directions.end());
   }
   std::sort(columns.begin(), columns.end());
@@ -143,7 +143,7 @@ void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Model> mo
   const Eigen::Index c = e.cols() - 1;
   lens.metric = {columns, gram(0, 0), gram.col(0).tail(c), gram.bottomRightCorner(c, c), log_det};
   const NoiseDensity noise(dof_, n);
-  for (const Model& model : models) {
+  for (const CandidateModel& model : models) {
     std::vector<Eigen::Index> set;
     for (const int k : model.directions) set.push_back(lens.metric.position(k));
     const double evidence = set_evidence(lens.metric, a_.rows.directions, set, noise).log_evidence;
@@ -187,7 +187,7 @@ Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) 
         std::count(whole.bad.begin(), whole.bad.end(), true) -
         std::count_if(points.begin(), points.end(), [&](std::size_t i) { return whole.bad[i]; }));
     for (std::size_t k = 0; k < lens.models.size(); ++k) {
-      const Model& model = lens.models[k];
+      const CandidateModel& model = lens.models[k];
       if (!known.emplace(home, lens.pattern, model.directions).second) continue;
       const SetEvidence evidence = set_evidence(metric, a_.rows.directions, lens.sets[k], noise);
       if (!std::isfinite(evidence.log_evidence)) continue;
@@ -200,11 +200,12 @@ Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) 
     }
     if (lens.pattern < 0) strongest.emplace_back(score_.largest(metric, rows), home);
   }
-  std::stable_sort(comparison.models.begin(),
-                   comparison.models.end(),
-                   [](const Model& a, const Model& b) { return a.log_weight > b.log_weight; });
+  std::stable_sort(
+      comparison.models.begin(),
+      comparison.models.end(),
+      [](const CandidateModel& a, const CandidateModel& b) { return a.log_weight > b.log_weight; });
   double sum = 0.0;
-  for (const Model& model : comparison.models) {
+  for (const CandidateModel& model : comparison.models) {
     sum += std::exp(model.log_weight - comparison.best().log_weight);
   }
   comparison.log_total = comparison.best().log_weight + std::log(sum);

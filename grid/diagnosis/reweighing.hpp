@@ -46,12 +46,12 @@ class Reweighing {
     Metric metric;              ///< with all points
     Eigen::MatrixXd inverse;    ///< L^-1
     Eigen::MatrixXd precision;  ///< U: first column the residual
-    std::vector<Model> models;
+    std::vector<CandidateModel> models;
     std::vector<std::vector<Eigen::Index>> sets;  ///< of each: its columns in the metric
     std::vector<double> prior;                    ///< of each: weight less evidence
   };
 
-  void add_lens(std::size_t space, int pattern, std::vector<Model> models);
+  void add_lens(std::size_t space, int pattern, std::vector<CandidateModel> models);
   /// Inner products with these rows of the lens' space gone.
   [[nodiscard]] static Metric metric_without(const Lens& lens,
                                              const std::vector<Eigen::Index>& out);

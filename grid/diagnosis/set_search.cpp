@@ -48,7 +48,7 @@ class SetSearch::Search {
         noise_(options.steps.anchor_noise ? session.noise_dof : 1e-3,
                static_cast<Eigen::Index>(space.kept.size())) {}
 
-  std::vector<Model> run() {
+  std::vector<CandidateModel> run() {
     metric_ = plain_metric(space_, columns());
     consider({}, -1, metric_, 0.0);
     singles();
@@ -60,7 +60,7 @@ class SetSearch::Search {
   }
 
   /// The best sets once more, with a pattern that nobody knows beside them.
-  std::vector<Model> run_beside_patterns() {
+  std::vector<CandidateModel> run_beside_patterns() {
     models_.clear();
     beside_patterns();
     return std::move(models_);
@@ -119,7 +119,7 @@ class SetSearch::Search {
     for (const Eigen::Index i : set) chosen.push_back(metric.columns[static_cast<std::size_t>(i)]);
     const SetEvidence evidence = set_evidence(metric, rows_.directions, set, noise_);
     if (!std::isfinite(evidence.log_evidence)) return kMinusInfinity;
-    Model model;
+    CandidateModel model;
     model.directions = chosen;
     std::sort(model.directions.begin(), model.directions.end());
     model.pattern = pattern;
@@ -305,7 +305,7 @@ class SetSearch::Search {
   const ComparisonOptions& options_;
   NoiseDensity noise_;
   Metric metric_;
-  std::vector<Model> models_;
+  std::vector<CandidateModel> models_;
   std::vector<Scored> scored_;
   double best_ = kMinusInfinity;
 };
@@ -319,8 +319,10 @@ SetSearch::SetSearch(const Session& session,
 SetSearch::~SetSearch() = default;
 SetSearch::SetSearch(SetSearch&&) noexcept = default;
 SetSearch& SetSearch::operator=(SetSearch&&) noexcept = default;
-std::vector<Model> SetSearch::run() { return search_->run(); }
-std::vector<Model> SetSearch::run_beside_patterns() { return search_->run_beside_patterns(); }
+std::vector<CandidateModel> SetSearch::run() { return search_->run(); }
+std::vector<CandidateModel> SetSearch::run_beside_patterns() {
+  return search_->run_beside_patterns();
+}
 double SetSearch::best() const { return search_->best(); }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -23,9 +23,9 @@ class SetSearch {
   SetSearch(SetSearch&&) noexcept;
   SetSearch& operator=(SetSearch&&) noexcept;
 
-  [[nodiscard]] std::vector<Model> run();
+  [[nodiscard]] std::vector<CandidateModel> run();
   /// After run().
-  [[nodiscard]] std::vector<Model> run_beside_patterns();
+  [[nodiscard]] std::vector<CandidateModel> run_beside_patterns();
   /// Largest weight so far.
   [[nodiscard]] double best() const;
 

@@ -45,7 +45,7 @@ class Statement {
  public:
   explicit Statement(const Analysis& a) : a_(a) {}
 
-  [[nodiscard]] bool holds(const Model& model) const {
+  [[nodiscard]] bool holds(const CandidateModel& model) const {
     const auto acts = [&](std::size_t index) {
       const CauseClass& members = a_.decision.classes[index];
       return std::any_of(model.directions.begin(), model.directions.end(), [&](int k) {
@@ -66,11 +66,11 @@ class Statement {
     // Of what holds and of what does not the larger one first: neither may vanish beside the other.
     double best_with = -std::numeric_limits<double>::infinity();
     double best_against = best_with;
-    for (const Model& model : comparison.models) {
+    for (const CandidateModel& model : comparison.models) {
       double& highest = holds(model) ? best_with : best_against;
       highest = std::max(highest, model.log_weight - best);
     }
-    for (const Model& model : comparison.models) {
+    for (const CandidateModel& model : comparison.models) {
       const double weight = model.log_weight - best;
       if (holds(model)) {
         with += std::exp(weight - best_with);

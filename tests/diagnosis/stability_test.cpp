@@ -34,7 +34,7 @@ std::size_t count(const Stability& stability, Removal::What what) {
 
 double probability_that_all_act(const Analysis& a, const ModelComparison& comparison) {
   double p = 0.0;
-  for (const Model& model : comparison.models) {
+  for (const CandidateModel& model : comparison.models) {
     const bool all =
         std::all_of(a.decision.listed.begin(), a.decision.listed.end(), [&](std::size_t index) {
           const CauseClass& members = a.decision.classes[index];
