@@ -47,13 +47,13 @@ tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const St
   projected.project_settings = true;
   const std::vector<bool> none(session.units(), false);
   for (int pass = 0; pass < kCalibrations; ++pass) {
-    auto rows = base_rows(session, state, steps);
-    if (!rows) return tl::unexpected(unreachable(session, rows.error()));
-    rows->g.resize(session.rows(), 0);
-    const auto bad = bad_point_sets(session, *rows, none, {{}}, projected).front();
-    const Space space = make_space(*rows, bad, projected);
-    const Eigen::VectorXd change = estimate(session, *rows, space, {}, -1).setting_change;
-    state = with_settings(session, state, rows->setting + change);
+    auto system = linearise(session, state, steps);
+    if (!system) return tl::unexpected(unreachable(session, system.error()));
+    system->g.resize(session.rows(), 0);
+    const auto bad = bad_point_sets(session, *system, none, {{}}, projected).front();
+    const Space space = make_space(*system, bad, projected);
+    const Eigen::VectorXd change = estimate(session, *system, space, {}, -1).setting_change;
+    state = with_settings(session, state, system->setting + change);
     const auto problems = model::problems_of(state.machine);
     if (!problems.empty()) return tl::unexpected(impossible(session, problems.front()));
     const auto settings = static_cast<Eigen::Index>(session.settings.size());
@@ -70,8 +70,8 @@ constexpr double kLeastReach = 4.0;
 void drop_invisible(const Space& space, Analysis& a) {
   const auto reach = [&](const CauseId& cause) {
     double most = 0.0;
-    for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
-      const Direction& d = a.rows.directions[k];
+    for (std::size_t k = 0; k < a.system.directions.size(); ++k) {
+      const Direction& d = a.system.directions[k];
       if (!(d.cause == cause)) continue;
       const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
       most = std::max(most, size * space.g.col(static_cast<Eigen::Index>(k)).norm());
@@ -92,20 +92,22 @@ void drop_invisible(const Space& space, Analysis& a) {
   };
   std::vector<Eigen::Index> kept;
   std::vector<Direction> directions;
-  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
-    if (!is_visible(a.rows.directions[k])) continue;
+  for (std::size_t k = 0; k < a.system.directions.size(); ++k) {
+    if (!is_visible(a.system.directions[k])) continue;
     kept.push_back(static_cast<Eigen::Index>(k));
-    directions.push_back(a.rows.directions[k]);
+    directions.push_back(a.system.directions[k]);
   }
-  a.rows.g = a.rows.g(Eigen::all, kept).eval();
-  a.rows.directions = std::move(directions);
+  a.system.g = a.system.g(Eigen::all, kept).eval();
+  a.system.directions = std::move(directions);
   a.candidates.testable = std::move(visible);
 }
 
 /// What is fitted is the member that gives its class the name: settings and sizes belong together.
-void speak_of_leaders(const Rows& rows, const ModelComparison& comparison, Decision& decision) {
+void speak_of_leaders(const LinearisedSystem& system,
+                      const ModelComparison& comparison,
+                      Decision& decision) {
   for (int& k : decision.directions) {
-    const CauseId own = rows.directions[static_cast<std::size_t>(k)].cause;
+    const CauseId own = system.directions[static_cast<std::size_t>(k)].cause;
     for (const CauseClass& members : decision.classes) {
       if (members.front() == own ||
           std::find(members.begin(), members.end(), own) == members.end()) {
@@ -114,7 +116,7 @@ void speak_of_leaders(const Rows& rows, const ModelComparison& comparison, Decis
       const auto alone = std::find_if(
           comparison.models.begin(), comparison.models.end(), [&](const CandidateModel& model) {
             return model.directions.size() == 1 &&
-                   rows.directions[static_cast<std::size_t>(model.directions.front())].cause ==
+                   system.directions[static_cast<std::size_t>(model.directions.front())].cause ==
                        members.front();
           });
       if (alone != comparison.models.end()) k = alone->directions.front();
@@ -131,12 +133,12 @@ constexpr double kExplained = 0.93;
 constexpr double kPatternLikely = 0.5;
 
 Decision decide_beside_discrepancy(const Session& session,
-                                   const Rows& rows,
+                                   const LinearisedSystem& system,
                                    const ModelComparison& comparison,
                                    const std::vector<bool>& excluded,
                                    bool seen) {
-  Decision decision = decide(rows, comparison, excluded, seen);
-  speak_of_leaders(rows, comparison, decision);
+  Decision decision = decide(system, comparison, excluded, seen);
+  speak_of_leaders(system, comparison, decision);
   if (decision.listed.empty() || decision.pattern <= kPatternLikely || decision.best_pattern < 0) {
     return decision;
   }
@@ -144,14 +146,14 @@ Decision decide_beside_discrepancy(const Session& session,
   // nearly all that noise does not.
   const Space& space = comparison.spaces[decision.space];
   const auto unexplained = [&](const std::vector<int>& directions) {
-    const Estimate fitted = estimate(session, rows, space, directions, -1);
-    const Eigen::VectorXd left = left_of_machine(rows, fitted, fitted.left);
-    return square_in_noise(rows, space.kept, left) - static_cast<double>(space.kept.size());
+    const Estimate fitted = estimate(session, system, space, directions, -1);
+    const Eigen::VectorXd left = left_of_machine(system, fitted, fitted.left);
+    return square_in_noise(system, space.kept, left) - static_cast<double>(space.kept.size());
   };
   const double before = unexplained({});
   const double after = unexplained(decision.directions);
   if (after <= (1.0 - kExplained) * before) return decision;
-  return decide(rows, comparison, excluded, false);
+  return decide(system, comparison, excluded, false);
 }
 
 namespace {
@@ -161,10 +163,10 @@ void compare_and_decide(const Session& session,
                         bool seen,
                         Analysis& a) {
   const std::vector<bool> none(session.units(), false);
-  a.comparison = compare_models(session, a.rows, none, options);
-  a.decision = decide_beside_discrepancy(session, a.rows, a.comparison, none, seen);
+  a.comparison = compare_models(session, a.system, none, options);
+  a.decision = decide_beside_discrepancy(session, a.system, a.comparison, none, seen);
   a.estimate = estimate(session,
-                        a.rows,
+                        a.system,
                         a.comparison.spaces[a.decision.space],
                         a.decision.directions,
                         a.decision.pattern_left ? a.decision.best_pattern : -1);
@@ -172,7 +174,7 @@ void compare_and_decide(const Session& session,
 
 void test_significance(const Session& session, const DiagnosisOptions& options, Analysis& a) {
   const Space& space = a.comparison.spaces[a.comparison.best().space];
-  const SingleScore score(a.rows, space, options.steps.anchor_noise ? session.noise_dof : 1e-3);
+  const SingleScore score(a.system, space, options.steps.anchor_noise ? session.noise_dof : 1e-3);
   // Enough draws for a family-wise 1 in 100; fewer where one draw is long.
   const int draws = session.units() > 150 ? 2000 : 4000;
   a.null = draw_null(score, space.e.size(), draws, options.seed);
@@ -193,29 +195,29 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
   constexpr int kPasses = 2;
   std::vector<Refinement> known;
   for (int pass = 0; pass < kPasses; ++pass) {
-    auto rows = base_rows(session, a.state, options.steps);
-    if (!rows) return tl::unexpected(unreachable(session, rows.error()));
-    a.rows = std::move(*rows);
-    add_directions(session, a.state, a.candidates.testable, known, a.rows);
+    auto system = linearise(session, a.state, options.steps);
+    if (!system) return tl::unexpected(unreachable(session, system.error()));
+    a.system = std::move(*system);
+    add_directions(session, a.state, a.candidates.testable, known, a.system);
     const std::vector<bool> none(session.units(), false);
-    const Space space = make_space(a.rows, none, options.steps);
-    share_out_links(space, a.rows);
+    const Space space = make_space(a.system, none, options.steps);
+    share_out_links(space, a.system);
     if (pass == 0) drop_invisible(space, a);
     compare_and_decide(session, comparison, true, a);
     if (pass + 1 == kPasses || a.decision.directions.empty()) break;
     const Decision& decision = a.decision;
     const Leaders leaders{decision.directions, decision.pattern_left ? decision.best_pattern : -1};
     Polished polished = polish(
-        session, a.state, a.rows, a.comparison.spaces[decision.space], leaders, options.steps);
+        session, a.state, a.system, a.comparison.spaces[decision.space], leaders, options.steps);
     known = std::move(polished.refinements);
     a.state = std::move(polished.state);
   }
   test_significance(session, options, a);
   if (a.family_wise_p >= kFalseAlarm && !options.told) {
     const std::vector<bool> none(session.units(), false);
-    a.decision = decide_beside_discrepancy(session, a.rows, a.comparison, none, false);
+    a.decision = decide_beside_discrepancy(session, a.system, a.comparison, none, false);
     a.estimate = estimate(session,
-                          a.rows,
+                          a.system,
                           a.comparison.spaces[a.decision.space],
                           a.decision.directions,
                           a.decision.pattern_left ? a.decision.best_pattern : -1);

@@ -13,9 +13,9 @@
 namespace chaintrue::grid::diagnosis {
 
 struct Analysis {
-  State state;  ///< settings at which the rows are linear; no effect named is in it
+  State state;  ///< settings about which the system is linear; no effect named is in it
   Candidates candidates;
-  Rows rows;
+  LinearisedSystem system;
   ModelComparison comparison;
   NullDistribution null;
   double score = 0.0;  ///< of the strongest single effect
@@ -27,7 +27,7 @@ struct Analysis {
 /// decide(), abstaining where an unknown pattern is as strong as the cause it would be named
 /// beside.
 [[nodiscard]] Decision decide_beside_discrepancy(const Session& session,
-                                                 const Rows& rows,
+                                                 const LinearisedSystem& system,
                                                  const ModelComparison& comparison,
                                                  const std::vector<bool>& excluded,
                                                  bool seen);

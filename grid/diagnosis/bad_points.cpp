@@ -29,19 +29,19 @@ struct Found {
 
 Seen seen_by(const Seen& nothing,
              const Space& space,
-             const Rows& rows,
+             const LinearisedSystem& system,
              const std::vector<int>& set) {
   Seen seen = nothing;
   Eigen::VectorXd e = space.e;
   for (const int k : set) {
-    if (rows.directions[static_cast<std::size_t>(k)].fixed) e -= space.g.col(k);
+    if (system.directions[static_cast<std::size_t>(k)].fixed) e -= space.g.col(k);
   }
   const auto upper = space.factor.transpose().triangularView<Eigen::Upper>();
   seen.u = upper.solve(e);
   seen.quadratic = e.squaredNorm();
   std::vector<Eigen::VectorXd> taken;
   for (const int k : set) {
-    if (rows.directions[static_cast<std::size_t>(k)].fixed) continue;
+    if (system.directions[static_cast<std::size_t>(k)].fixed) continue;
     const double prior = space.g.col(k).squaredNorm() / (kWideDelta * kWideDelta);
     // P g for the precision so far
     Eigen::VectorXd pg = upper.solve(Eigen::VectorXd(space.g.col(k)));
@@ -59,11 +59,12 @@ Seen seen_by(const Seen& nothing,
 }
 
 /// Blocks of rows in `space` that are one unit, with the unit's number.
-std::vector<std::pair<Eigen::Index, std::size_t>> blocks(const Rows& rows, const Space& space) {
+std::vector<std::pair<Eigen::Index, std::size_t>> blocks(const LinearisedSystem& system,
+                                                         const Space& space) {
   std::vector<std::pair<Eigen::Index, std::size_t>> result;
   for (std::size_t a = 0; a < space.kept.size(); ++a) {
-    const auto unit = static_cast<std::size_t>(space.kept[a] / rows.unit_rows);
-    if (space.kept[a] % rows.unit_rows == 0 && unit < rows.units.size()) {
+    const auto unit = static_cast<std::size_t>(space.kept[a] / system.unit_rows);
+    if (space.kept[a] % system.unit_rows == 0 && unit < system.units.size()) {
       result.emplace_back(static_cast<Eigen::Index>(a), unit);
     }
   }
@@ -79,14 +80,14 @@ struct Search {
 
 /// Mean shifts one after the other; the best of the nested sets. kRows in a unit.
 template <int kRows>
-Found search(Seen seen, const Rows& rows, const Space& space, const Search& by) {
+Found search(Seen seen, const LinearisedSystem& system, const Space& space, const Search& by) {
   using Shift = Eigen::Matrix<double, kRows, 1>;
   using Block = Eigen::Matrix<double, kRows, kRows>;
-  auto free = blocks(rows, space);
+  auto free = blocks(system, space);
   const auto count = static_cast<double>(free.size());
   const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostBadShare * count)));
   auto n = static_cast<Eigen::Index>(space.kept.size());
-  const double price = log_price_of_bad(rows);
+  const double price = log_price_of_bad(system);
   Found best{space.bad,
              NoiseDensity(by.noise_dof, n).log_density(seen.quadratic) - 0.5 * seen.log_det +
                  by.log_prior};
@@ -125,12 +126,12 @@ Found search(Seen seen, const Rows& rows, const Space& space, const Search& by) 
 }  // namespace
 
 std::vector<std::vector<bool>> bad_point_sets(const Session& session,
-                                              const Rows& rows,
+                                              const LinearisedSystem& system,
                                               const std::vector<bool>& excluded,
                                               const std::vector<std::vector<int>>& hypotheses,
                                               const Steps& steps) {
   if (!steps.robust) return {excluded};
-  const Space space = make_space(rows, excluded, steps);
+  const Space space = make_space(system, excluded, steps);
   const auto n = static_cast<Eigen::Index>(space.kept.size());
   Seen nothing;
   const Eigen::MatrixXd inverse =
@@ -140,9 +141,9 @@ std::vector<std::vector<bool>> bad_point_sets(const Session& session,
   std::vector<Found> found;
   for (const auto& set : hypotheses) {
     const Search by{
-        log_prior(rows.directions, set, false), session.noise_dof, session.fewest_units()};
-    const auto look = rows.unit_rows == 2 ? search<2> : search<1>;
-    Found one = look(seen_by(nothing, space, rows, set), rows, space, by);
+        log_prior(system.directions, set, false), session.noise_dof, session.fewest_units()};
+    const auto look = system.unit_rows == 2 ? search<2> : search<1>;
+    Found one = look(seen_by(nothing, space, system, set), system, space, by);
     const auto same =
         std::find_if(found.begin(), found.end(), [&](const Found& f) { return f.bad == one.bad; });
     if (same == found.end()) {

@@ -16,7 +16,7 @@ inline constexpr double kMostBadShare = 0.12;
 /// all of them. `hypotheses` are sets of directions.
 [[nodiscard]] std::vector<std::vector<bool>> bad_point_sets(
     const Session& session,
-    const Rows& rows,
+    const LinearisedSystem& system,
     const std::vector<bool>& excluded,
     const std::vector<std::vector<int>>& hypotheses,
     const Steps& steps);

@@ -20,16 +20,17 @@ constexpr double kAbsorbed = 1e-3;
 
 /// The most telling direction of each cause: the longest, and the nearest to the data among those
 /// of a cause with places.
-std::vector<std::pair<CauseId, int>> leading_directions(const Rows& rows, const Space& space) {
+std::vector<std::pair<CauseId, int>> leading_directions(const LinearisedSystem& system,
+                                                        const Space& space) {
   std::vector<std::pair<CauseId, int>> result;
   double best = -1.0;
-  for (std::size_t k = 0; k < rows.directions.size(); ++k) {
+  for (std::size_t k = 0; k < system.directions.size(); ++k) {
     const auto column = space.g.col(static_cast<Eigen::Index>(k));
     const double length = column.norm();
     if (!(length > 1e-4)) continue;
     const double score = std::abs(column.dot(space.e)) / length;
-    if (result.empty() || !(result.back().first == rows.directions[k].cause)) {
-      result.emplace_back(rows.directions[k].cause, static_cast<int>(k));
+    if (result.empty() || !(result.back().first == system.directions[k].cause)) {
+      result.emplace_back(system.directions[k].cause, static_cast<int>(k));
       best = score;
     } else if (score > best) {
       result.back().second = static_cast<int>(k);
@@ -73,11 +74,11 @@ struct Grouped {
 
 class Decider {
  public:
-  Decider(const Rows& rows,
+  Decider(const LinearisedSystem& system,
           const ModelComparison& comparison,
           const std::vector<bool>& excluded,
           std::vector<CauseClass> classes)
-      : rows_(rows), comparison_(comparison), excluded_(excluded) {
+      : system_(system), comparison_(comparison), excluded_(excluded) {
     result_.classes = std::move(classes);
   }
 
@@ -108,7 +109,7 @@ class Decider {
       const double p = comparison_.probability(model);
       Key key;
       for (const int k : model.directions) {
-        key.push_back(class_of(rows_.directions[static_cast<std::size_t>(k)].cause));
+        key.push_back(class_of(system_.directions[static_cast<std::size_t>(k)].cause));
       }
       std::sort(key.begin(), key.end());
       Grouped& one = groups_[key];
@@ -271,7 +272,7 @@ class Decider {
     return 0.0;
   }
 
-  const Rows& rows_;
+  const LinearisedSystem& system_;
   const ModelComparison& comparison_;
   const std::vector<bool>& excluded_;
   std::map<Key, Grouped> groups_;
@@ -281,36 +282,36 @@ class Decider {
 
 /// An orthonormal basis of what the settings can do. Distances hardly feel some of them, and what
 /// no setting does within reason does not count.
-Eigen::MatrixXd range_of_settings(const Rows& rows, const Eigen::MatrixXd& columns) {
+Eigen::MatrixXd range_of_settings(const LinearisedSystem& system, const Eigen::MatrixXd& columns) {
   constexpr double kFelt = 1e-4;
-  if (rows.nuisances == 0) {
+  if (system.nuisances == 0) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
     return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns *
-                                                 rows.sigma.head(columns.cols()).asDiagonal());
+                                                 system.sigma.head(columns.cols()).asDiagonal());
   qr.setThreshold(kFelt);
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
 }  // namespace
 
-std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
+std::vector<CauseClass> classes_of(const LinearisedSystem& system, const Space& space) {
   // Free settings: what a class shares must not hang on how well the settings were stated.
-  const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(rows, space.kept);
+  const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(system, space.kept);
   const auto seen = [&](Eigen::MatrixXd columns) {
-    if (rows.nuisances > 0) noise.matrixL().solveInPlace(columns);
+    if (system.nuisances > 0) noise.matrixL().solveInPlace(columns);
     return columns;
   };
-  const Eigen::Index settings = rows.by_setting.cols() - rows.nuisances;
+  const Eigen::Index settings = system.by_setting.cols() - system.nuisances;
   const Eigen::MatrixXd basis =
-      range_of_settings(rows, seen(rows.by_setting.leftCols(settings)(space.kept, Eigen::all)));
+      range_of_settings(system, seen(system.by_setting.leftCols(settings)(space.kept, Eigen::all)));
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
-  for (const auto& [cause, column] : leading_directions(rows, space)) {
-    Representative own{seen(rows.g(space.kept, column)),
+  for (const auto& [cause, column] : leading_directions(system, space)) {
+    Representative own{seen(system.g(space.kept, column)),
                        space.g.col(column),
-                       rows.directions[static_cast<std::size_t>(column)].fixed};
+                       system.directions[static_cast<std::size_t>(column)].fixed};
     const double whole = own.free.norm();
     own.free -= basis * (basis.transpose() * own.free);
     // Of a signature that the settings take whole, only rounding would be compared.
@@ -333,23 +334,23 @@ std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
   return classes;
 }
 
-Decision decide(const Rows& rows,
+Decision decide(const LinearisedSystem& system,
                 const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
                 bool seen) {
-  return decide(rows,
+  return decide(system,
                 comparison,
                 excluded,
                 seen,
-                classes_of(rows, comparison.spaces[comparison.best().space]));
+                classes_of(system, comparison.spaces[comparison.best().space]));
 }
 
-Decision decide(const Rows& rows,
+Decision decide(const LinearisedSystem& system,
                 const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
                 bool seen,
                 std::vector<CauseClass> classes) {
-  return Decider(rows, comparison, excluded, std::move(classes)).run(seen);
+  return Decider(system, comparison, excluded, std::move(classes)).run(seen);
 }
 
 }  // namespace chaintrue::grid::diagnosis

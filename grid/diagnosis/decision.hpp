@@ -25,7 +25,8 @@ inline constexpr double kPatternPossible = 0.25;
 /// Causes that these data cannot separate, however strong; the one that gives the class its name
 /// first: a cause in the machine before one on the paper.
 using CauseClass = std::vector<CauseId>;
-[[nodiscard]] std::vector<CauseClass> classes_of(const Rows& rows, const Space& space);
+[[nodiscard]] std::vector<CauseClass> classes_of(const LinearisedSystem& system,
+                                                 const Space& space);
 
 struct ClassProbability {
   std::size_t index = 0;  ///< into the classes
@@ -54,13 +55,13 @@ struct Decision {
 };
 
 /// `seen`: the strongest effect is beyond what noise does (family-wise).
-[[nodiscard]] Decision decide(const Rows& rows,
+[[nodiscard]] Decision decide(const LinearisedSystem& system,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool seen);
 /// The same with the classes known: of the comparison's spaces nothing but the points set aside is
 /// asked.
-[[nodiscard]] Decision decide(const Rows& rows,
+[[nodiscard]] Decision decide(const LinearisedSystem& system,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool seen,

@@ -13,7 +13,7 @@ namespace chaintrue::grid::diagnosis {
 
 struct Estimate {
   std::vector<int> directions;
-  Eigen::VectorXd setting_change;  ///< from the state of the rows; the nuisances after them
+  Eigen::VectorXd setting_change;  ///< from the state of the system; the nuisances after them
   Eigen::MatrixXd setting_covariance;
   Eigen::VectorXd coefficient;  ///< of each direction
   /// 0 where the size is a whole number; at a bound what noise alone makes of it.
@@ -31,39 +31,41 @@ struct Estimate {
 /// `directions` and `pattern` as the model has them. A coefficient that would leave its bounds
 /// stays at the bound.
 [[nodiscard]] Estimate estimate(const Session& session,
-                                const Rows& rows,
+                                const LinearisedSystem& system,
                                 const Space& space,
                                 const std::vector<int>& directions,
                                 int pattern);
 
 /// What the unknown pattern adds to either chain at a place [mm]; zero where the estimate has none.
 [[nodiscard]] Eigen::Vector2d pattern_at(const Session& session,
-                                         const Rows& rows,
+                                         const LinearisedSystem& system,
                                          const Space& space,
                                          const Estimate& estimate,
                                          const PatternPlace& place);
 
 /// The same in the whitened rows, all of them.
 [[nodiscard]] Eigen::VectorXd pattern_in_rows(const Session& session,
-                                              const Rows& rows,
+                                              const LinearisedSystem& system,
                                               const Space& space,
                                               const Estimate& estimate);
 
 /// `left` with what the nuisances took put back: what the machine leaves. For points `left` itself.
-[[nodiscard]] Eigen::VectorXd left_of_machine(const Rows& rows,
+[[nodiscard]] Eigen::VectorXd left_of_machine(const LinearisedSystem& system,
                                               const Estimate& estimate,
                                               const Eigen::VectorXd& left);
 
 /// What a person would see of a unit's whitened residual, mm: a shift of the tool; of a distance
 /// how much longer it was read, and nothing.
-[[nodiscard]] Eigen::Vector2d error_of_unit(const Rows& rows,
+[[nodiscard]] Eigen::Vector2d error_of_unit(const LinearisedSystem& system,
                                             const Eigen::VectorXd& whitened,
                                             std::size_t unit);
 /// The mean square of that which noise as stated makes.
-[[nodiscard]] double noise_of_unit_mm2(const Session& session, const Rows& rows, std::size_t unit);
+[[nodiscard]] double noise_of_unit_mm2(const Session& session,
+                                       const LinearisedSystem& system,
+                                       std::size_t unit);
 
 /// Residuals at the points in the chains [mm].
-[[nodiscard]] std::vector<Eigen::Vector2d> chain_residuals(const Rows& rows,
+[[nodiscard]] std::vector<Eigen::Vector2d> chain_residuals(const LinearisedSystem& system,
                                                            const Eigen::VectorXd& whitened);
 /// A chain residual as a shift of the tool [mm]: where it truly was less where the model has it.
 [[nodiscard]] Eigen::Vector2d tool_shift(const PointState& point, const Eigen::Vector2d& chain_mm);

@@ -26,11 +26,11 @@ double log_mass(double mean, double sigma, double low, double high) {
 }
 
 /// L^-1 W K W' L^-T for a pattern of 1 mm.
-Eigen::MatrixXd reduced_pattern(const Rows& rows,
+Eigen::MatrixXd reduced_pattern(const LinearisedSystem& system,
                                 const Session& session,
                                 const Space& space,
                                 const PatternShape& shape) {
-  Eigen::MatrixXd c = pattern_covariance(session, rows, space.kept, shape);
+  Eigen::MatrixXd c = pattern_covariance(session, system, space.kept, shape);
   const auto lower = space.factor.triangularView<Eigen::Lower>();
   c = lower.solve(c).eval();
   return lower.solve(c.transpose()).eval();
@@ -77,61 +77,61 @@ double NoiseDensity::noise_square(double quadratic) const {
   return sum;
 }
 
-double log_price_of_bad(const Rows& rows) {
+double log_price_of_bad(const LinearisedSystem& system) {
   return std::log(kBadPointPrior) -
-         0.5 * static_cast<double>(rows.unit_rows) *
+         0.5 * static_cast<double>(system.unit_rows) *
              std::log(2.0 * std::numbers::pi * kBadPointSpread * kBadPointSpread);
 }
 
-Space make_space(const Rows& rows, const std::vector<bool>& bad, const Steps& steps) {
+Space make_space(const LinearisedSystem& system, const std::vector<bool>& bad, const Steps& steps) {
   Space space;
   space.bad = bad;
-  for (Eigen::Index row = 0; row < rows.e.size(); ++row) {
-    const auto unit = static_cast<std::size_t>(row / rows.unit_rows);
+  for (Eigen::Index row = 0; row < system.e.size(); ++row) {
+    const auto unit = static_cast<std::size_t>(row / system.unit_rows);
     if (unit >= bad.size() || !bad[unit]) space.kept.push_back(row);
   }
   const auto set_aside = static_cast<double>(std::count(bad.begin(), bad.end(), true));
-  space.log_bad = set_aside * log_price_of_bad(rows);
-  const Eigen::MatrixXd a = rows.by_setting(space.kept, Eigen::all);
+  space.log_bad = set_aside * log_price_of_bad(system);
+  const Eigen::MatrixXd a = system.by_setting(space.kept, Eigen::all);
   Eigen::MatrixXd v = Eigen::MatrixXd::Identity(a.rows(), a.rows());
   if (steps.project_settings) {
-    const Eigen::MatrixXd scaled = a * rows.sigma.asDiagonal();
+    const Eigen::MatrixXd scaled = a * system.sigma.asDiagonal();
     v += scaled * scaled.transpose();
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(v);
   space.factor = llt.matrixL();
   space.log_det = 2.0 * space.factor.diagonal().array().log().sum();
   const auto lower = space.factor.triangularView<Eigen::Lower>();
-  space.e = rows.e(space.kept);
-  if (steps.project_settings) space.e -= a * rows.expected_change;
+  space.e = system.e(space.kept);
+  if (steps.project_settings) space.e -= a * system.expected_change;
   lower.solveInPlace(space.e);
-  space.g = rows.g(space.kept, Eigen::all);
+  space.g = system.g(space.kept, Eigen::all);
   lower.solveInPlace(space.g);
   return space;
 }
 
-Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const Rows& rows,
+Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const LinearisedSystem& system,
                                            const std::vector<Eigen::Index>& kept) {
-  if (rows.nuisances == 0) return {};
+  if (system.nuisances == 0) return {};
   const Eigen::MatrixXd scaled =
-      nuisance_columns(rows)(kept, Eigen::all) * rows.sigma.tail(rows.nuisances).asDiagonal();
+      nuisance_columns(system)(kept, Eigen::all) * system.sigma.tail(system.nuisances).asDiagonal();
   Eigen::MatrixXd covariance = scaled * scaled.transpose();
   covariance.diagonal().array() += 1.0;
   return Eigen::LLT<Eigen::MatrixXd>(covariance);
 }
 
-double square_in_noise(const Rows& rows,
+double square_in_noise(const LinearisedSystem& system,
                        const std::vector<Eigen::Index>& kept,
                        const Eigen::VectorXd& column) {
   Eigen::VectorXd own = column(kept);
-  if (rows.nuisances > 0) nuisance_noise(rows, kept).matrixL().solveInPlace(own);
+  if (system.nuisances > 0) nuisance_noise(system, kept).matrixL().solveInPlace(own);
   return own.squaredNorm();
 }
 
-double length_in_noise(const Rows& rows,
+double length_in_noise(const LinearisedSystem& system,
                        const std::vector<Eigen::Index>& kept,
                        const Eigen::VectorXd& column) {
-  return std::sqrt(square_in_noise(rows, kept, column));
+  return std::sqrt(square_in_noise(system, kept, column));
 }
 
 Eigen::VectorXd reduced(const Space& space, const Eigen::VectorXd& column) {
@@ -157,7 +157,7 @@ Metric plain_metric(const Space& space, std::vector<int> columns) {
   return metric;
 }
 
-std::vector<Metric> pattern_metrics(const Rows& rows,
+std::vector<Metric> pattern_metrics(const LinearisedSystem& system,
                                     const Session& session,
                                     Space& space,
                                     const std::vector<int>& columns) {
@@ -167,7 +167,7 @@ std::vector<Metric> pattern_metrics(const Rows& rows,
   space.pattern_trace.clear();
   for (const PatternShape& shape : kPatternShapes) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        reduced_pattern(rows, session, space, shape));
+        reduced_pattern(system, session, space, shape));
     const Eigen::ArrayXd values = eigen.eigenvalues().array().max(0.0);
     space.pattern_trace.push_back(values.sum());
     const Eigen::VectorXd e = eigen.eigenvectors().transpose() * space.e;

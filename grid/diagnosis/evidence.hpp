@@ -4,7 +4,7 @@
 /// their sizes, the settings and the noise.
 ///
 /// Notation
-///   e, g_k   whitened rows (rows.hpp) with the points that are set aside taken out; N of them
+///   e, g_k   whitened rows (linearised_system.hpp), those of points set aside taken out; N of them
 ///   V        I + A diag(sigma^2) A': their covariance with the settings unknown but for what is
 ///            stated, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
 ///   delta_k  coefficient times |V^-1/2 g_k|: the strength of a cause. Beforehand N(0,
@@ -57,7 +57,7 @@ class NoiseDensity {
   double constant_;
 };
 
-/// The rows with the settings integrated out and some points set aside.
+/// The system with the settings integrated out and some points set aside.
 struct Space {
   std::vector<bool> bad;           ///< per unit
   std::vector<Eigen::Index> kept;  ///< rows
@@ -70,17 +70,19 @@ struct Space {
   std::vector<double> pattern_trace;
 };
 /// Prior and density of one unit set aside.
-[[nodiscard]] double log_price_of_bad(const Rows& rows);
-[[nodiscard]] Space make_space(const Rows& rows, const std::vector<bool>& bad, const Steps& steps);
+[[nodiscard]] double log_price_of_bad(const LinearisedSystem& system);
+[[nodiscard]] Space make_space(const LinearisedSystem& system,
+                               const std::vector<bool>& bad,
+                               const Steps& steps);
 /// Square root of the kept rows' covariance with the nuisances unknown but for their sigmas: the
 /// noise as a person sees it. Empty where there are none.
-[[nodiscard]] Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const Rows& rows,
+[[nodiscard]] Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const LinearisedSystem& system,
                                                          const std::vector<Eigen::Index>& kept);
 /// Square, and length, of a column's kept rows in units of that noise.
-[[nodiscard]] double square_in_noise(const Rows& rows,
+[[nodiscard]] double square_in_noise(const LinearisedSystem& system,
                                      const std::vector<Eigen::Index>& kept,
                                      const Eigen::VectorXd& column);
-[[nodiscard]] double length_in_noise(const Rows& rows,
+[[nodiscard]] double length_in_noise(const LinearisedSystem& system,
                                      const std::vector<Eigen::Index>& kept,
                                      const Eigen::VectorXd& column);
 /// L^-1 of a column of all rows.
@@ -98,7 +100,7 @@ struct Metric {
 [[nodiscard]] Metric plain_metric(const Space& space, std::vector<int> columns);
 
 /// The unknown pattern beside some columns, at every shape and size; notes the traces in the space.
-[[nodiscard]] std::vector<Metric> pattern_metrics(const Rows& rows,
+[[nodiscard]] std::vector<Metric> pattern_metrics(const LinearisedSystem& system,
                                                   const Session& session,
                                                   Space& space,
                                                   const std::vector<int>& columns);

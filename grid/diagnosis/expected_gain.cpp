@@ -15,7 +15,7 @@ constexpr int kRows = 13;
 
 bool hangs_on_visits(const Analysis& a) {
   return std::any_of(a.decision.directions.begin(), a.decision.directions.end(), [&](int k) {
-    const Direction& d = a.rows.directions[static_cast<std::size_t>(k)];
+    const Direction& d = a.system.directions[static_cast<std::size_t>(k)];
     return !d.slip && model::effects::depends_on_visit(*d.cause.effect);
   });
 }
@@ -50,19 +50,19 @@ Session over_the_area(const Session& session, const Analysis& a) {
 }  // namespace
 
 Space without_slips(const Session& session,
-                    const Rows& rows,
+                    const LinearisedSystem& system,
                     const Space& space,
                     const std::vector<int>& directions,
                     const Steps& steps) {
   std::vector<bool> bad = space.bad;
   for (const int k : directions) {
-    const Direction& d = rows.directions[static_cast<std::size_t>(k)];
+    const Direction& d = system.directions[static_cast<std::size_t>(k)];
     if (!d.slip) continue;
     for (std::size_t i = 0; i < session.points.size(); ++i) {
       if (session.points[i].order == static_cast<int>(d.values.back())) bad[i] = true;
     }
   }
-  return bad == space.bad ? space : make_space(rows, bad, steps);
+  return bad == space.bad ? space : make_space(system, bad, steps);
 }
 
 namespace {
@@ -70,25 +70,25 @@ namespace {
 /// Over the distances as they were read: what is between them has no place of its own.
 ExpectedGain gain_of_distances(const Session& session, const Analysis& a) {
   const Space& space = a.comparison.spaces[a.decision.space];
-  const Estimate plain = estimate(session, a.rows, space, {}, -1);
-  const Estimate named = estimate(session, a.rows, space, a.decision.directions, -1);
+  const Estimate plain = estimate(session, a.system, space, {}, -1);
+  const Estimate named = estimate(session, a.system, space, a.decision.directions, -1);
   const Eigen::VectorXd moved =
-      left_of_machine(a.rows, plain, plain.left) - left_of_machine(a.rows, named, named.left);
-  const Eigen::Index settings = a.rows.by_setting.cols() - a.rows.nuisances;
+      left_of_machine(a.system, plain, plain.left) - left_of_machine(a.system, named, named.left);
+  const Eigen::Index settings = a.system.by_setting.cols() - a.system.nuisances;
   const auto free = static_cast<Eigen::Index>(named.free.size());
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(moved.size(), named.covariance.rows());
-  design.leftCols(settings) = a.rows.by_setting.leftCols(settings);
+  design.leftCols(settings) = a.system.by_setting.leftCols(settings);
   for (Eigen::Index k = 0; k < free; ++k) {
-    design.col(a.rows.by_setting.cols() + k) =
-        a.rows.g.col(named.directions[named.free[static_cast<std::size_t>(k)]]);
+    design.col(a.system.by_setting.cols() + k) =
+        a.system.g.col(named.directions[named.free[static_cast<std::size_t>(k)]]);
   }
   double drop = 0.0;
   double doubt = 0.0;
   for (std::size_t i = 0; i < session.units(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const Eigen::RowVectorXd by_unknown = design.row(row);
-    drop += error_of_unit(a.rows, moved, i).squaredNorm();
-    doubt += std::pow(a.rows.row_sigma_mm(row), 2) *
+    drop += error_of_unit(a.system, moved, i).squaredNorm();
+    doubt += std::pow(a.system.row_sigma_mm(row), 2) *
              by_unknown.dot(named.covariance * by_unknown.transpose());
   }
   const auto count = static_cast<double>(session.units());
@@ -100,19 +100,19 @@ ExpectedGain gain_of_distances(const Session& session, const Analysis& a) {
 ExpectedGain expected_gain(const Session& session, const Analysis& a, const Steps& steps) {
   if (session.distances) return gain_of_distances(session, a);
   const Session area = hangs_on_visits(a) ? session : over_the_area(session, a);
-  const auto there = base_rows(area, a.state, steps);
+  const auto there = linearise(area, a.state, steps);
   if (!there || area.points.empty()) return {};
   const std::vector<int>& causes = a.decision.directions;
   const Space& space = a.comparison.spaces[a.decision.space];
   const Estimate plain =
-      estimate(session, a.rows, without_slips(session, a.rows, space, causes, steps), {}, -1);
-  const Estimate named = estimate(session, a.rows, space, causes, -1);
-  const Eigen::Index settings = a.rows.by_setting.cols();
+      estimate(session, a.system, without_slips(session, a.system, space, causes, steps), {}, -1);
+  const Estimate named = estimate(session, a.system, space, causes, -1);
+  const Eigen::Index settings = a.system.by_setting.cols();
   Eigen::MatrixXd design(there->by_setting.rows(), named.covariance.rows());
   design.leftCols(settings) = there->by_setting;
   Eigen::VectorXd moved = there->by_setting * (plain.setting_change - named.setting_change);
   for (std::size_t k = 0; k < causes.size(); ++k) {
-    const Direction& d = a.rows.directions[static_cast<std::size_t>(causes[k])];
+    const Direction& d = a.system.directions[static_cast<std::size_t>(causes[k])];
     const auto g = d.slip ? std::nullopt : signature(area, a.state, *there, d.cause, d.values);
     const Eigen::VectorXd column = g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(moved.size()));
     moved -= column * named.coefficient(static_cast<Eigen::Index>(k));

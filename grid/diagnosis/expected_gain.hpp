@@ -25,7 +25,7 @@ struct ExpectedGain {
 /// The space of the decision with the points set aside that causes at one visit alone account for:
 /// whoever calibrates without these causes still sees that the points are out.
 [[nodiscard]] Space without_slips(const Session& session,
-                                  const Rows& rows,
+                                  const LinearisedSystem& system,
                                   const Space& space,
                                   const std::vector<int>& directions,
                                   const Steps& steps);

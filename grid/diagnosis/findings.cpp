@@ -21,7 +21,7 @@ constexpr double kSettingOff = 3.0;    // sigmas: 1 in 370 for each setting
 
 /// Length of a column before the settings take their share.
 double raw_length(const Analysis& a, int column) {
-  return length_in_noise(a.rows, space_of(a).kept, a.rows.g.col(column));
+  return length_in_noise(a.system, space_of(a).kept, a.system.g.col(column));
 }
 
 double circular(double difference, const EffectParameter& p) {
@@ -156,14 +156,14 @@ std::vector<Term> terms(const Session& session,
                         const DiagnosisOptions& options,
                         const Analysis& a) {
   const Space& space = space_of(a);
-  const SingleScore score(a.rows, space, options.steps.anchor_noise ? session.noise_dof : 1e-3);
+  const SingleScore score(a.system, space, options.steps.anchor_noise ? session.noise_dof : 1e-3);
   const Eigen::VectorXd by_cause = score.by_cause(space.e);
   std::vector<Term> result;
   for (std::size_t k = 0; k < score.causes().size(); ++k) {
     const CauseId& cause = score.causes()[k];
     const int column = best_direction(a, cause);
     if (column < 0) continue;
-    const Estimate alone = estimate(session, a.rows, space, {column}, -1);
+    const Estimate alone = estimate(session, a.system, space, {column}, -1);
     const double length = space.g.col(column).norm();
     Term term;
     term.cause = cause;
@@ -234,7 +234,7 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
     one.setting = session.settings[k];
     one.stated = session.stated_value(at);
     one.stated_sigma = session.stated_sigma(at);
-    one.calibrated = a.rows.setting(at) + a.estimate.setting_change(at);
+    one.calibrated = a.system.setting(at) + a.estimate.setting_change(at);
     one.sigma = std::sqrt(a.estimate.setting_covariance(at, at));
     // A posterior mean under the stated prior scatters by sqrt(prior - posterior).
     const double scatter = std::sqrt(std::max(
@@ -248,7 +248,7 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
 
 std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a) {
   if (session.distances) return bad_distances_found(session, a);
-  const auto residuals = chain_residuals(a.rows, a.estimate.left_beside_pattern);
+  const auto residuals = chain_residuals(a.system, a.estimate.left_beside_pattern);
   std::vector<bool> bad = space_of(a).bad;
   // A link counted wrong is a bad point with a name.
   for (const int k : a.decision.directions) {
@@ -262,9 +262,10 @@ std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a
   for (std::size_t i = 0; i < session.points.size(); ++i) {
     if (!bad[i]) continue;
     const double s = std::sqrt(a.estimate.noise_square);
-    const Eigen::Vector2d whitened = a.rows.points[i].whitening * residuals[i];
-    result.push_back(
-        {session.points[i].index, tool_shift(a.rows.points[i], residuals[i]), whitened.norm() / s});
+    const Eigen::Vector2d whitened = a.system.points[i].whitening * residuals[i];
+    result.push_back({session.points[i].index,
+                      tool_shift(a.system.points[i], residuals[i]),
+                      whitened.norm() / s});
   }
   std::sort(result.begin(), result.end(), [](const BadPoint& x, const BadPoint& y) {
     return x.index < y.index;

@@ -43,14 +43,14 @@ class Folds {
     std::vector<bool> excluded(session_.units(), false);
     for (const std::size_t i : points) excluded[i] = true;
     const ComparisonOptions compared{options_.steps, true, options_.told};
-    const ModelComparison comparison = compare_models(session_, a_.rows, excluded, compared);
+    const ModelComparison comparison = compare_models(session_, a_.system, excluded, compared);
     // The same gate as for all points: the strongest score against what noise does.
     const Space& first = comparison.spaces[comparison.best().space];
-    const SingleScore score(a_.rows, first, session_.noise_dof);
+    const SingleScore score(a_.system, first, session_.noise_dof);
     const bool seen = options_.told.has_value() ||
                       a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
     const Decision decision =
-        decide_beside_discrepancy(session_, a_.rows, comparison, excluded, seen);
+        decide_beside_discrepancy(session_, a_.system, comparison, excluded, seen);
     const Space& space = comparison.spaces[decision.space];
     Fold fold;
     for (const std::size_t i : points) {
@@ -58,7 +58,7 @@ class Folds {
     }
     for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
     const Space plain =
-        without_slips(session_, a_.rows, space, a_.decision.directions, options_.steps);
+        without_slips(session_, a_.system, space, a_.decision.directions, options_.steps);
     fold.errors.calibrated = errors(fit(plain, {}), fold.points);
     fold.errors.surface_only = beside_pattern(comparison, decision.space, {}, fold.points);
     fold.errors.extended = errors(fit(space, decision.directions), fold.points);
@@ -76,7 +76,7 @@ class Folds {
     if (a_.comparison.spaces[a_.decision.space].bad[point]) return true;
     // A reading wrong at its own visit alone says nothing of any other.
     for (const int k : a_.decision.directions) {
-      const Direction& d = a_.rows.directions[static_cast<std::size_t>(k)];
+      const Direction& d = a_.system.directions[static_cast<std::size_t>(k)];
       if (d.slip && session_.points[point].order == static_cast<int>(d.values.back())) return true;
     }
     return false;
@@ -85,7 +85,7 @@ class Folds {
   [[nodiscard]] Estimate fit(const Space& space,
                              const std::vector<int>& directions,
                              int pattern = -1) const {
-    return estimate(session_, a_.rows, space, directions, pattern);
+    return estimate(session_, a_.system, space, directions, pattern);
   }
 
   [[nodiscard]] std::vector<Eigen::Vector2d> beside_pattern(
@@ -111,9 +111,9 @@ class Folds {
   /// What the model leaves, the pattern that it may have taken out.
   [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Estimate& model,
                                                     const std::vector<std::size_t>& points) const {
-    const Eigen::VectorXd left = left_of_machine(a_.rows, model, model.left_beside_pattern);
+    const Eigen::VectorXd left = left_of_machine(a_.system, model, model.left_beside_pattern);
     std::vector<Eigen::Vector2d> result;
-    for (const std::size_t i : points) result.push_back(error_of_unit(a_.rows, left, i));
+    for (const std::size_t i : points) result.push_back(error_of_unit(a_.system, left, i));
     return result;
   }
 
@@ -200,7 +200,7 @@ double noise_floor(const Session& session,
                    const std::vector<std::size_t>& points) {
   double sum = 0.0;
   for (const std::size_t i : points) {
-    sum += noise_of_unit_mm2(session, a.rows, i);
+    sum += noise_of_unit_mm2(session, a.system, i);
   }
   return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(points.size()));
 }
@@ -214,7 +214,7 @@ Delivered delivered(const Session& session,
                     const Analysis& a,
                     const std::vector<std::size_t>& points) {
   Delivered result;
-  const auto stated = base_rows(session, stated_state(session), {});
+  const auto stated = linearise(session, stated_state(session), {});
   if (!stated) return result;
   constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
   const auto sheet = static_cast<Eigen::Index>(session.settings.size()) - kOfMachine;

@@ -7,7 +7,7 @@
 namespace chaintrue::grid::diagnosis {
 
 const Direction& direction(const Analysis& a, int k) {
-  return a.rows.directions[static_cast<std::size_t>(k)];
+  return a.system.directions[static_cast<std::size_t>(k)];
 }
 
 const Space& space_of(const Analysis& a) { return a.comparison.spaces[a.decision.space]; }
@@ -23,8 +23,8 @@ int best_direction(const Analysis& a, const CauseId& cause) {
   const Space& space = space_of(a);
   int best = -1;
   double most = -1.0;
-  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
-    if (!(a.rows.directions[k].cause == cause)) continue;
+  for (std::size_t k = 0; k < a.system.directions.size(); ++k) {
+    if (!(a.system.directions[k].cause == cause)) continue;
     const auto g = space.g.col(static_cast<Eigen::Index>(k));
     const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(space.e)) / g.norm() : 0.0;
     if (score > most) {
@@ -56,10 +56,10 @@ Nearest nearest_other(const Analysis& a, int column) {
     });
   };
   Nearest nearest;
-  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
+  for (std::size_t k = 0; k < a.system.directions.size(); ++k) {
     const auto g = space.g.col(static_cast<Eigen::Index>(k));
     const double length = g.norm() * own.norm();
-    if (!(length > 1e-12) || excluded(a.rows.directions[k].cause)) continue;
+    if (!(length > 1e-12) || excluded(a.system.directions[k].cause)) continue;
     const double rho = std::abs(own.dot(g)) / length;
     if (rho > nearest.rho) nearest = {static_cast<int>(k), rho};
   }
@@ -85,7 +85,7 @@ Shown shown(const Analysis& a) {
 Estimate estimate_with(const Session& session, const Analysis& a, std::vector<int> directions) {
   std::sort(directions.begin(), directions.end());
   return estimate(session,
-                  a.rows,
+                  a.system,
                   space_of(a),
                   directions,
                   a.decision.pattern_left ? a.decision.best_pattern : -1);

@@ -9,7 +9,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Column k of the analysis' rows.
+/// Column k of the analysis' system.
 [[nodiscard]] const Direction& direction(const Analysis& analysis, int k);
 
 /// The space in which the decision was made.

@@ -36,12 +36,12 @@ double log_sum(const std::vector<double>& terms) {
 
 /// Nothing, and each cause alone at its best place.
 std::vector<std::vector<int>> first_hypotheses(const Session& session,
-                                               const Rows& rows,
+                                               const LinearisedSystem& system,
                                                const std::vector<bool>& excluded,
                                                const ComparisonOptions& options) {
-  const Space space = make_space(rows, excluded, options.steps);
+  const Space space = make_space(system, excluded, options.steps);
   const NoiseDensity noise(session.noise_dof, static_cast<Eigen::Index>(space.kept.size()));
-  const SingleScores scores = single_scores(rows, space, noise, space.e, false);
+  const SingleScores scores = single_scores(system, space, noise, space.e, false);
   std::vector<std::vector<int>> hypotheses = {{}};
   for (std::size_t k = 0; k < scores.causes.size(); ++k) {
     if (options.told && !(scores.causes[k] == *options.told)) continue;
@@ -70,7 +70,7 @@ double log_prior(const std::vector<Direction>& directions,
   return value + std::log(kPriorOfCount[lasting]) + std::lgamma(1.0 + static_cast<double>(lasting));
 }
 
-SingleScores single_scores(const Rows& rows,
+SingleScores single_scores(const LinearisedSystem& system,
                            const Space& space,
                            const NoiseDensity& noise,
                            const Eigen::VectorXd& e,
@@ -88,8 +88,8 @@ SingleScores single_scores(const Rows& rows,
   metric.ge.resize(1);
   metric.gg.resize(1, 1);
   const std::array<Eigen::Index, 1> first = {0};
-  for (std::size_t k = 0; k < rows.directions.size(); ++k) {
-    const Direction& direction = rows.directions[k];
+  for (std::size_t k = 0; k < system.directions.size(); ++k) {
+    const Direction& direction = system.directions[k];
     if (scores.causes.empty() || !(scores.causes.back() == direction.cause)) {
       scores.causes.push_back(direction.cause);
       scores.best_direction.push_back(-1);
@@ -120,23 +120,23 @@ namespace {
 /// Of the best model's bad points those that are off by just what a whole number of links does:
 /// each set of bad points once more without one of them.
 std::vector<std::vector<bool>> sets_without_links(const Session& session,
-                                                  const Rows& rows,
+                                                  const LinearisedSystem& system,
                                                   const std::vector<bool>& excluded,
                                                   const ModelComparison& comparison) {
   constexpr double kAlike = 25.0;  // squared, in sigmas: two rows, 1 in 270 000
   const CandidateModel& best = comparison.best();
   const Space& space = comparison.spaces[best.space];
-  const Estimate fitted = estimate(session, rows, space, best.directions, -1);
+  const Estimate fitted = estimate(session, system, space, best.directions, -1);
   std::vector<std::vector<bool>> result;
   for (std::size_t i = 0; i < space.bad.size(); ++i) {
     if (!space.bad[i] || excluded[i]) continue;
-    const auto row = rows.unit_rows * static_cast<Eigen::Index>(i);
+    const auto row = system.unit_rows * static_cast<Eigen::Index>(i);
     bool links = false;
-    for (std::size_t k = 0; k < rows.directions.size() && !links; ++k) {
-      if (!rows.directions[k].fixed) continue;
-      const auto g = rows.g.col(static_cast<Eigen::Index>(k)).segment(row, rows.unit_rows);
+    for (std::size_t k = 0; k < system.directions.size() && !links; ++k) {
+      if (!system.directions[k].fixed) continue;
+      const auto g = system.g.col(static_cast<Eigen::Index>(k)).segment(row, system.unit_rows);
       links =
-          g.squaredNorm() > 0.0 && (fitted.left.segment(row, rows.unit_rows) - g).squaredNorm() <
+          g.squaredNorm() > 0.0 && (fitted.left.segment(row, system.unit_rows) - g).squaredNorm() <
                                        kAlike * fitted.noise_square;
     }
     if (!links) continue;
@@ -163,7 +163,7 @@ void finish(ModelComparison& comparison) {
 }  // namespace
 
 ModelComparison compare_models(const Session& session,
-                               const Rows& rows,
+                               const LinearisedSystem& system,
                                const std::vector<bool>& excluded,
                                const ComparisonOptions& options) {
   ModelComparison comparison;
@@ -176,9 +176,9 @@ ModelComparison compare_models(const Session& session,
     };
     for (const auto& bad : sets) {
       if (comparison.spaces.size() == kMostSpaces) break;
-      comparison.spaces.push_back(make_space(rows, bad, options.steps));
+      comparison.spaces.push_back(make_space(system, bad, options.steps));
       searches.emplace_back(
-          session, rows, comparison.spaces.back(), comparison.spaces.size() - 1, options);
+          session, system, comparison.spaces.back(), comparison.spaces.size() - 1, options);
       take(searches.back().run());
       best = std::max(best, searches.back().best());
     }
@@ -189,9 +189,12 @@ ModelComparison compare_models(const Session& session,
     }
     finish(comparison);
   };
-  compare_with(bad_point_sets(
-      session, rows, excluded, first_hypotheses(session, rows, excluded, options), options.steps));
-  const auto more = sets_without_links(session, rows, excluded, comparison);
+  compare_with(bad_point_sets(session,
+                              system,
+                              excluded,
+                              first_hypotheses(session, system, excluded, options),
+                              options.steps));
+  const auto more = sets_without_links(session, system, excluded, comparison);
   if (!more.empty()) compare_with(more);
   return comparison;
 }

@@ -43,7 +43,7 @@ struct ComparisonOptions {
 
 /// Points already known not to count (held out) are `excluded`.
 [[nodiscard]] ModelComparison compare_models(const Session& session,
-                                             const Rows& rows,
+                                             const LinearisedSystem& system,
                                              const std::vector<bool>& excluded,
                                              const ComparisonOptions& options);
 
@@ -61,7 +61,7 @@ struct SingleScores {
   std::vector<double> log_factor;
   std::vector<int> best_direction;
 };
-[[nodiscard]] SingleScores single_scores(const Rows& rows,
+[[nodiscard]] SingleScores single_scores(const LinearisedSystem& system,
                                          const Space& space,
                                          const NoiseDensity& noise,
                                          const Eigen::VectorXd& e,

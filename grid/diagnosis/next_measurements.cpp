@@ -42,7 +42,7 @@ std::vector<Alternative> leading(const Analysis& a) {
     if (model.directions.size() != together) continue;
     std::vector<std::size_t> key;
     for (const int k : model.directions) {
-      key.push_back(class_of(a.rows.directions[static_cast<std::size_t>(k)].cause));
+      key.push_back(class_of(a.system.directions[static_cast<std::size_t>(k)].cause));
     }
     std::sort(key.begin(), key.end());
     Alternative& one = groups[key];
@@ -92,23 +92,23 @@ void add_link_reading(const Session& session,
 void predict(const Session& session,
              const Analysis& a,
              const Session& next,
-             const Rows& rows,
+             const LinearisedSystem& system,
              Alternative& h) {
   const Space& space = a.comparison.spaces[a.decision.space];
-  const Estimate fitted = estimate(session, a.rows, space, h.directions, -1);
+  const Estimate fitted = estimate(session, a.system, space, h.directions, -1);
   // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
-  const Eigen::Index to_come = rows.by_setting.cols() - settings;
-  h.mean = rows.by_setting.leftCols(settings) * fitted.setting_change;
+  const Eigen::Index to_come = system.by_setting.cols() - settings;
+  h.mean = system.by_setting.leftCols(settings) * fitted.setting_change;
   const auto free = static_cast<Eigen::Index>(fitted.free.size());
-  Eigen::MatrixXd design(rows.by_setting.rows(), settings + free);
-  design.leftCols(settings) = rows.by_setting.leftCols(settings);
+  Eigen::MatrixXd design(system.by_setting.rows(), settings + free);
+  design.leftCols(settings) = system.by_setting.leftCols(settings);
   Eigen::Index column = settings;
   for (std::size_t k = 0; k < fitted.directions.size(); ++k) {
-    const Direction& d = a.rows.directions[static_cast<std::size_t>(fitted.directions[k])];
-    const auto g = signature(next, a.state, rows, d.cause, d.values);
+    const Direction& d = a.system.directions[static_cast<std::size_t>(fitted.directions[k])];
+    const auto g = signature(next, a.state, system, d.cause, d.values);
     const Eigen::VectorXd column_of =
-        g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(rows.by_setting.rows()));
+        g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(system.by_setting.rows()));
     h.mean += column_of * fitted.coefficient(static_cast<Eigen::Index>(k));
     if (std::find(fitted.free.begin(), fitted.free.end(), k) != fitted.free.end()) {
       design.col(column++) = column_of;
@@ -118,7 +118,7 @@ void predict(const Session& session,
   h.spread.resize(design.rows(), design.cols() + to_come);
   h.spread.leftCols(design.cols()) = design * Eigen::MatrixXd(llt.matrixL());
   h.spread.rightCols(to_come) =
-      rows.by_setting.rightCols(to_come) * rows.sigma.tail(to_come).asDiagonal();
+      system.by_setting.rightCols(to_come) * system.sigma.tail(to_come).asDiagonal();
 }
 
 /// D over these rows, for two alternatives.
@@ -173,9 +173,9 @@ std::vector<NextMeasurement> next_measurements(const Session& session, const Ana
   std::vector<Alternative> alternatives = leading(a);
   NextCandidates next =
       session.distances ? candidates_between_holes(session, a) : candidates_at_points(session, a);
-  const auto rows = base_rows(next.session, a.state, {});
-  if (!rows) return {};
-  for (Alternative& h : alternatives) predict(session, a, next.session, *rows, h);
+  const auto system = linearise(next.session, a.state, {});
+  if (!system) return {};
+  for (Alternative& h : alternatives) predict(session, a, next.session, *system, h);
   std::vector<Candidate>& options = next.all;
   std::vector<Eigen::Index> chosen;
   Outlook now = outlook(alternatives, chosen);

@@ -24,15 +24,16 @@ Eigen::Index rows_of_points(const Session& session, const Space& space) {
 Eigen::MatrixXd left_of_noise(const Analysis& a, std::uint64_t seed) {
   const Space& space = space_of(a);
   const auto n = static_cast<Eigen::Index>(space.kept.size());
-  const Eigen::Index settings = a.rows.by_setting.cols();
+  const Eigen::Index settings = a.system.by_setting.cols();
   const auto causes = static_cast<Eigen::Index>(a.estimate.free.size());
   // In units of what each unknown may be beforehand.
   Eigen::MatrixXd design(n, settings + causes);
-  design.leftCols(settings) = a.rows.by_setting(space.kept, Eigen::all) * a.rows.sigma.asDiagonal();
+  design.leftCols(settings) =
+      a.system.by_setting(space.kept, Eigen::all) * a.system.sigma.asDiagonal();
   for (Eigen::Index k = 0; k < causes; ++k) {
     const int column = a.estimate.directions[a.estimate.free[static_cast<std::size_t>(k)]];
     design.col(settings + k) =
-        a.rows.g(space.kept, column) * kWideDelta / std::max(space.g.col(column).norm(), 1e-12);
+        a.system.g(space.kept, column) * kWideDelta / std::max(space.g.col(column).norm(), 1e-12);
   }
   Eigen::MatrixXd normal = design.transpose() * design;
   normal.diagonal().array() += 1.0;

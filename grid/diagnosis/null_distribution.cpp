@@ -16,12 +16,12 @@ constexpr int kBlock = 250;  // draws at a time
 
 }  // namespace
 
-SingleScore::SingleScore(const Rows& rows, const Space& space, double noise_dof)
+SingleScore::SingleScore(const LinearisedSystem& system, const Space& space, double noise_dof)
     : space_(space), dof_(noise_dof) {
   square_ = space.g.colwise().squaredNorm();
   constant_.resize(square_.size());
   for (Eigen::Index k = 0; k < square_.size(); ++k) {
-    const Direction& d = rows.directions[static_cast<std::size_t>(k)];
+    const Direction& d = system.directions[static_cast<std::size_t>(k)];
     if (causes_.empty() || !(causes_.back() == d.cause)) causes_.push_back(d.cause);
     cause_of_.push_back(causes_.size() - 1);
     fixed_.push_back(d.fixed);

@@ -21,7 +21,7 @@ namespace chaintrue::grid::diagnosis {
 /// product; a direction of the wrong sign has no score.
 class SingleScore {
  public:
-  SingleScore(const Rows& rows, const Space& space, double noise_dof);
+  SingleScore(const LinearisedSystem& system, const Space& space, double noise_dof);
   /// The largest over all directions of a cause, in the order of `causes()`; `e` like Space::e.
   [[nodiscard]] Eigen::VectorXd by_cause(const Eigen::VectorXd& e) const;
   [[nodiscard]] const std::vector<CauseId>& causes() const { return causes_; }

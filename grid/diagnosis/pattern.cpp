@@ -34,33 +34,33 @@ Eigen::Matrix2d pattern_block(const PatternShape& shape,
 }
 
 Eigen::Matrix2d pattern_between(const Session& session,
-                                const Rows& rows,
+                                const LinearisedSystem& system,
                                 const PatternShape& shape,
                                 const Unit& a,
                                 const Unit& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (const SeenPlace& i : a) {
     for (const SeenPlace& j : b) {
-      sum +=
-          i.by_chain *
-          pattern_block(
-              shape, pattern_place(session, rows, i.place), pattern_place(session, rows, j.place)) *
-          j.by_chain.transpose();
+      sum += i.by_chain *
+             pattern_block(shape,
+                           pattern_place(session, system, i.place),
+                           pattern_place(session, system, j.place)) *
+             j.by_chain.transpose();
     }
   }
   return sum;
 }
 
-PatternPlace pattern_place(const Session& session, const Rows& rows, std::size_t i) {
-  return {session.points[i].mark, rows.points[i].by_mark};
+PatternPlace pattern_place(const Session& session, const LinearisedSystem& system, std::size_t i) {
+  return {session.points[i].mark, system.points[i].by_mark};
 }
 
 Eigen::MatrixXd pattern_covariance(const Session& session,
-                                   const Rows& rows,
+                                   const LinearisedSystem& system,
                                    const std::vector<Eigen::Index>& kept,
                                    const PatternShape& shape) {
   // Rows stand in units, first of all; readings of the machine come after them.
-  const Eigen::Index size = rows.unit_rows;
+  const Eigen::Index size = system.unit_rows;
   std::vector<std::size_t> units;
   for (const Eigen::Index row : kept) {
     if (row < session.observed_rows() && row % size == 0) {
@@ -72,7 +72,7 @@ Eigen::MatrixXd pattern_covariance(const Session& session,
   for (std::size_t a = 0; a < units.size(); ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
       const Eigen::Matrix2d block =
-          pattern_between(session, rows, shape, rows.units[units[a]], rows.units[units[b]]);
+          pattern_between(session, system, shape, system.units[units[a]], system.units[units[b]]);
       const auto row = size * static_cast<Eigen::Index>(a);
       const auto column = size * static_cast<Eigen::Index>(b);
       c.block(row, column, size, size) = block.topLeftCorner(size, size);

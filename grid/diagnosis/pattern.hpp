@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "grid/diagnosis/rows.hpp"
+#include "grid/diagnosis/linearised_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -55,18 +55,20 @@ struct PatternPlace {
                                             const PatternPlace& a,
                                             const PatternPlace& b);
 
-[[nodiscard]] PatternPlace pattern_place(const Session& session, const Rows& rows, std::size_t i);
+[[nodiscard]] PatternPlace pattern_place(const Session& session,
+                                         const LinearisedSystem& system,
+                                         std::size_t i);
 
 /// Covariance of two units' whitened rows, for s = 1; of units of one row the first number.
 [[nodiscard]] Eigen::Matrix2d pattern_between(const Session& session,
-                                              const Rows& rows,
+                                              const LinearisedSystem& system,
                                               const PatternShape& shape,
                                               const Unit& a,
                                               const Unit& b);
 
 /// Covariance of these whitened rows, for s = 1.
 [[nodiscard]] Eigen::MatrixXd pattern_covariance(const Session& session,
-                                                 const Rows& rows,
+                                                 const LinearisedSystem& system,
                                                  const std::vector<Eigen::Index>& kept,
                                                  const PatternShape& shape);
 

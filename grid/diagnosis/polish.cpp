@@ -27,9 +27,9 @@ bool has_continuous_place(const Direction& direction) {
   return parameters.size() > 1 && !parameters.back().integer;
 }
 
-Reach reach(const Rows& rows, const Direction& own) {
+Reach reach(const LinearisedSystem& system, const Direction& own) {
   Reach result;
-  for (const Direction& d : rows.directions) {
+  for (const Direction& d : system.directions) {
     if (!(d.cause == own.cause)) continue;
     const double step = d.values.back() - own.values.back();
     if (step < 0.0 && (result.below == 0.0 || -step < result.below)) result.below = -step;
@@ -43,17 +43,21 @@ Reach reach(const Rows& rows, const Direction& own) {
 
 class Round {
  public:
-  Round(const Session& session, const State& state, const Rows& rows, Space space, int pattern)
-      : session_(session), state_(state), rows_(rows), space_(std::move(space)) {
+  Round(const Session& session,
+        const State& state,
+        const LinearisedSystem& system,
+        Space space,
+        int pattern)
+      : session_(session), state_(state), system_(system), space_(std::move(space)) {
     std::vector<int> all;
-    for (std::size_t k = 0; k < rows.directions.size(); ++k) all.push_back(static_cast<int>(k));
-    estimate_ = diagnosis::estimate(session, rows, space_, all, pattern);
+    for (std::size_t k = 0; k < system.directions.size(); ++k) all.push_back(static_cast<int>(k));
+    estimate_ = diagnosis::estimate(session, system, space_, all, pattern);
   }
   [[nodiscard]] const Estimate& estimate() const { return estimate_; }
 
   /// The size whose signature is as long, along the one at hand, as the coefficient asks for.
   [[nodiscard]] double size(std::size_t which) const {
-    const Direction& own = rows_.directions[which];
+    const Direction& own = system_.directions[which];
     const auto& bounds = own.cause.effect->parameters.front();
     const double asked = estimate_.coefficient(static_cast<Eigen::Index>(which));
     const auto bounded = [&](double s) { return std::clamp(s, bounds.lower, bounds.upper); };
@@ -76,7 +80,7 @@ class Round {
 
   /// The place at which a cause explains most, beside the others.
   [[nodiscard]] double place(std::size_t which, const Reach& reach) const {
-    const Direction& own = rows_.directions[which];
+    const Direction& own = system_.directions[which];
     double low = own.values.back() - reach.below;
     double high = own.values.back() + reach.above;
     const Others others(*this, which);
@@ -105,9 +109,9 @@ class Round {
 
  private:
   [[nodiscard]] std::optional<double> length(std::size_t which, double size) const {
-    std::vector<double> values = rows_.directions[which].values;
+    std::vector<double> values = system_.directions[which].values;
     values.front() = size;
-    const auto g = signature(session_, state_, rows_, rows_.directions[which].cause, values);
+    const auto g = signature(session_, state_, system_, system_.directions[which].cause, values);
     if (!g) return std::nullopt;
     const auto own = space_.g.col(static_cast<Eigen::Index>(which));
     return own.dot(reduced(space_, *g)) / own.squaredNorm();
@@ -117,7 +121,7 @@ class Round {
   class Others {
    public:
     Others(const Round& round, std::size_t which) : round_(round), which_(which) {
-      for (std::size_t k = 0; k < round.rows_.directions.size(); ++k) {
+      for (std::size_t k = 0; k < round.system_.directions.size(); ++k) {
         if (k == which) continue;
         columns_.conservativeResize(round.space_.e.size(), columns_.cols() + 1);
         columns_.rightCols<1>() = round.space_.g.col(static_cast<Eigen::Index>(k));
@@ -127,10 +131,10 @@ class Round {
     }
 
     [[nodiscard]] double gain(double place) const {
-      const Direction& own = round_.rows_.directions[which_];
+      const Direction& own = round_.system_.directions[which_];
       std::vector<double> values = own.values;
       values.back() = place;
-      const auto g = signature(round_.session_, round_.state_, round_.rows_, own.cause, values);
+      const auto g = signature(round_.session_, round_.state_, round_.system_, own.cause, values);
       if (!g) return 0.0;
       const Eigen::VectorXd left = without(reduced(round_.space_, *g));
       const double square = left.squaredNorm();
@@ -154,7 +158,7 @@ class Round {
 
   const Session& session_;
   const State& state_;
-  const Rows& rows_;
+  const LinearisedSystem& system_;
   Space space_;
   Estimate estimate_;
 };
@@ -163,19 +167,19 @@ class Round {
 
 Polished polish(const Session& session,
                 const State& state,
-                const Rows& rows,
+                const LinearisedSystem& system,
                 const Space& space,
                 const Leaders& leaders,
                 const Steps& steps) {
   std::vector<Direction> own;
   std::vector<Reach> reaches;
   for (const int k : leaders.directions) {
-    own.push_back(rows.directions[static_cast<std::size_t>(k)]);
-    reaches.push_back(reach(rows, own.back()));
+    own.push_back(system.directions[static_cast<std::size_t>(k)]);
+    reaches.push_back(reach(system, own.back()));
   }
   Polished result{state, {}};
   for (int round = 0; round < kRounds; ++round) {
-    auto about = base_rows(session, result.state, steps);
+    auto about = linearise(session, result.state, steps);
     if (!about || !renew_directions(session, result.state, own, *about)) break;
     Space there = make_space(*about, space.bad, steps);
     there.pattern_trace = space.pattern_trace;  // the pattern stays as strong as it was found
@@ -202,7 +206,7 @@ Polished polish(const Session& session,
   }
   for (std::size_t k = 0; k < own.size(); ++k) {
     const double first =
-        rows.directions[static_cast<std::size_t>(leaders.directions[k])].values.front();
+        system.directions[static_cast<std::size_t>(leaders.directions[k])].values.front();
     // A secant over next to nothing has no direction.
     if (own[k].fixed || !(std::abs(own[k].values.front()) > kSettled * std::abs(first))) continue;
     result.refinements.push_back({own[k].cause, own[k].values, own[k].log_prior});

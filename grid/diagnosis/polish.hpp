@@ -18,16 +18,16 @@ struct Polished {
   std::vector<Refinement> refinements;  ///< of the causes whose size is no whole number
 };
 
-/// What leads: directions of the rows, beside an unknown pattern or none (-1).
+/// What leads: directions of the system, beside an unknown pattern or none (-1).
 struct Leaders {
   std::vector<int> directions;
   int pattern = -1;
 };
 
-/// From the state of the rows, with the points set aside that `space` sets aside.
+/// From the state of the system, with the points set aside that `space` sets aside.
 [[nodiscard]] Polished polish(const Session& session,
                               const State& state,
-                              const Rows& rows,
+                              const LinearisedSystem& system,
                               const Space& space,
                               const Leaders& leaders,
                               const Steps& steps);

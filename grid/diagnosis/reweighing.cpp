@@ -24,7 +24,7 @@ using LensKey = std::pair<std::size_t, int>;  ///< space, pattern
 
 /// The models that may lead once some points are gone: the best, and in each space of these
 /// nothing, and every cause alone at its best place.
-std::map<LensKey, std::vector<CandidateModel>> followed(const Rows& rows,
+std::map<LensKey, std::vector<CandidateModel>> followed(const LinearisedSystem& system,
                                                         const ModelComparison& comparison) {
   std::map<LensKey, double> share;
   for (const CandidateModel& model : comparison.models) {
@@ -53,7 +53,7 @@ std::map<LensKey, std::vector<CandidateModel>> followed(const Rows& rows,
     const bool leads = model.log_weight > best - kNegligible && taken < kMostModels;
     bool first_alone = model.directions.empty();
     if (model.directions.size() == 1) {
-      const CauseId& cause = rows.directions[static_cast<std::size_t>(model.directions[0])].cause;
+      const CauseId& cause = system.directions[static_cast<std::size_t>(model.directions[0])].cause;
       auto& known = alone[key];
       first_alone = std::find(known.begin(), known.end(), cause) == known.end();
       if (first_alone) known.push_back(cause);
@@ -103,8 +103,8 @@ Reweighing::Reweighing(const Session& session,
     : session_(session),
       a_(analysis),
       dof_(options.steps.anchor_noise ? session.noise_dof : 1e-3),
-      score_(analysis.rows, analysis.comparison.spaces[analysis.comparison.best().space], dof_) {
-  for (auto& [key, models] : followed(a_.rows, a_.comparison)) {
+      score_(analysis.system, analysis.comparison.spaces[analysis.comparison.best().space], dof_) {
+  for (auto& [key, models] : followed(a_.system, a_.comparison)) {
     add_lens(key.first, key.second, std::move(models));
   }
 }
@@ -129,7 +129,7 @@ void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Candidate
   double log_det = space.log_det;
   if (pattern >= 0) {
     const Pattern shape = pattern_of(space, pattern);
-    Eigen::MatrixXd k = pattern_covariance(session_, a_.rows, space.kept, shape.shape);
+    Eigen::MatrixXd k = pattern_covariance(session_, a_.system, space.kept, shape.shape);
     lower.solveInPlace(k);
     k = lower.solve(k.transpose()).eval() * (shape.sigma_mm * shape.sigma_mm);
     k.diagonal().array() += 1.0;
@@ -146,7 +146,8 @@ void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Candidate
   for (const CandidateModel& model : models) {
     std::vector<Eigen::Index> set;
     for (const int k : model.directions) set.push_back(lens.metric.position(k));
-    const double evidence = set_evidence(lens.metric, a_.rows.directions, set, noise).log_evidence;
+    const double evidence =
+        set_evidence(lens.metric, a_.system.directions, set, noise).log_evidence;
     lens.prior.push_back(model.log_weight - evidence - space.log_bad);
     lens.sets.push_back(std::move(set));
   }
@@ -170,7 +171,7 @@ Metric Reweighing::metric_without(const Lens& lens, const std::vector<Eigen::Ind
 }
 
 Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) const {
-  const double price = log_price_of_bad(a_.rows);
+  const double price = log_price_of_bad(a_.system);
   Without result;
   ModelComparison& comparison = result.comparison;
   std::set<std::tuple<std::size_t, int, std::vector<int>>> known;
@@ -189,7 +190,7 @@ Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) 
     for (std::size_t k = 0; k < lens.models.size(); ++k) {
       const CandidateModel& model = lens.models[k];
       if (!known.emplace(home, lens.pattern, model.directions).second) continue;
-      const SetEvidence evidence = set_evidence(metric, a_.rows.directions, lens.sets[k], noise);
+      const SetEvidence evidence = set_evidence(metric, a_.system.directions, lens.sets[k], noise);
       if (!std::isfinite(evidence.log_evidence)) continue;
       comparison.models.push_back({model.directions,
                                    lens.pattern,

@@ -36,12 +36,12 @@ bool compatible(const Direction& a, const Direction& b) {
 class SetSearch::Search {
  public:
   Search(const Session& session,
-         const Rows& rows,
+         const LinearisedSystem& system,
          Space& space,
          std::size_t number,
          const ComparisonOptions& options)
       : session_(session),
-        rows_(rows),
+        system_(system),
         space_(space),
         number_(number),
         options_(options),
@@ -74,11 +74,11 @@ class SetSearch::Search {
   [[nodiscard]] std::vector<int> columns() const {
     std::vector<int> kept;
     std::vector<int> fixed;
-    const auto count = static_cast<int>(rows_.directions.size());
+    const auto count = static_cast<int>(system_.directions.size());
     const Eigen::VectorXd c = space_.g.transpose() * space_.e;
     const Eigen::VectorXd square = space_.g.colwise().squaredNorm();
     for (int k = 0; k < count; ++k) {
-      const Direction& d = rows_.directions[static_cast<std::size_t>(k)];
+      const Direction& d = system_.directions[static_cast<std::size_t>(k)];
       if (options_.told && !(d.cause == *options_.told)) continue;
       if (!(square(k) > kLeastSquare)) continue;
       (d.fixed ? fixed : kept).push_back(k);
@@ -117,7 +117,7 @@ class SetSearch::Search {
                   double log_pattern) {
     std::vector<int> chosen;
     for (const Eigen::Index i : set) chosen.push_back(metric.columns[static_cast<std::size_t>(i)]);
-    const SetEvidence evidence = set_evidence(metric, rows_.directions, set, noise_);
+    const SetEvidence evidence = set_evidence(metric, system_.directions, set, noise_);
     if (!std::isfinite(evidence.log_evidence)) return kMinusInfinity;
     CandidateModel model;
     model.directions = chosen;
@@ -134,9 +134,9 @@ class SetSearch::Search {
   }
 
   [[nodiscard]] double prior(const std::vector<int>& set, bool pattern) const {
-    double value = log_prior(rows_.directions, set, pattern);
+    double value = log_prior(system_.directions, set, pattern);
     if (!options_.steps.average_location) {
-      for (const int k : set) value -= rows_.directions[static_cast<std::size_t>(k)].log_prior;
+      for (const int k : set) value -= system_.directions[static_cast<std::size_t>(k)].log_prior;
     }
     return value;
   }
@@ -268,7 +268,7 @@ class SetSearch::Search {
     }
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    const std::vector<Metric> metrics = pattern_metrics(rows_, session_, space_, used);
+    const std::vector<Metric> metrics = pattern_metrics(system_, session_, space_, used);
     for (int pattern = 0; pattern < kPatterns; ++pattern) {
       const Metric& metric = metrics[static_cast<std::size_t>(pattern)];
       const double share = log_share_of_pattern(pattern);
@@ -289,7 +289,8 @@ class SetSearch::Search {
   static bool heavier(const Scored& a, const Scored& b) { return a.weight > b.weight; }
 
   [[nodiscard]] const Direction& direction(Eigen::Index i) const {
-    return rows_.directions[static_cast<std::size_t>(metric_.columns[static_cast<std::size_t>(i)])];
+    return system_
+        .directions[static_cast<std::size_t>(metric_.columns[static_cast<std::size_t>(i)])];
   }
 
   static constexpr double kLeastSquare = 1e-8;
@@ -299,7 +300,7 @@ class SetSearch::Search {
   static constexpr std::size_t kChildren = 24;
 
   const Session& session_;
-  const Rows& rows_;
+  const LinearisedSystem& system_;
   Space& space_;
   std::size_t number_;
   const ComparisonOptions& options_;
@@ -311,11 +312,11 @@ class SetSearch::Search {
 };
 
 SetSearch::SetSearch(const Session& session,
-                     const Rows& rows,
+                     const LinearisedSystem& system,
                      Space& space,
                      std::size_t number,
                      const ComparisonOptions& options)
-    : search_(std::make_unique<Search>(session, rows, space, number, options)) {}
+    : search_(std::make_unique<Search>(session, system, space, number, options)) {}
 SetSearch::~SetSearch() = default;
 SetSearch::SetSearch(SetSearch&&) noexcept = default;
 SetSearch& SetSearch::operator=(SetSearch&&) noexcept = default;

@@ -15,7 +15,7 @@ class SetSearch {
  public:
   /// `number` is the space's in its comparison; all references must outlive the search.
   SetSearch(const Session& session,
-            const Rows& rows,
+            const LinearisedSystem& system,
             Space& space,
             std::size_t number,
             const ComparisonOptions& options);

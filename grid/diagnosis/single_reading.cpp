@@ -47,10 +47,10 @@ std::optional<std::string> refuse_name_of_one_reading(const Session& session,
   std::vector<bool> aside(session.units(), false);
   aside[*point] = true;
   const std::vector<bool> none(session.units(), false);
-  a.comparison = compare_models(session, a.rows, aside, {options.steps, true, options.told});
-  a.decision = decide_beside_discrepancy(session, a.rows, a.comparison, none, false);
+  a.comparison = compare_models(session, a.system, aside, {options.steps, true, options.told});
+  a.decision = decide_beside_discrepancy(session, a.system, a.comparison, none, false);
   a.estimate = estimate(session,
-                        a.rows,
+                        a.system,
                         space_of(a),
                         a.decision.directions,
                         a.decision.pattern_left ? a.decision.best_pattern : -1);

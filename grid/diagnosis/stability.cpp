@@ -146,7 +146,7 @@ std::optional<Stability> examine_stability(const Session& session,
     for (const std::size_t i : group.points) excluded[i] = true;
     const bool seen = without.seen || options.told.has_value();
     const Decision decision =
-        decide(a.rows, without.comparison, excluded, seen, a.decision.classes);
+        decide(a.system, without.comparison, excluded, seen, a.decision.classes);
     const double log_odds = statement.log_odds(without.comparison);
     Removal removal;
     removal.what = group.what;

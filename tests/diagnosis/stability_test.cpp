@@ -112,9 +112,9 @@ TEST(Reweighing, SaysWhatAComparisonMadeAnewSays) {
     for (std::size_t k = 0; k < groups.size(); k += 3) {
       std::vector<bool> excluded(session->points.size(), false);
       for (const std::size_t i : groups[k].points) excluded[i] = true;
-      const ModelComparison comparison =
-          compare_models(*session, a->rows, excluded, {verdict_alone().steps, true, std::nullopt});
-      const Decision decision = decide(a->rows, comparison, excluded, true, a->decision.classes);
+      const ModelComparison comparison = compare_models(
+          *session, a->system, excluded, {verdict_alone().steps, true, std::nullopt});
+      const Decision decision = decide(a->system, comparison, excluded, true, a->decision.classes);
       EXPECT_EQ(stability->removals[k].stands, still_named(a->decision, decision)) << "group " << k;
       // What the models of all points leave aside: sets of bad points and patterns that only show
       // once these points are gone.

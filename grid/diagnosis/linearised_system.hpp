@@ -63,7 +63,7 @@ struct SeenPlace {
 };
 using Unit = std::vector<SeenPlace>;
 
-struct Rows {
+struct LinearisedSystem {
   Eigen::VectorXd e;
   Eigen::MatrixXd by_setting;  ///< A
   Eigen::MatrixXd g;           ///< a column a direction
@@ -92,33 +92,33 @@ struct Refinement {
   double log_prior = 0.0;
 };
 
-/// Rows without directions. Fails where a point, or a hole, cannot be reached.
-[[nodiscard]] tl::expected<Rows, model::VisitFailure> base_rows(const Session& session,
-                                                                const State& state,
-                                                                const Steps& steps);
+/// The system without directions. Fails where a point, or a hole, cannot be reached.
+[[nodiscard]] tl::expected<LinearisedSystem, model::VisitFailure> linearise(const Session& session,
+                                                                            const State& state,
+                                                                            const Steps& steps);
 
 /// Appends the directions of all these causes.
 void add_directions(const Session& session,
                     const State& state,
                     const std::vector<CauseId>& causes,
                     const std::vector<Refinement>& refinements,
-                    Rows& rows);
+                    LinearisedSystem& system);
 
 /// What stands in the nuisances' columns; nothing for points.
-[[nodiscard]] inline auto nuisance_columns(const Rows& rows) {
-  return rows.by_setting.rightCols(rows.nuisances);
+[[nodiscard]] inline auto nuisance_columns(const LinearisedSystem& system) {
+  return system.by_setting.rightCols(system.nuisances);
 }
 
 /// Directions anew about another state, at their values. False where such a machine cannot be.
 [[nodiscard]] bool renew_directions(const Session& session,
                                     const State& state,
                                     const std::vector<Direction>& directions,
-                                    Rows& rows);
+                                    LinearisedSystem& system);
 
 /// The whitened column of an effect of these values; empty where such a machine cannot be.
 [[nodiscard]] std::optional<Eigen::VectorXd> signature(const Session& session,
                                                        const State& state,
-                                                       const Rows& rows,
+                                                       const LinearisedSystem& system,
                                                        CauseId cause,
                                                        const std::vector<double>& values);
 
