@@ -70,8 +70,8 @@ constexpr double kLeastReach = 4.0;
 void drop_invisible(const Space& space, Analysis& a) {
   const auto reach = [&](const CauseId& cause) {
     double most = 0.0;
-    for (std::size_t k = 0; k < a.system.directions.size(); ++k) {
-      const Direction& d = a.system.directions[k];
+    for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+      const Regressor& d = a.system.regressors[k];
       if (!(d.cause == cause)) continue;
       const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
       most = std::max(most, size * space.g.col(static_cast<Eigen::Index>(k)).norm());
@@ -87,18 +87,18 @@ void drop_invisible(const Space& space, Analysis& a) {
           {cause, "at any size that it may have, calibrating the settings would hide it"});
     }
   }
-  const auto is_visible = [&](const Direction& d) {
+  const auto is_visible = [&](const Regressor& d) {
     return std::find(visible.begin(), visible.end(), d.cause) != visible.end();
   };
   std::vector<Eigen::Index> kept;
-  std::vector<Direction> directions;
-  for (std::size_t k = 0; k < a.system.directions.size(); ++k) {
-    if (!is_visible(a.system.directions[k])) continue;
+  std::vector<Regressor> regressors;
+  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+    if (!is_visible(a.system.regressors[k])) continue;
     kept.push_back(static_cast<Eigen::Index>(k));
-    directions.push_back(a.system.directions[k]);
+    regressors.push_back(a.system.regressors[k]);
   }
   a.system.g = a.system.g(Eigen::all, kept).eval();
-  a.system.directions = std::move(directions);
+  a.system.regressors = std::move(regressors);
   a.candidates.testable = std::move(visible);
 }
 
@@ -106,8 +106,8 @@ void drop_invisible(const Space& space, Analysis& a) {
 void speak_of_leaders(const LinearisedSystem& system,
                       const ModelComparison& comparison,
                       Decision& decision) {
-  for (int& k : decision.directions) {
-    const CauseId own = system.directions[static_cast<std::size_t>(k)].cause;
+  for (int& k : decision.regressors) {
+    const CauseId own = system.regressors[static_cast<std::size_t>(k)].cause;
     for (const CauseClass& members : decision.classes) {
       if (members.front() == own ||
           std::find(members.begin(), members.end(), own) == members.end()) {
@@ -115,14 +115,14 @@ void speak_of_leaders(const LinearisedSystem& system,
       }
       const auto alone = std::find_if(
           comparison.models.begin(), comparison.models.end(), [&](const CandidateModel& model) {
-            return model.directions.size() == 1 &&
-                   system.directions[static_cast<std::size_t>(model.directions.front())].cause ==
+            return model.regressors.size() == 1 &&
+                   system.regressors[static_cast<std::size_t>(model.regressors.front())].cause ==
                        members.front();
           });
-      if (alone != comparison.models.end()) k = alone->directions.front();
+      if (alone != comparison.models.end()) k = alone->regressors.front();
     }
   }
-  std::sort(decision.directions.begin(), decision.directions.end());
+  std::sort(decision.regressors.begin(), decision.regressors.end());
 }
 
 }  // namespace
@@ -145,13 +145,13 @@ Decision decide_beside_discrepancy(const Session& session,
   // A pattern that nobody knows looks somewhat like this cause or that: what is named must explain
   // nearly all that noise does not.
   const Space& space = comparison.spaces[decision.space];
-  const auto unexplained = [&](const std::vector<int>& directions) {
-    const Estimate fitted = estimate(session, system, space, directions, -1);
+  const auto unexplained = [&](const std::vector<int>& regressors) {
+    const Estimate fitted = estimate(session, system, space, regressors, -1);
     const Eigen::VectorXd left = left_of_machine(system, fitted, fitted.left);
     return square_in_noise(system, space.kept, left) - static_cast<double>(space.kept.size());
   };
   const double before = unexplained({});
-  const double after = unexplained(decision.directions);
+  const double after = unexplained(decision.regressors);
   if (after <= (1.0 - kExplained) * before) return decision;
   return decide(system, comparison, excluded, false);
 }
@@ -168,7 +168,7 @@ void compare_and_decide(const Session& session,
   a.estimate = estimate(session,
                         a.system,
                         a.comparison.spaces[a.decision.space],
-                        a.decision.directions,
+                        a.decision.regressors,
                         a.decision.pattern_left ? a.decision.best_pattern : -1);
 }
 
@@ -198,15 +198,15 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     auto system = linearise(session, a.state, options.steps);
     if (!system) return tl::unexpected(unreachable(session, system.error()));
     a.system = std::move(*system);
-    add_directions(session, a.state, a.candidates.testable, known, a.system);
+    add_regressors(session, a.state, a.candidates.testable, known, a.system);
     const std::vector<bool> none(session.units(), false);
     const Space space = make_space(a.system, none, options.steps);
     share_out_links(space, a.system);
     if (pass == 0) drop_invisible(space, a);
     compare_and_decide(session, comparison, true, a);
-    if (pass + 1 == kPasses || a.decision.directions.empty()) break;
+    if (pass + 1 == kPasses || a.decision.regressors.empty()) break;
     const Decision& decision = a.decision;
-    const Leaders leaders{decision.directions, decision.pattern_left ? decision.best_pattern : -1};
+    const Leaders leaders{decision.regressors, decision.pattern_left ? decision.best_pattern : -1};
     Polished polished = polish(
         session, a.state, a.system, a.comparison.spaces[decision.space], leaders, options.steps);
     known = std::move(polished.refinements);
@@ -219,7 +219,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     a.estimate = estimate(session,
                           a.system,
                           a.comparison.spaces[a.decision.space],
-                          a.decision.directions,
+                          a.decision.regressors,
                           a.decision.pattern_left ? a.decision.best_pattern : -1);
   }
   return a;

@@ -34,14 +34,14 @@ Seen seen_by(const Seen& nothing,
   Seen seen = nothing;
   Eigen::VectorXd e = space.e;
   for (const int k : set) {
-    if (system.directions[static_cast<std::size_t>(k)].fixed) e -= space.g.col(k);
+    if (system.regressors[static_cast<std::size_t>(k)].fixed) e -= space.g.col(k);
   }
   const auto upper = space.factor.transpose().triangularView<Eigen::Upper>();
   seen.u = upper.solve(e);
   seen.quadratic = e.squaredNorm();
   std::vector<Eigen::VectorXd> taken;
   for (const int k : set) {
-    if (system.directions[static_cast<std::size_t>(k)].fixed) continue;
+    if (system.regressors[static_cast<std::size_t>(k)].fixed) continue;
     const double prior = space.g.col(k).squaredNorm() / (kWideDelta * kWideDelta);
     // P g for the precision so far
     Eigen::VectorXd pg = upper.solve(Eigen::VectorXd(space.g.col(k)));
@@ -141,7 +141,7 @@ std::vector<std::vector<bool>> bad_point_sets(const Session& session,
   std::vector<Found> found;
   for (const auto& set : hypotheses) {
     const Search by{
-        log_prior(system.directions, set, false), session.noise_dof, session.fewest_units()};
+        log_prior(system.regressors, set, false), session.noise_dof, session.fewest_units()};
     const auto look = system.unit_rows == 2 ? search<2> : search<1>;
     Found one = look(seen_by(nothing, space, system, set), system, space, by);
     const auto same =

@@ -13,7 +13,7 @@ namespace chaintrue::grid::diagnosis {
 inline constexpr double kMostBadShare = 0.12;
 
 /// Flags per unit, the most probable set first; units that are excluded beforehand stay flagged in
-/// all of them. `hypotheses` are sets of directions.
+/// all of them. `hypotheses` are sets of regressors.
 [[nodiscard]] std::vector<std::vector<bool>> bad_point_sets(
     const Session& session,
     const LinearisedSystem& system,

@@ -18,19 +18,19 @@ constexpr double kNeededBesidePattern = 0.98;
 constexpr double kLikelierThanNot = 0.5;
 constexpr double kAbsorbed = 1e-3;
 
-/// The most telling direction of each cause: the longest, and the nearest to the data among those
+/// The most telling regressor of each cause: the longest, and the nearest to the data among those
 /// of a cause with places.
-std::vector<std::pair<CauseId, int>> leading_directions(const LinearisedSystem& system,
+std::vector<std::pair<CauseId, int>> leading_regressors(const LinearisedSystem& system,
                                                         const Space& space) {
   std::vector<std::pair<CauseId, int>> result;
   double best = -1.0;
-  for (std::size_t k = 0; k < system.directions.size(); ++k) {
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
     const auto column = space.g.col(static_cast<Eigen::Index>(k));
     const double length = column.norm();
     if (!(length > 1e-4)) continue;
     const double score = std::abs(column.dot(space.e)) / length;
-    if (result.empty() || !(result.back().first == system.directions[k].cause)) {
-      result.emplace_back(system.directions[k].cause, static_cast<int>(k));
+    if (result.empty() || !(result.back().first == system.regressors[k].cause)) {
+      result.emplace_back(system.regressors[k].cause, static_cast<int>(k));
       best = score;
     } else if (score > best) {
       result.back().second = static_cast<int>(k);
@@ -108,8 +108,8 @@ class Decider {
     for (const CandidateModel& model : comparison_.models) {
       const double p = comparison_.probability(model);
       Key key;
-      for (const int k : model.directions) {
-        key.push_back(class_of(system_.directions[static_cast<std::size_t>(k)].cause));
+      for (const int k : model.regressors) {
+        key.push_back(class_of(system_.regressors[static_cast<std::size_t>(k)].cause));
       }
       std::sort(key.begin(), key.end());
       Grouped& one = groups_[key];
@@ -176,12 +176,12 @@ class Decider {
   void take(const Grouped& grouped) {
     const CandidateModel* model = grouped.best != nullptr ? grouped.best : grouped.with_pattern;
     if (model == nullptr) return;
-    result_.directions = model->directions;
+    result_.regressors = model->regressors;
     result_.space = model->space;
     if (grouped.with_pattern != nullptr) result_.best_pattern = grouped.with_pattern->pattern;
     result_.pattern_left = grouped.pattern > 0.5 * grouped.probability;
     if (result_.pattern_left) {
-      result_.directions = grouped.with_pattern->directions;
+      result_.regressors = grouped.with_pattern->regressors;
       result_.space = grouped.with_pattern->space;
     }
   }
@@ -308,10 +308,10 @@ std::vector<CauseClass> classes_of(const LinearisedSystem& system, const Space& 
       range_of_settings(system, seen(system.by_setting.leftCols(settings)(space.kept, Eigen::all)));
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
-  for (const auto& [cause, column] : leading_directions(system, space)) {
+  for (const auto& [cause, column] : leading_regressors(system, space)) {
     Representative own{seen(system.g(space.kept, column)),
                        space.g.col(column),
-                       system.directions[static_cast<std::size_t>(column)].fixed};
+                       system.regressors[static_cast<std::size_t>(column)].fixed};
     const double whole = own.free.norm();
     own.free -= basis * (basis.transpose() * own.free);
     // Of a signature that the settings take whole, only rounding would be compared.

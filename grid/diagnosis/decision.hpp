@@ -47,8 +47,8 @@ struct Decision {
   /// The causes of the verdict (indices into classes): the one named, the set, or those that act
   /// together.
   std::vector<std::size_t> listed;
-  /// What goes into the model: one direction a cause, the pattern that is left or -1, the space.
-  std::vector<int> directions;
+  /// What goes into the model: one regressor a cause, the pattern that is left or -1, the space.
+  std::vector<int> regressors;
   int best_pattern = -1;
   bool pattern_left = false;
   std::size_t space = 0;

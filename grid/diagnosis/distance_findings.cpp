@@ -57,8 +57,8 @@ std::vector<DistancePicture> distance_pictures(const Session& session, const Ana
   if (!session.distances) return {};
   const Space& space = space_of(a);
   const MeasuredHoles& set = session.distances->set();
-  const auto of_machine = [&](const std::vector<int>& directions) {
-    const Estimate fitted = estimate(session, a.system, space, directions, -1);
+  const auto of_machine = [&](const std::vector<int>& regressors) {
+    const Estimate fitted = estimate(session, a.system, space, regressors, -1);
     return left_of_machine(a.system, fitted, fitted.left);
   };
   const Shown sets = shown(a);

@@ -47,18 +47,18 @@ Solution solve(const Unknowns& unknowns,
 Estimate estimate(const Session& session,
                   const LinearisedSystem& system,
                   const Space& space,
-                  const std::vector<int>& directions,
+                  const std::vector<int>& regressors,
                   int pattern) {
   Estimate result;
-  result.directions = directions;
+  result.regressors = regressors;
   const auto settings = system.setting.size();
-  result.coefficient = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions.size()));
+  result.coefficient = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(regressors.size()));
   result.coefficient_sigma = result.coefficient;
   Eigen::VectorXd data = system.e;
-  for (std::size_t k = 0; k < directions.size(); ++k) {
-    if (system.directions[static_cast<std::size_t>(directions[k])].fixed) {
+  for (std::size_t k = 0; k < regressors.size(); ++k) {
+    if (system.regressors[static_cast<std::size_t>(regressors[k])].fixed) {
       result.coefficient(static_cast<Eigen::Index>(k)) = 1.0;
-      data -= system.g.col(directions[k]);
+      data -= system.g.col(regressors[k]);
     } else {
       result.free.push_back(k);
     }
@@ -84,24 +84,24 @@ Estimate estimate(const Session& session,
     unknowns.mean.head(settings) = system.expected_change;
     unknowns.sigma.head(settings) = system.sigma;
     for (Eigen::Index k = 0; k < free; ++k) {
-      const int column = directions[result.free[static_cast<std::size_t>(k)]];
+      const int column = regressors[result.free[static_cast<std::size_t>(k)]];
       unknowns.design.col(settings + k) = system.g(space.kept, column);
       unknowns.sigma(settings + k) = kWideDelta / std::max(space.g.col(column).norm(), 1e-12);
     }
     solution = solve(unknowns, data(space.kept), pattern >= 0 ? &noise : nullptr);
     std::size_t outside = result.free.size();
     for (std::size_t k = 0; k < result.free.size(); ++k) {
-      const Direction& d = system.directions[static_cast<std::size_t>(directions[result.free[k]])];
+      const Regressor& d = system.regressors[static_cast<std::size_t>(regressors[result.free[k]])];
       const double value = solution.value(settings + static_cast<Eigen::Index>(k));
       if (value < d.lowest || value > d.highest) outside = k;
     }
     if (outside == result.free.size()) break;
     const auto at = static_cast<Eigen::Index>(result.free[outside]);
-    const Direction& d =
-        system.directions[static_cast<std::size_t>(directions[result.free[outside]])];
+    const Regressor& d =
+        system.regressors[static_cast<std::size_t>(regressors[result.free[outside]])];
     result.coefficient(at) = std::clamp(
         solution.value(settings + static_cast<Eigen::Index>(outside)), d.lowest, d.highest);
-    data -= system.g.col(directions[result.free[outside]]) * result.coefficient(at);
+    data -= system.g.col(regressors[result.free[outside]]) * result.coefficient(at);
     result.free.erase(result.free.begin() + static_cast<std::ptrdiff_t>(outside));
   }
   result.setting_change = solution.value.head(settings);
@@ -110,7 +110,7 @@ Estimate estimate(const Session& session,
     const auto at = static_cast<Eigen::Index>(result.free[k]);
     const Eigen::Index column = settings + static_cast<Eigen::Index>(k);
     result.coefficient(at) = solution.value(column);
-    left -= system.g.col(directions[result.free[k]]) * result.coefficient(at);
+    left -= system.g.col(regressors[result.free[k]]) * result.coefficient(at);
   }
   result.left = left;
   result.left_beside_pattern = left;
@@ -133,11 +133,11 @@ Estimate estimate(const Session& session,
     result.coefficient_sigma(static_cast<Eigen::Index>(result.free[k])) =
         std::sqrt(result.covariance(column, column));
   }
-  for (std::size_t k = 0; k < directions.size(); ++k) {
+  for (std::size_t k = 0; k < regressors.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
-    const bool is_fixed = system.directions[static_cast<std::size_t>(directions[k])].fixed;
+    const bool is_fixed = system.regressors[static_cast<std::size_t>(regressors[k])].fixed;
     if (is_fixed || result.coefficient_sigma(at) > 0.0) continue;
-    const double length = std::max(space.g.col(directions[k]).norm(), 1e-12);
+    const double length = std::max(space.g.col(regressors[k]).norm(), 1e-12);
     result.coefficient_sigma(at) = std::sqrt(result.noise_square) / length;
   }
   return result;

@@ -12,10 +12,10 @@
 namespace chaintrue::grid::diagnosis {
 
 struct Estimate {
-  std::vector<int> directions;
+  std::vector<int> regressors;
   Eigen::VectorXd setting_change;  ///< from the state of the system; the nuisances after them
   Eigen::MatrixXd setting_covariance;
-  Eigen::VectorXd coefficient;  ///< of each direction
+  Eigen::VectorXd coefficient;  ///< of each regressor
   /// 0 where the size is a whole number; at a bound what noise alone makes of it.
   Eigen::VectorXd coefficient_sigma;
   double noise_square = 1.0;            ///< s^2
@@ -25,15 +25,15 @@ struct Estimate {
   Eigen::VectorXd pattern_weights;  ///< per kept row; empty without a pattern
   /// Covariance of setting_change and of the free coefficients, in that order.
   Eigen::MatrixXd covariance;
-  std::vector<std::size_t> free;  ///< positions in `directions`
+  std::vector<std::size_t> free;  ///< positions in `regressors`
 };
 
-/// `directions` and `pattern` as the model has them. A coefficient that would leave its bounds
+/// `regressors` and `pattern` as the model has them. A coefficient that would leave its bounds
 /// stays at the bound.
 [[nodiscard]] Estimate estimate(const Session& session,
                                 const LinearisedSystem& system,
                                 const Space& space,
-                                const std::vector<int>& directions,
+                                const std::vector<int>& regressors,
                                 int pattern);
 
 /// What the unknown pattern adds to either chain at a place [mm]; zero where the estimate has none.

@@ -198,24 +198,24 @@ namespace {
 
 /// Set evidence for one sigma of delta.
 SetEvidence evidence_at(const Metric& metric,
-                        const std::vector<Direction>& directions,
+                        const std::vector<Regressor>& regressors,
                         std::span<const Eigen::Index> set,
                         const NoiseDensity& noise,
                         double delta_sigma) {
   SetEvidence result;
   std::vector<Eigen::Index> free;
-  const auto direction = [&](Eigen::Index i) -> const Direction& {
-    return directions[static_cast<std::size_t>(metric.columns[static_cast<std::size_t>(i)])];
+  const auto regressor = [&](Eigen::Index i) -> const Regressor& {
+    return regressors[static_cast<std::size_t>(metric.columns[static_cast<std::size_t>(i)])];
   };
   double q = metric.ee;
   for (const Eigen::Index i : set) {
-    if (!direction(i).fixed) {
+    if (!regressor(i).fixed) {
       free.push_back(i);
       continue;
     }
     q -= 2.0 * metric.ge(i);
     for (const Eigen::Index j : set) {
-      if (direction(j).fixed) q += metric.gg(i, j);
+      if (regressor(j).fixed) q += metric.gg(i, j);
     }
   }
   const auto m = static_cast<Eigen::Index>(free.size());
@@ -227,7 +227,7 @@ SetEvidence evidence_at(const Metric& metric,
     length(i) = std::sqrt(metric.gg(at, at));
     c(i) = metric.ge(at);
     for (const Eigen::Index j : set) {
-      if (direction(j).fixed) c(i) -= metric.gg(at, j);
+      if (regressor(j).fixed) c(i) -= metric.gg(at, j);
     }
     c(i) /= length(i);
     for (Eigen::Index j = 0; j <= i; ++j) {
@@ -245,7 +245,7 @@ SetEvidence evidence_at(const Metric& metric,
                         static_cast<double>(m) * std::log(delta_sigma);
   const double s = std::sqrt(noise.noise_square(result.quadratic));
   for (Eigen::Index i = 0; i < m; ++i) {
-    const Direction& own = direction(free[static_cast<std::size_t>(i)]);
+    const Regressor& own = regressor(free[static_cast<std::size_t>(i)]);
     const double low = own.lowest * length(i);
     const double high = own.highest * length(i);
     // Further beyond what it may be than noise takes it, and not merely about null: the data ask
@@ -267,13 +267,13 @@ SetEvidence evidence_at(const Metric& metric,
 }  // namespace
 
 SetEvidence set_evidence(const Metric& metric,
-                         const std::vector<Direction>& directions,
+                         const std::vector<Regressor>& regressors,
                          std::span<const Eigen::Index> set,
                          const NoiseDensity& noise) {
-  SetEvidence wide = evidence_at(metric, directions, set, noise, kWideDelta);
+  SetEvidence wide = evidence_at(metric, regressors, set, noise, kWideDelta);
   const bool all_fixed = wide.delta.size() == 0;
   if (all_fixed) return wide;
-  const SetEvidence usual = evidence_at(metric, directions, set, noise, kUsualDelta);
+  const SetEvidence usual = evidence_at(metric, regressors, set, noise, kUsualDelta);
   wide.log_evidence = log_sum(std::log(1.0 - kWideDeltaPrior) + usual.log_evidence,
                               std::log(kWideDeltaPrior) + wide.log_evidence);
   return wide;

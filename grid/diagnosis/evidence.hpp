@@ -90,7 +90,7 @@ struct Space {
 
 /// Inner products of the residual and of some columns.
 struct Metric {
-  std::vector<int> columns;  ///< directions, ascending
+  std::vector<int> columns;  ///< regressors, ascending
   double ee = 0.0;
   Eigen::VectorXd ge;
   Eigen::MatrixXd gg;
@@ -107,7 +107,7 @@ struct Metric {
 /// Shape and size of pattern number `index`, in a space whose traces are noted.
 [[nodiscard]] Pattern pattern_of(const Space& space, int index);
 
-/// What a set of directions makes of the data.
+/// What a set of regressors makes of the data.
 struct SetEvidence {
   double log_evidence = 0.0;
   double quadratic = 0.0;        ///< what is left of e'e
@@ -116,7 +116,7 @@ struct SetEvidence {
 };
 /// `set` holds positions in the metric. Minus infinity where a cause would need what it cannot be.
 [[nodiscard]] SetEvidence set_evidence(const Metric& metric,
-                                       const std::vector<Direction>& directions,
+                                       const std::vector<Regressor>& regressors,
                                        std::span<const Eigen::Index> set,
                                        const NoiseDensity& noise);
 

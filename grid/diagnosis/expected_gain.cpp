@@ -14,8 +14,8 @@ constexpr int kColumns = 25;  // 100 mm apart on a whole bed: waves of a sprocke
 constexpr int kRows = 13;
 
 bool hangs_on_visits(const Analysis& a) {
-  return std::any_of(a.decision.directions.begin(), a.decision.directions.end(), [&](int k) {
-    const Direction& d = a.system.directions[static_cast<std::size_t>(k)];
+  return std::any_of(a.decision.regressors.begin(), a.decision.regressors.end(), [&](int k) {
+    const Regressor& d = a.system.regressors[static_cast<std::size_t>(k)];
     return !d.slip && model::effects::depends_on_visit(*d.cause.effect);
   });
 }
@@ -52,11 +52,11 @@ Session over_the_area(const Session& session, const Analysis& a) {
 Space without_slips(const Session& session,
                     const LinearisedSystem& system,
                     const Space& space,
-                    const std::vector<int>& directions,
+                    const std::vector<int>& regressors,
                     const Steps& steps) {
   std::vector<bool> bad = space.bad;
-  for (const int k : directions) {
-    const Direction& d = system.directions[static_cast<std::size_t>(k)];
+  for (const int k : regressors) {
+    const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
     if (!d.slip) continue;
     for (std::size_t i = 0; i < session.points.size(); ++i) {
       if (session.points[i].order == static_cast<int>(d.values.back())) bad[i] = true;
@@ -71,7 +71,7 @@ namespace {
 ExpectedGain gain_of_distances(const Session& session, const Analysis& a) {
   const Space& space = a.comparison.spaces[a.decision.space];
   const Estimate plain = estimate(session, a.system, space, {}, -1);
-  const Estimate named = estimate(session, a.system, space, a.decision.directions, -1);
+  const Estimate named = estimate(session, a.system, space, a.decision.regressors, -1);
   const Eigen::VectorXd moved =
       left_of_machine(a.system, plain, plain.left) - left_of_machine(a.system, named, named.left);
   const Eigen::Index settings = a.system.by_setting.cols() - a.system.nuisances;
@@ -80,7 +80,7 @@ ExpectedGain gain_of_distances(const Session& session, const Analysis& a) {
   design.leftCols(settings) = a.system.by_setting.leftCols(settings);
   for (Eigen::Index k = 0; k < free; ++k) {
     design.col(a.system.by_setting.cols() + k) =
-        a.system.g.col(named.directions[named.free[static_cast<std::size_t>(k)]]);
+        a.system.g.col(named.regressors[named.free[static_cast<std::size_t>(k)]]);
   }
   double drop = 0.0;
   double doubt = 0.0;
@@ -102,7 +102,7 @@ ExpectedGain expected_gain(const Session& session, const Analysis& a, const Step
   const Session area = hangs_on_visits(a) ? session : over_the_area(session, a);
   const auto there = linearise(area, a.state, steps);
   if (!there || area.points.empty()) return {};
-  const std::vector<int>& causes = a.decision.directions;
+  const std::vector<int>& causes = a.decision.regressors;
   const Space& space = a.comparison.spaces[a.decision.space];
   const Estimate plain =
       estimate(session, a.system, without_slips(session, a.system, space, causes, steps), {}, -1);
@@ -112,7 +112,7 @@ ExpectedGain expected_gain(const Session& session, const Analysis& a, const Step
   design.leftCols(settings) = there->by_setting;
   Eigen::VectorXd moved = there->by_setting * (plain.setting_change - named.setting_change);
   for (std::size_t k = 0; k < causes.size(); ++k) {
-    const Direction& d = a.system.directions[static_cast<std::size_t>(causes[k])];
+    const Regressor& d = a.system.regressors[static_cast<std::size_t>(causes[k])];
     const auto g = d.slip ? std::nullopt : signature(area, a.state, *there, d.cause, d.values);
     const Eigen::VectorXd column = g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(moved.size()));
     moved -= column * named.coefficient(static_cast<Eigen::Index>(k));

@@ -27,7 +27,7 @@ struct ExpectedGain {
 [[nodiscard]] Space without_slips(const Session& session,
                                   const LinearisedSystem& system,
                                   const Space& space,
-                                  const std::vector<int>& directions,
+                                  const std::vector<int>& regressors,
                                   const Steps& steps);
 
 }  // namespace chaintrue::grid::diagnosis

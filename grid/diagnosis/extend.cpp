@@ -21,9 +21,9 @@ void extend(const Session& session, const Analysis& a, bool accept_class, Diagno
   std::vector<model::AppliedEffect> into_machine;
   std::vector<int> taken;
   for (const Cause& cause : used) {
-    const int column = best_direction(a, cause.cause);
+    const int column = best_regressor(a, cause.cause);
     // Links miscounted or skipped are none of the machine's: readings are mended whatever it gains.
-    if (worse && !direction(a, column).fixed) continue;
+    if (worse && !regressor(a, column).fixed) continue;
     model::AppliedEffect applied{std::string(cause.cause.effect->id),
                                  std::string(model::effects::name(cause.cause.side)),
                                  {}};

@@ -31,13 +31,13 @@ double circular(double difference, const EffectParameter& p) {
 
 /// How well the data say where a cause sets in.
 double place_sigma(const Analysis& a, int column) {
-  const Direction& own = direction(a, column);
+  const Regressor& own = regressor(a, column);
   const EffectParameter& place = own.cause.effect->parameters.back();
   double weight = 0.0;
   double square = 0.0;
   for (const CandidateModel& model : a.comparison.models) {
-    for (const int k : model.directions) {
-      const Direction& other = direction(a, k);
+    for (const int k : model.regressors) {
+      const Regressor& other = regressor(a, k);
       if (!(other.cause == own.cause)) continue;
       const double p = a.comparison.probability(model);
       const double off = circular(other.values.back() - own.values.back(), place);
@@ -52,7 +52,7 @@ std::vector<ParameterEstimate> parameters(const Analysis& a,
                                           int column,
                                           double coefficient,
                                           double sigma) {
-  const Direction& d = direction(a, column);
+  const Regressor& d = regressor(a, column);
   std::vector<ParameterEstimate> result;
   const auto& described = d.cause.effect->parameters;
   result.push_back({std::string(described.front().name),
@@ -65,8 +65,8 @@ std::vector<ParameterEstimate> parameters(const Analysis& a,
 }
 
 Eigen::Index position_of(const Estimate& e, int column) {
-  const auto found = std::find(e.directions.begin(), e.directions.end(), column);
-  return static_cast<Eigen::Index>(found - e.directions.begin());
+  const auto found = std::find(e.regressors.begin(), e.regressors.end(), column);
+  return static_cast<Eigen::Index>(found - e.regressors.begin());
 }
 
 double marginal(const Analysis& a, std::size_t index) {
@@ -83,15 +83,15 @@ Cause describe(const Session& session, const Analysis& a, std::size_t index, boo
   cause.probability = marginal(a, index);
   // Other named causes stay in the model; rivals of a set are each fitted alone.
   std::vector<int> others;
-  for (const int k : a.decision.directions) {
-    const CauseId& acting = direction(a, k).cause;
+  for (const int k : a.decision.regressors) {
+    const CauseId& acting = regressor(a, k).cause;
     const bool several = a.decision.verdict == Verdict::several_causes;
     if (several && std::find(members.begin(), members.end(), acting) == members.end()) {
       others.push_back(k);
     }
   }
   for (const CauseId& member : members) {
-    const int column = best_direction(a, member);
+    const int column = best_regressor(a, member);
     std::vector<int> set = others;
     set.push_back(column);
     const Estimate fitted = estimate_with(session, a, set);
@@ -103,7 +103,7 @@ Cause describe(const Session& session, const Analysis& a, std::size_t index, boo
       cause.share_left = length / std::max(raw_length(a, column), 1e-12);
       cause.parameters = std::move(found);
       if (const Nearest other = nearest_other(a, column); other.column >= 0) {
-        cause.rival = direction(a, other.column).cause;
+        cause.rival = regressor(a, other.column).cause;
         cause.rival_rho = other.rho;
       }
     } else {
@@ -161,15 +161,15 @@ std::vector<Term> terms(const Session& session,
   std::vector<Term> result;
   for (std::size_t k = 0; k < score.causes().size(); ++k) {
     const CauseId& cause = score.causes()[k];
-    const int column = best_direction(a, cause);
+    const int column = best_regressor(a, cause);
     if (column < 0) continue;
     const Estimate alone = estimate(session, a.system, space, {column}, -1);
     const double length = space.g.col(column).norm();
     Term term;
     term.cause = cause;
     term.parameter = cause.effect->parameters.front().name;
-    term.value = size_at(direction(a, column), alone.coefficient(0));
-    term.sigma = std::abs(size_slope(direction(a, column), alone.coefficient(0))) *
+    term.value = size_at(regressor(a, column), alone.coefficient(0));
+    term.sigma = std::abs(size_slope(regressor(a, column), alone.coefficient(0))) *
                  alone.coefficient_sigma(0);
     term.delta = std::abs(alone.coefficient(0)) * length;
     term.share_left = length / std::max(raw_length(a, column), 1e-12);
@@ -195,25 +195,25 @@ std::vector<Bound> bounds(const Session& session,
   std::vector<Bound> result;
   for (const CauseId& cause : a.candidates.testable) {
     if (std::find(listed.begin(), listed.end(), cause) != listed.end()) continue;
-    const int column = best_direction(a, cause);
+    const int column = best_regressor(a, cause);
     const EffectParameter& size = cause.effect->parameters.front();
     const double left = column < 0 ? 0.0 : space.g.col(column).norm();
     if (column < 0 || left < kAbsorbed * raw_length(a, column)) {
       not_testable.push_back({cause, "calibrating the settings takes up all that it would show"});
       continue;
     }
-    if (direction(a, column).fixed) {
+    if (regressor(a, column).fixed) {
       result.push_back({cause, std::string(size.name), 0.0});
       continue;
     }
-    std::vector<int> set = a.decision.directions;
+    std::vector<int> set = a.decision.regressors;
     if (std::find(set.begin(), set.end(), column) == set.end()) set.push_back(column);
     const Estimate fitted = estimate_with(session, a, set);
     const Eigen::Index at = position_of(fitted, column);
     const double s = fitted.coefficient_sigma(at);
     const double most = std::max(std::abs(fitted.coefficient(at) + kQuantile95 * s),
                                  std::abs(fitted.coefficient(at) - kQuantile95 * s));
-    const double upper = std::abs(size_at(direction(a, column), most));
+    const double upper = std::abs(size_at(regressor(a, column), most));
     if (upper >= std::max(std::abs(size.lower), std::abs(size.upper))) {
       not_testable.push_back({cause,
                               fmt::format("any size that it may have could hide in these {}",
@@ -251,8 +251,8 @@ std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a
   const auto residuals = chain_residuals(a.system, a.estimate.left_beside_pattern);
   std::vector<bool> bad = space_of(a).bad;
   // A link counted wrong is a bad point with a name.
-  for (const int k : a.decision.directions) {
-    const Direction& d = direction(a, k);
+  for (const int k : a.decision.regressors) {
+    const Regressor& d = regressor(a, k);
     if (!d.slip) continue;
     for (std::size_t i = 0; i < session.points.size(); ++i) {
       if (session.points[i].order == static_cast<int>(d.values.back())) bad[i] = true;
@@ -285,8 +285,8 @@ std::vector<Separation> separations(const Analysis& a) {
     for (std::size_t j = 0; j < i; ++j) {
       const CauseId& x = a.decision.classes[shown[j]].front();
       const CauseId& y = a.decision.classes[shown[i]].front();
-      const auto gx = space.g.col(best_direction(a, x));
-      const auto gy = space.g.col(best_direction(a, y));
+      const auto gx = space.g.col(best_regressor(a, x));
+      const auto gy = space.g.col(best_regressor(a, y));
       const double rho =
           std::min(1.0, std::abs(gx.dot(gy)) / std::max(gx.norm() * gy.norm(), 1e-12));
       // 1.645 sqrt(2 / (1 - rho)): 95 of 100 told apart; a class is never told apart.

@@ -58,13 +58,13 @@ class Folds {
     }
     for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
     const Space plain =
-        without_slips(session_, a_.system, space, a_.decision.directions, options_.steps);
+        without_slips(session_, a_.system, space, a_.decision.regressors, options_.steps);
     fold.errors.calibrated = errors(fit(plain, {}), fold.points);
     fold.errors.surface_only = beside_pattern(comparison, decision.space, {}, fold.points);
-    fold.errors.extended = errors(fit(space, decision.directions), fold.points);
+    fold.errors.extended = errors(fit(space, decision.regressors), fold.points);
     fold.errors.extended_and_surface =
-        beside_pattern(comparison, decision.space, decision.directions, fold.points);
-    const std::vector<int>& all = a_.decision.directions;
+        beside_pattern(comparison, decision.space, decision.regressors, fold.points);
+    const std::vector<int>& all = a_.decision.regressors;
     fold.errors.held_fast = errors(fit(space, all), fold.points);
     fold.errors.held_fast_and_surface =
         beside_pattern(comparison, decision.space, all, fold.points);
@@ -75,35 +75,35 @@ class Folds {
   [[nodiscard]] bool bad_in_all(std::size_t point) const {
     if (a_.comparison.spaces[a_.decision.space].bad[point]) return true;
     // A reading wrong at its own visit alone says nothing of any other.
-    for (const int k : a_.decision.directions) {
-      const Direction& d = a_.system.directions[static_cast<std::size_t>(k)];
+    for (const int k : a_.decision.regressors) {
+      const Regressor& d = a_.system.regressors[static_cast<std::size_t>(k)];
       if (d.slip && session_.points[point].order == static_cast<int>(d.values.back())) return true;
     }
     return false;
   }
 
   [[nodiscard]] Estimate fit(const Space& space,
-                             const std::vector<int>& directions,
+                             const std::vector<int>& regressors,
                              int pattern = -1) const {
-    return estimate(session_, a_.system, space, directions, pattern);
+    return estimate(session_, a_.system, space, regressors, pattern);
   }
 
   [[nodiscard]] std::vector<Eigen::Vector2d> beside_pattern(
       const ModelComparison& comparison,
       std::size_t space,
-      const std::vector<int>& directions,
+      const std::vector<int>& regressors,
       const std::vector<std::size_t>& points) const {
-    const int pattern = preferred_pattern(comparison, space, directions);
-    return errors(fit(comparison.spaces[space], directions, pattern), points);
+    const int pattern = preferred_pattern(comparison, space, regressors);
+    return errors(fit(comparison.spaces[space], regressors, pattern), points);
   }
 
   /// The pattern that the points prefer beside these causes; none where they would rather have
   /// none.
   static int preferred_pattern(const ModelComparison& comparison,
                                std::size_t space,
-                               const std::vector<int>& directions) {
+                               const std::vector<int>& regressors) {
     for (const CandidateModel& model : comparison.models) {
-      if (model.directions == directions && model.space == space) return model.pattern;
+      if (model.regressors == regressors && model.space == space) return model.pattern;
     }
     return -1;
   }

@@ -10,14 +10,14 @@
 namespace chaintrue::grid::diagnosis {
 
 /// Column k of the analysis' system.
-[[nodiscard]] const Direction& direction(const Analysis& analysis, int k);
+[[nodiscard]] const Regressor& regressor(const Analysis& analysis, int k);
 
 /// The space in which the decision was made.
 [[nodiscard]] const Space& space_of(const Analysis& analysis);
 
 /// The most probable column of a cause over the models of the comparison, or that with its best
 /// score; -1 where the cause has none.
-[[nodiscard]] int best_direction(const Analysis& analysis, const CauseId& cause);
+[[nodiscard]] int best_regressor(const Analysis& analysis, const CauseId& cause);
 
 /// Whether no points tell the two apart.
 [[nodiscard]] bool same_class(const Analysis& analysis, const CauseId& x, const CauseId& y);

@@ -118,7 +118,7 @@ LeftOver left_over(const Session& session, const Analysis& a, std::uint64_t seed
   result.p_value = p_of_structure(session, a.system, space.kept, left, seed);
   if (a.decision.best_pattern >= 0) {
     const Estimate beside =
-        estimate(session, a.system, space, a.decision.directions, a.decision.best_pattern);
+        estimate(session, a.system, space, a.decision.regressors, a.decision.best_pattern);
     const Eigen::VectorXd pattern = beside.left - beside.left_beside_pattern;
     result.delta = length_in_noise(a.system, space.kept, pattern) / std::sqrt(beside.noise_square);
   }

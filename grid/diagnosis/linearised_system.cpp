@@ -114,23 +114,23 @@ double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby) 
 }
 
 /// Goes on through zero as a straight line, where an odd effect changes its sign.
-bool is_odd(const Direction& direction) { return direction.power < 1.5; }
+bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
 
-void limit(Direction& direction) {
-  const EffectParameter& size = size_parameter(*direction.cause.effect);
-  const double at = direction.values.front();
+void limit(Regressor& regressor) {
+  const EffectParameter& size = size_parameter(*regressor.cause.effect);
+  const double at = regressor.values.front();
   const auto coefficient = [&](double bound) {
     const double ratio = bound / at;
-    return ratio < 0.0 ? -std::pow(-ratio, direction.power) : std::pow(ratio, direction.power);
+    return ratio < 0.0 ? -std::pow(-ratio, regressor.power) : std::pow(ratio, regressor.power);
   };
   const double a = coefficient(size.lower);
   const double b = coefficient(size.upper);
-  direction.lowest = std::min(a, b);
-  direction.highest = std::max(a, b);
+  regressor.lowest = std::min(a, b);
+  regressor.highest = std::max(a, b);
 }
 
 struct Column {
-  Direction direction;
+  Regressor regressor;
   Eigen::VectorXd g;
 };
 
@@ -178,14 +178,14 @@ class Builder {
     smaller.front() *= refined_ ? kNearby : 0.5;
     const auto half = signature(session_, state_, system_, cause, smaller);
     if (!half) return;
-    Direction direction;
-    direction.cause = cause;
-    direction.values = values;
-    direction.power = refined_ ? power_about(*g, *half) : power_of(*g, *half);
-    direction.log_prior = log_prior;
-    direction.refined = refined_;
-    limit(direction);
-    columns_.push_back({std::move(direction), std::move(*g)});
+    Regressor regressor;
+    regressor.cause = cause;
+    regressor.values = values;
+    regressor.power = refined_ ? power_about(*g, *half) : power_of(*g, *half);
+    regressor.log_prior = log_prior;
+    regressor.refined = refined_;
+    limit(regressor);
+    columns_.push_back({std::move(regressor), std::move(*g)});
   }
 
   void add_links(CauseId cause, std::vector<double> values) {
@@ -197,14 +197,14 @@ class Builder {
         values.front() = links;
         auto g = signature(session_, state_, system_, cause, values);
         if (!g || !(g->norm() > 0.0)) continue;
-        Direction direction;
-        direction.cause = cause;
-        direction.values = values;
-        direction.fixed = true;
-        direction.slip = is_slip(*cause.effect);
-        direction.lowest = direction.highest = 1.0;
-        direction.visits = static_cast<double>(where.size());
-        columns_.push_back({std::move(direction), std::move(*g)});
+        Regressor regressor;
+        regressor.cause = cause;
+        regressor.values = values;
+        regressor.fixed = true;
+        regressor.slip = is_slip(*cause.effect);
+        regressor.lowest = regressor.highest = 1.0;
+        regressor.visits = static_cast<double>(where.size());
+        columns_.push_back({std::move(regressor), std::move(*g)});
       }
     }
   }
@@ -308,7 +308,7 @@ std::optional<Eigen::VectorXd> signature(const Session& session,
   return whitened(session, system, *with - *without);
 }
 
-void add_directions(const Session& session,
+void add_regressors(const Session& session,
                     const State& state,
                     const std::vector<CauseId>& causes,
                     const std::vector<Refinement>& refinements,
@@ -320,18 +320,18 @@ void add_directions(const Session& session,
   for (Eigen::Index k = 0; k < count; ++k) {
     Column& column = builder.columns()[static_cast<std::size_t>(k)];
     system.g.col(k) = column.g;
-    system.directions.push_back(std::move(column.direction));
+    system.regressors.push_back(std::move(column.regressor));
   }
 }
 
-bool renew_directions(const Session& session,
+bool renew_regressors(const Session& session,
                       const State& state,
-                      const std::vector<Direction>& directions,
+                      const std::vector<Regressor>& regressors,
                       LinearisedSystem& system) {
-  system.directions = directions;
-  system.g.resize(session.rows(), static_cast<Eigen::Index>(directions.size()));
-  for (std::size_t k = 0; k < directions.size(); ++k) {
-    Direction& d = system.directions[k];
+  system.regressors = regressors;
+  system.g.resize(session.rows(), static_cast<Eigen::Index>(regressors.size()));
+  for (std::size_t k = 0; k < regressors.size(); ++k) {
+    Regressor& d = system.regressors[k];
     const auto g = signature(session, state, system, d.cause, d.values);
     if (!g || !(g->norm() > 0.0)) return false;
     system.g.col(static_cast<Eigen::Index>(k)) = *g;
@@ -347,19 +347,19 @@ bool renew_directions(const Session& session,
   return true;
 }
 
-double size_at(const Direction& direction, double coefficient) {
-  const double at = direction.values.front();
-  if (direction.fixed) return at;
-  if (coefficient <= 0.0) return is_odd(direction) ? at * coefficient : 0.0;
-  return at * std::pow(coefficient, 1.0 / direction.power);
+double size_at(const Regressor& regressor, double coefficient) {
+  const double at = regressor.values.front();
+  if (regressor.fixed) return at;
+  if (coefficient <= 0.0) return is_odd(regressor) ? at * coefficient : 0.0;
+  return at * std::pow(coefficient, 1.0 / regressor.power);
 }
 
-double size_slope(const Direction& direction, double coefficient) {
-  if (direction.fixed) return 0.0;
-  const double at = direction.values.front();
-  if (coefficient <= 0.0 && is_odd(direction)) return at;
+double size_slope(const Regressor& regressor, double coefficient) {
+  if (regressor.fixed) return 0.0;
+  const double at = regressor.values.front();
+  if (coefficient <= 0.0 && is_odd(regressor)) return at;
   const double c = std::max(coefficient, 1e-6);
-  return at / direction.power * std::pow(c, 1.0 / direction.power - 1.0);
+  return at / regressor.power * std::pow(c, 1.0 / regressor.power - 1.0);
 }
 
 }  // namespace chaintrue::grid::diagnosis

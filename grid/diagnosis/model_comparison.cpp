@@ -45,7 +45,7 @@ std::vector<std::vector<int>> first_hypotheses(const Session& session,
   std::vector<std::vector<int>> hypotheses = {{}};
   for (std::size_t k = 0; k < scores.causes.size(); ++k) {
     if (options.told && !(scores.causes[k] == *options.told)) continue;
-    if (scores.best_direction[k] >= 0) hypotheses.push_back({scores.best_direction[k]});
+    if (scores.best_regressor[k] >= 0) hypotheses.push_back({scores.best_regressor[k]});
   }
   return hypotheses;
 }
@@ -56,14 +56,14 @@ double ModelComparison::probability(const CandidateModel& model) const {
   return std::exp(model.log_weight - log_total);
 }
 
-double log_prior(const std::vector<Direction>& directions,
+double log_prior(const std::vector<Regressor>& regressors,
                  const std::vector<int>& set,
                  bool pattern) {
   const auto effects = static_cast<double>(model::effects::catalogue().size());
   std::size_t lasting = 0;
   double value = pattern ? std::log(kPatternPrior) : 0.0;
   for (const int k : set) {
-    const Direction& d = directions[static_cast<std::size_t>(k)];
+    const Regressor& d = regressors[static_cast<std::size_t>(k)];
     value += d.log_prior - std::log(effects);
     if (!d.slip) ++lasting;
   }
@@ -88,11 +88,11 @@ SingleScores single_scores(const LinearisedSystem& system,
   metric.ge.resize(1);
   metric.gg.resize(1, 1);
   const std::array<Eigen::Index, 1> first = {0};
-  for (std::size_t k = 0; k < system.directions.size(); ++k) {
-    const Direction& direction = system.directions[k];
-    if (scores.causes.empty() || !(scores.causes.back() == direction.cause)) {
-      scores.causes.push_back(direction.cause);
-      scores.best_direction.push_back(-1);
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+    const Regressor& regressor = system.regressors[k];
+    if (scores.causes.empty() || !(scores.causes.back() == regressor.cause)) {
+      scores.causes.push_back(regressor.cause);
+      scores.best_regressor.push_back(-1);
       terms.emplace_back();
       best.push_back(kMinusInfinity);
     }
@@ -100,13 +100,13 @@ SingleScores single_scores(const LinearisedSystem& system,
     if (!(square(at) > 1e-8)) continue;
     metric.ge(0) = c(at);
     metric.gg(0, 0) = square(at);
-    const std::vector<Direction> one = {direction};
+    const std::vector<Regressor> one = {regressor};
     const double factor =
-        set_evidence(metric, one, first, noise).log_evidence - nothing + direction.log_prior;
+        set_evidence(metric, one, first, noise).log_evidence - nothing + regressor.log_prior;
     terms.back().push_back(factor);
     if (factor > best.back()) {
       best.back() = factor;
-      scores.best_direction.back() = static_cast<int>(k);
+      scores.best_regressor.back() = static_cast<int>(k);
     }
   }
   for (std::size_t k = 0; k < terms.size(); ++k) {
@@ -126,14 +126,14 @@ std::vector<std::vector<bool>> sets_without_links(const Session& session,
   constexpr double kAlike = 25.0;  // squared, in sigmas: two rows, 1 in 270 000
   const CandidateModel& best = comparison.best();
   const Space& space = comparison.spaces[best.space];
-  const Estimate fitted = estimate(session, system, space, best.directions, -1);
+  const Estimate fitted = estimate(session, system, space, best.regressors, -1);
   std::vector<std::vector<bool>> result;
   for (std::size_t i = 0; i < space.bad.size(); ++i) {
     if (!space.bad[i] || excluded[i]) continue;
     const auto row = system.unit_rows * static_cast<Eigen::Index>(i);
     bool links = false;
-    for (std::size_t k = 0; k < system.directions.size() && !links; ++k) {
-      if (!system.directions[k].fixed) continue;
+    for (std::size_t k = 0; k < system.regressors.size() && !links; ++k) {
+      if (!system.regressors[k].fixed) continue;
       const auto g = system.g.col(static_cast<Eigen::Index>(k)).segment(row, system.unit_rows);
       links =
           g.squaredNorm() > 0.0 && (fitted.left.segment(row, system.unit_rows) - g).squaredNorm() <

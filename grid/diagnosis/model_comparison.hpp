@@ -16,9 +16,9 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// A set of directions, with or without an unknown pattern, and the points set aside.
+/// A set of regressors, with or without an unknown pattern, and the points set aside.
 struct CandidateModel {
-  std::vector<int> directions;  ///< ascending
+  std::vector<int> regressors;  ///< ascending
   int pattern = -1;             ///< number of the unknown pattern, or none
   std::size_t space = 0;        ///< into ModelComparison::spaces
   double log_weight = 0.0;      ///< prior times evidence
@@ -50,8 +50,8 @@ struct ComparisonOptions {
 /// Most causes in one set.
 inline constexpr std::size_t kMostCauses = 4;
 
-/// Prior of a set of directions, of its bad points not.
-[[nodiscard]] double log_prior(const std::vector<Direction>& directions,
+/// Prior of a set of regressors, of its bad points not.
+[[nodiscard]] double log_prior(const std::vector<Regressor>& regressors,
                                const std::vector<int>& set,
                                bool pattern);
 
@@ -59,7 +59,7 @@ inline constexpr std::size_t kMostCauses = 4;
 struct SingleScores {
   std::vector<CauseId> causes;
   std::vector<double> log_factor;
-  std::vector<int> best_direction;
+  std::vector<int> best_regressor;
 };
 [[nodiscard]] SingleScores single_scores(const LinearisedSystem& system,
                                          const Space& space,

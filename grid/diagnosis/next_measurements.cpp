@@ -20,7 +20,7 @@ constexpr double kEnough = 0.97;
 constexpr double kPays = 0.002;  // a measurement that helps less is not worth the way
 
 struct Alternative {
-  std::vector<int> directions;
+  std::vector<int> regressors;
   double probability = 0.0;
   Eigen::VectorXd mean;    ///< of all candidate rows
   Eigen::MatrixXd spread;  ///< rows x unknowns: a square root of the covariance but for the noise
@@ -37,16 +37,16 @@ std::vector<Alternative> leading(const Analysis& a) {
     return a.decision.classes.size();
   };
   std::map<std::vector<std::size_t>, Alternative> groups;
-  const std::size_t together = std::max<std::size_t>(a.decision.directions.size(), 1);
+  const std::size_t together = std::max<std::size_t>(a.decision.regressors.size(), 1);
   for (const CandidateModel& model : a.comparison.models) {
-    if (model.directions.size() != together) continue;
+    if (model.regressors.size() != together) continue;
     std::vector<std::size_t> key;
-    for (const int k : model.directions) {
-      key.push_back(class_of(a.system.directions[static_cast<std::size_t>(k)].cause));
+    for (const int k : model.regressors) {
+      key.push_back(class_of(a.system.regressors[static_cast<std::size_t>(k)].cause));
     }
     std::sort(key.begin(), key.end());
     Alternative& one = groups[key];
-    if (one.probability == 0.0) one.directions = model.directions;
+    if (one.probability == 0.0) one.regressors = model.regressors;
     one.probability += a.comparison.probability(model);
   }
   std::vector<Alternative> result;
@@ -95,7 +95,7 @@ void predict(const Session& session,
              const LinearisedSystem& system,
              Alternative& h) {
   const Space& space = a.comparison.spaces[a.decision.space];
-  const Estimate fitted = estimate(session, a.system, space, h.directions, -1);
+  const Estimate fitted = estimate(session, a.system, space, h.regressors, -1);
   // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
   const Eigen::Index to_come = system.by_setting.cols() - settings;
@@ -104,8 +104,8 @@ void predict(const Session& session,
   Eigen::MatrixXd design(system.by_setting.rows(), settings + free);
   design.leftCols(settings) = system.by_setting.leftCols(settings);
   Eigen::Index column = settings;
-  for (std::size_t k = 0; k < fitted.directions.size(); ++k) {
-    const Direction& d = a.system.directions[static_cast<std::size_t>(fitted.directions[k])];
+  for (std::size_t k = 0; k < fitted.regressors.size(); ++k) {
+    const Regressor& d = a.system.regressors[static_cast<std::size_t>(fitted.regressors[k])];
     const auto g = signature(next, a.state, system, d.cause, d.values);
     const Eigen::VectorXd column_of =
         g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(system.by_setting.rows()));

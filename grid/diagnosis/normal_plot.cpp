@@ -31,7 +31,7 @@ Eigen::MatrixXd left_of_noise(const Analysis& a, std::uint64_t seed) {
   design.leftCols(settings) =
       a.system.by_setting(space.kept, Eigen::all) * a.system.sigma.asDiagonal();
   for (Eigen::Index k = 0; k < causes; ++k) {
-    const int column = a.estimate.directions[a.estimate.free[static_cast<std::size_t>(k)]];
+    const int column = a.estimate.regressors[a.estimate.free[static_cast<std::size_t>(k)]];
     design.col(settings + k) =
         a.system.g(space.kept, column) * kWideDelta / std::max(space.g.col(column).norm(), 1e-12);
   }

@@ -21,7 +21,7 @@ SingleScore::SingleScore(const LinearisedSystem& system, const Space& space, dou
   square_ = space.g.colwise().squaredNorm();
   constant_.resize(square_.size());
   for (Eigen::Index k = 0; k < square_.size(); ++k) {
-    const Direction& d = system.directions[static_cast<std::size_t>(k)];
+    const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
     if (causes_.empty() || !(causes_.back() == d.cause)) causes_.push_back(d.cause);
     cause_of_.push_back(causes_.size() - 1);
     fixed_.push_back(d.fixed);

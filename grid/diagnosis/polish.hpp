@@ -18,9 +18,9 @@ struct Polished {
   std::vector<Refinement> refinements;  ///< of the causes whose size is no whole number
 };
 
-/// What leads: directions of the system, beside an unknown pattern or none (-1).
+/// What leads: regressors of the system, beside an unknown pattern or none (-1).
 struct Leaders {
-  std::vector<int> directions;
+  std::vector<int> regressors;
   int pattern = -1;
 };
 

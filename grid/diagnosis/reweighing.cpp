@@ -51,9 +51,9 @@ std::map<LensKey, std::vector<CandidateModel>> followed(const LinearisedSystem& 
     const LensKey key{model.space, model.pattern};
     if (!is_followed(key)) continue;
     const bool leads = model.log_weight > best - kNegligible && taken < kMostModels;
-    bool first_alone = model.directions.empty();
-    if (model.directions.size() == 1) {
-      const CauseId& cause = system.directions[static_cast<std::size_t>(model.directions[0])].cause;
+    bool first_alone = model.regressors.empty();
+    if (model.regressors.size() == 1) {
+      const CauseId& cause = system.regressors[static_cast<std::size_t>(model.regressors[0])].cause;
       auto& known = alone[key];
       first_alone = std::find(known.begin(), known.end(), cause) == known.end();
       if (first_alone) known.push_back(cause);
@@ -116,7 +116,7 @@ void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Candidate
   lens.pattern = pattern;
   std::vector<int> columns;
   for (const CandidateModel& model : models) {
-    columns.insert(columns.end(), model.directions.begin(), model.directions.end());
+    columns.insert(columns.end(), model.regressors.begin(), model.regressors.end());
   }
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
@@ -145,9 +145,9 @@ void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Candidate
   const NoiseDensity noise(dof_, n);
   for (const CandidateModel& model : models) {
     std::vector<Eigen::Index> set;
-    for (const int k : model.directions) set.push_back(lens.metric.position(k));
+    for (const int k : model.regressors) set.push_back(lens.metric.position(k));
     const double evidence =
-        set_evidence(lens.metric, a_.system.directions, set, noise).log_evidence;
+        set_evidence(lens.metric, a_.system.regressors, set, noise).log_evidence;
     lens.prior.push_back(model.log_weight - evidence - space.log_bad);
     lens.sets.push_back(std::move(set));
   }
@@ -189,10 +189,10 @@ Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) 
         std::count_if(points.begin(), points.end(), [&](std::size_t i) { return whole.bad[i]; }));
     for (std::size_t k = 0; k < lens.models.size(); ++k) {
       const CandidateModel& model = lens.models[k];
-      if (!known.emplace(home, lens.pattern, model.directions).second) continue;
-      const SetEvidence evidence = set_evidence(metric, a_.system.directions, lens.sets[k], noise);
+      if (!known.emplace(home, lens.pattern, model.regressors).second) continue;
+      const SetEvidence evidence = set_evidence(metric, a_.system.regressors, lens.sets[k], noise);
       if (!std::isfinite(evidence.log_evidence)) continue;
-      comparison.models.push_back({model.directions,
+      comparison.models.push_back({model.regressors,
                                    lens.pattern,
                                    home,
                                    lens.prior[k] + evidence.log_evidence + bad * price,

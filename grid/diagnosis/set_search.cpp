@@ -15,16 +15,16 @@ constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
 /// What is so far below the best does not count.
 constexpr double kNegligible = 16.0;
-/// Directions with a whole number that are kept for the search of pairs.
+/// Regressors with a whole number that are kept for the search of pairs.
 constexpr std::size_t kKeptFixed = 60;
 /// Pairs and triples from which larger sets are searched.
 constexpr std::size_t kBeam = 24;
 /// Sets that are also tried beside an unknown pattern.
 constexpr std::size_t kBesidePattern = 24;
 
-/// May two directions act together: one cause acts at one place, and an effect that acts on both
+/// May two regressors act together: one cause acts at one place, and an effect that acts on both
 /// chains alike not also on one of them.
-bool compatible(const Direction& a, const Direction& b) {
+bool compatible(const Regressor& a, const Regressor& b) {
   if (a.cause.effect != b.cause.effect) return true;
   using model::effects::EffectSide;
   const auto joint = [](EffectSide s) { return s == EffectSide::both || s == EffectSide::none; };
@@ -69,16 +69,16 @@ class SetSearch::Search {
   [[nodiscard]] double best() const { return best_; }
 
  private:
-  /// Directions worth their place: those of no whole number, and of the others the best, alone or
-  /// once one of the leading directions has taken its share.
+  /// Regressors worth their place: those of no whole number, and of the others the best, alone or
+  /// once one of the leading regressors has taken its share.
   [[nodiscard]] std::vector<int> columns() const {
     std::vector<int> kept;
     std::vector<int> fixed;
-    const auto count = static_cast<int>(system_.directions.size());
+    const auto count = static_cast<int>(system_.regressors.size());
     const Eigen::VectorXd c = space_.g.transpose() * space_.e;
     const Eigen::VectorXd square = space_.g.colwise().squaredNorm();
     for (int k = 0; k < count; ++k) {
-      const Direction& d = system_.directions[static_cast<std::size_t>(k)];
+      const Regressor& d = system_.regressors[static_cast<std::size_t>(k)];
       if (options_.told && !(d.cause == *options_.told)) continue;
       if (!(square(k) > kLeastSquare)) continue;
       (d.fixed ? fixed : kept).push_back(k);
@@ -117,11 +117,11 @@ class SetSearch::Search {
                   double log_pattern) {
     std::vector<int> chosen;
     for (const Eigen::Index i : set) chosen.push_back(metric.columns[static_cast<std::size_t>(i)]);
-    const SetEvidence evidence = set_evidence(metric, system_.directions, set, noise_);
+    const SetEvidence evidence = set_evidence(metric, system_.regressors, set, noise_);
     if (!std::isfinite(evidence.log_evidence)) return kMinusInfinity;
     CandidateModel model;
-    model.directions = chosen;
-    std::sort(model.directions.begin(), model.directions.end());
+    model.regressors = chosen;
+    std::sort(model.regressors.begin(), model.regressors.end());
     model.pattern = pattern;
     model.space = number_;
     model.log_weight =
@@ -134,9 +134,9 @@ class SetSearch::Search {
   }
 
   [[nodiscard]] double prior(const std::vector<int>& set, bool pattern) const {
-    double value = log_prior(system_.directions, set, pattern);
+    double value = log_prior(system_.regressors, set, pattern);
     if (!options_.steps.average_location) {
-      for (const int k : set) value -= system_.directions[static_cast<std::size_t>(k)].log_prior;
+      for (const int k : set) value -= system_.regressors[static_cast<std::size_t>(k)].log_prior;
     }
     return value;
   }
@@ -151,8 +151,8 @@ class SetSearch::Search {
 
   /// Upper bound of a pair's weight but for what bounds and larger noise add.
   [[nodiscard]] double quick_weight(Eigen::Index i, Eigen::Index j) const {
-    const Direction& a = direction(i);
-    const Direction& b = direction(j);
+    const Regressor& a = regressor(i);
+    const Regressor& b = regressor(j);
     const double aa = metric_.gg(i, i);
     const double bb = metric_.gg(j, j);
     double q = metric_.ee;
@@ -190,7 +190,7 @@ class SetSearch::Search {
     double best = kMinusInfinity;
     for (Eigen::Index i = 0; i < count; ++i) {
       for (Eigen::Index j = 0; j < i; ++j) {
-        if (!compatible(direction(i), direction(j))) continue;
+        if (!compatible(regressor(i), regressor(j))) continue;
         const double weight = quick_weight(i, j);
         if (weight < best - kPairsWithin) continue;
         best = std::max(best, weight);
@@ -221,7 +221,7 @@ class SetSearch::Search {
   }
 
   void extend(const std::vector<Eigen::Index>& parent, std::set<std::vector<Eigen::Index>>& seen) {
-    // What the parent leaves, and of each direction: a score for the cost of one inner product.
+    // What the parent leaves, and of each regressor: a score for the cost of one inner product.
     const Eigen::MatrixXd own = metric_.gg(parent, parent);
     const Eigen::LDLT<Eigen::MatrixXd> ldlt(own);
     const Eigen::VectorXd left =
@@ -229,13 +229,13 @@ class SetSearch::Search {
     std::vector<std::pair<double, Eigen::Index>> order;
     for (Eigen::Index i = 0; i < left.size(); ++i) {
       bool fits = true;
-      for (const Eigen::Index p : parent) fits = fits && compatible(direction(i), direction(p));
+      for (const Eigen::Index p : parent) fits = fits && compatible(regressor(i), regressor(p));
       if (!fits) continue;
       const Eigen::VectorXd x = metric_.gg(parent, i);
       const double square = metric_.gg(i, i) - x.dot(ldlt.solve(x));
       if (!(square > 1e-6 * metric_.gg(i, i))) continue;
-      const double gain = direction(i).fixed ? 2.0 * left(i) - square : left(i) * left(i) / square;
-      order.emplace_back(-gain - 2.0 * direction(i).log_prior, i);
+      const double gain = regressor(i).fixed ? 2.0 * left(i) - square : left(i) * left(i) / square;
+      order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);
     }
     std::sort(order.begin(), order.end());
     for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), kChildren); ++k) {
@@ -255,7 +255,7 @@ class SetSearch::Search {
     std::vector<CauseId> alone;
     for (const Scored& s : scored_) {
       const bool single = s.set.size() == 1;
-      const CauseId cause = direction(s.set.front()).cause;
+      const CauseId cause = regressor(s.set.front()).cause;
       // Every cause alone at its best places, and the best of the others.
       const auto times = std::count(alone.begin(), alone.end(), cause);
       if (single ? times >= 2 : taken[s.set.size()] >= kBesidePattern / 2) continue;
@@ -288,9 +288,9 @@ class SetSearch::Search {
   };
   static bool heavier(const Scored& a, const Scored& b) { return a.weight > b.weight; }
 
-  [[nodiscard]] const Direction& direction(Eigen::Index i) const {
+  [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
     return system_
-        .directions[static_cast<std::size_t>(metric_.columns[static_cast<std::size_t>(i)])];
+        .regressors[static_cast<std::size_t>(metric_.columns[static_cast<std::size_t>(i)])];
   }
 
   static constexpr double kLeastSquare = 1e-8;

@@ -28,8 +28,8 @@ std::optional<std::size_t> made_by(const Session& session, const Stability& stab
 bool may_be_refused(const Analysis& a) {
   const Verdict verdict = a.decision.verdict;
   if (verdict != Verdict::named && verdict != Verdict::several_causes) return false;
-  return std::none_of(a.decision.directions.begin(), a.decision.directions.end(), [&](int k) {
-    return direction(a, k).fixed;
+  return std::none_of(a.decision.regressors.begin(), a.decision.regressors.end(), [&](int k) {
+    return regressor(a, k).fixed;
   });
 }
 
@@ -52,7 +52,7 @@ std::optional<std::string> refuse_name_of_one_reading(const Session& session,
   a.estimate = estimate(session,
                         a.system,
                         space_of(a),
-                        a.decision.directions,
+                        a.decision.regressors,
                         a.decision.pattern_left ? a.decision.best_pattern : -1);
   return fmt::format(
       "Point {} by itself would make a name of it ({}{}, {:.0f} %); without it nothing is named. A "

@@ -48,8 +48,8 @@ class Statement {
   [[nodiscard]] bool holds(const CandidateModel& model) const {
     const auto acts = [&](std::size_t index) {
       const CauseClass& members = a_.decision.classes[index];
-      return std::any_of(model.directions.begin(), model.directions.end(), [&](int k) {
-        return std::find(members.begin(), members.end(), direction(a_, k).cause) != members.end();
+      return std::any_of(model.regressors.begin(), model.regressors.end(), [&](int k) {
+        return std::find(members.begin(), members.end(), regressor(a_, k).cause) != members.end();
       });
     };
     const auto& listed = a_.decision.listed;

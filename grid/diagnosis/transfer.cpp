@@ -67,8 +67,8 @@ Eigen::VectorXd left_of(const Session& from,
   const Space& space = a.comparison.spaces[a.decision.space];
   Eigen::VectorXd left =
       system.e - system.by_setting.leftCols(machine) * model.setting_change.head(machine);
-  for (std::size_t k = 0; k < model.directions.size(); ++k) {
-    const Direction& d = a.system.directions[static_cast<std::size_t>(model.directions[k])];
+  for (std::size_t k = 0; k < model.regressors.size(); ++k) {
+    const Regressor& d = a.system.regressors[static_cast<std::size_t>(model.regressors[k])];
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
     // only where the order of the visits is known.
     if (d.cause.effect->misread != nullptr) continue;
@@ -144,10 +144,10 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
                                            "a point of the other grid cannot be reached"});
   }
   const Space& space = a->comparison.spaces[a->decision.space];
-  const std::vector<int>& causes = a->decision.directions;
+  const std::vector<int>& causes = a->decision.regressors;
   const Placed place(*second, *system);
-  const auto predicted_by = [&](const std::vector<int>& directions, int pattern) {
-    const Estimate model = estimate(*first, a->system, space, directions, pattern);
+  const auto predicted_by = [&](const std::vector<int>& regressors, int pattern) {
+    const Estimate model = estimate(*first, a->system, space, regressors, pattern);
     return summary(
         *second, *system, place(left_of(*first, *a, model, *second, *system)), options.seed);
   };

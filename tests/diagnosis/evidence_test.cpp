@@ -34,13 +34,13 @@ LinearisedSystem small_system(double lowest) {
   system.setting = Eigen::VectorXd::Zero(1);
   system.expected_change = Eigen::VectorXd::Constant(1, 0.4);
   system.sigma = Eigen::VectorXd::Constant(1, 2.0);
-  Direction direction;
-  direction.cause = {model::effects::find_effect("chain_stretch"),
+  Regressor regressor;
+  regressor.cause = {model::effects::find_effect("chain_stretch"),
                      model::effects::EffectSide::none};
-  direction.values = {1.0};
-  direction.lowest = lowest;
-  direction.highest = 100.0;
-  system.directions = {direction};
+  regressor.values = {1.0};
+  regressor.lowest = lowest;
+  regressor.highest = 100.0;
+  system.regressors = {regressor};
   return system;
 }
 
@@ -116,7 +116,7 @@ TEST(Evidence, OfNothingEqualsTheIntegral) {
   const Space space = make_space(system, {false, false, false}, {});
   const Metric metric = plain_metric(space, {0});
   const NoiseDensity noise(kDof, 6);
-  const double closed = set_evidence(metric, system.directions, {}, noise).log_evidence;
+  const double closed = set_evidence(metric, system.regressors, {}, noise).log_evidence;
   EXPECT_NEAR(closed, brute_force(system, space, -100.0, false), 2e-4)  // raster of 120 by 120
       << "settings integrated in closed form";
 }
@@ -128,7 +128,7 @@ TEST(Evidence, OfACauseEqualsTheIntegral) {
     const Metric metric = plain_metric(space, {0});
     const NoiseDensity noise(kDof, 6);
     const std::array<Eigen::Index, 1> set = {0};
-    const double closed = set_evidence(metric, system.directions, set, noise).log_evidence;
+    const double closed = set_evidence(metric, system.regressors, set, noise).log_evidence;
     // Where the size is cut at zero the closed form takes the noise at its mean for the cut alone.
     const double tolerance = lowest == 0.0 ? 0.02 : 2e-3;
     EXPECT_NEAR(closed, brute_force(system, space, lowest, true), tolerance) << "from " << lowest;

@@ -38,8 +38,8 @@ double probability_that_all_act(const Analysis& a, const ModelComparison& compar
     const bool all =
         std::all_of(a.decision.listed.begin(), a.decision.listed.end(), [&](std::size_t index) {
           const CauseClass& members = a.decision.classes[index];
-          return std::any_of(model.directions.begin(), model.directions.end(), [&](int k) {
-            return std::find(members.begin(), members.end(), direction(a, k).cause) !=
+          return std::any_of(model.regressors.begin(), model.regressors.end(), [&](int k) {
+            return std::find(members.begin(), members.end(), regressor(a, k).cause) !=
                    members.end();
           });
         });
@@ -87,7 +87,7 @@ TEST(Reweighing, OfAllPointsIsTheComparison) {
   const Reweighing reweighing(*session, *a, verdict_alone());
   const auto all = reweighing.without({});
   EXPECT_TRUE(all.seen);
-  EXPECT_EQ(all.comparison.best().directions, a->comparison.best().directions);
+  EXPECT_EQ(all.comparison.best().regressors, a->comparison.best().regressors);
   // Two factorisations of one matrix.
   EXPECT_NEAR(all.comparison.best().log_weight, a->comparison.best().log_weight, 1e-6);
   EXPECT_NEAR(probability_that_all_act(*a, all.comparison),
