@@ -51,8 +51,8 @@ tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const St
     if (!system) return tl::unexpected(unreachable(session, system.error()));
     system->g.resize(session.rows(), 0);
     const auto bad = bad_point_sets(session, *system, none, {{}}, projected).front();
-    const Space space = make_space(*system, bad, projected);
-    const Eigen::VectorXd change = estimate(session, *system, space, {}, -1).setting_change;
+    const MarginalisedSystem marginalised = marginalise(*system, bad, projected);
+    const Eigen::VectorXd change = estimate(session, *system, marginalised, {}, -1).setting_change;
     state = with_settings(session, state, system->setting + change);
     const auto problems = model::problems_of(state.machine);
     if (!problems.empty()) return tl::unexpected(impossible(session, problems.front()));
@@ -67,14 +67,14 @@ tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const St
 constexpr double kLeastReach = 4.0;
 
 /// Takes effects out that could not show at any size that they may have.
-void drop_invisible(const Space& space, Analysis& a) {
+void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
   const auto reach = [&](const CauseId& cause) {
     double most = 0.0;
     for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
       const Regressor& d = a.system.regressors[k];
       if (!(d.cause == cause)) continue;
       const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
-      most = std::max(most, size * space.g.col(static_cast<Eigen::Index>(k)).norm());
+      most = std::max(most, size * marginalised.g.col(static_cast<Eigen::Index>(k)).norm());
     }
     return most;
   };
@@ -144,11 +144,12 @@ Decision decide_beside_discrepancy(const Session& session,
   }
   // A pattern that nobody knows looks somewhat like this cause or that: what is named must explain
   // nearly all that noise does not.
-  const Space& space = comparison.spaces[decision.space];
+  const MarginalisedSystem& marginalised = comparison.marginalised_systems[decision.marginalised];
   const auto unexplained = [&](const std::vector<int>& regressors) {
-    const Estimate fitted = estimate(session, system, space, regressors, -1);
+    const Estimate fitted = estimate(session, system, marginalised, regressors, -1);
     const Eigen::VectorXd left = left_of_machine(system, fitted, fitted.left);
-    return square_in_noise(system, space.kept, left) - static_cast<double>(space.kept.size());
+    return square_in_noise(system, marginalised.kept, left) -
+           static_cast<double>(marginalised.kept.size());
   };
   const double before = unexplained({});
   const double after = unexplained(decision.regressors);
@@ -167,18 +168,20 @@ void compare_and_decide(const Session& session,
   a.decision = decide_beside_discrepancy(session, a.system, a.comparison, none, seen);
   a.estimate = estimate(session,
                         a.system,
-                        a.comparison.spaces[a.decision.space],
+                        a.comparison.marginalised_systems[a.decision.marginalised],
                         a.decision.regressors,
                         a.decision.pattern_left ? a.decision.best_pattern : -1);
 }
 
 void test_significance(const Session& session, const DiagnosisOptions& options, Analysis& a) {
-  const Space& space = a.comparison.spaces[a.comparison.best().space];
-  const SingleScore score(a.system, space, options.steps.anchor_noise ? session.noise_dof : 1e-3);
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.comparison.best().marginalised];
+  const SingleScore score(
+      a.system, marginalised, options.steps.anchor_noise ? session.noise_dof : 1e-3);
   // Enough draws for a family-wise 1 in 100; fewer where one draw is long.
   const int draws = session.units() > 150 ? 2000 : 4000;
-  a.null = draw_null(score, space.e.size(), draws, options.seed);
-  a.score = score.by_cause(space.e).maxCoeff();
+  a.null = draw_null(score, marginalised.e.size(), draws, options.seed);
+  a.score = score.by_cause(marginalised.e).maxCoeff();
   a.family_wise_p = a.null.p_value(a.score);
 }
 
@@ -200,15 +203,19 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     a.system = std::move(*system);
     add_regressors(session, a.state, a.candidates.testable, known, a.system);
     const std::vector<bool> none(session.units(), false);
-    const Space space = make_space(a.system, none, options.steps);
-    share_out_links(space, a.system);
-    if (pass == 0) drop_invisible(space, a);
+    const MarginalisedSystem marginalised = marginalise(a.system, none, options.steps);
+    share_out_links(marginalised, a.system);
+    if (pass == 0) drop_invisible(marginalised, a);
     compare_and_decide(session, comparison, true, a);
     if (pass + 1 == kPasses || a.decision.regressors.empty()) break;
     const Decision& decision = a.decision;
     const Leaders leaders{decision.regressors, decision.pattern_left ? decision.best_pattern : -1};
-    Polished polished = polish(
-        session, a.state, a.system, a.comparison.spaces[decision.space], leaders, options.steps);
+    Polished polished = polish(session,
+                               a.state,
+                               a.system,
+                               a.comparison.marginalised_systems[decision.marginalised],
+                               leaders,
+                               options.steps);
     known = std::move(polished.refinements);
     a.state = std::move(polished.state);
   }
@@ -218,7 +225,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     a.decision = decide_beside_discrepancy(session, a.system, a.comparison, none, false);
     a.estimate = estimate(session,
                           a.system,
-                          a.comparison.spaces[a.decision.space],
+                          a.comparison.marginalised_systems[a.decision.marginalised],
                           a.decision.regressors,
                           a.decision.pattern_left ? a.decision.best_pattern : -1);
   }

@@ -21,14 +21,14 @@ constexpr double kAbsorbed = 1e-3;
 /// The most telling regressor of each cause: the longest, and the nearest to the data among those
 /// of a cause with places.
 std::vector<std::pair<CauseId, int>> leading_regressors(const LinearisedSystem& system,
-                                                        const Space& space) {
+                                                        const MarginalisedSystem& marginalised) {
   std::vector<std::pair<CauseId, int>> result;
   double best = -1.0;
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {
-    const auto column = space.g.col(static_cast<Eigen::Index>(k));
+    const auto column = marginalised.g.col(static_cast<Eigen::Index>(k));
     const double length = column.norm();
     if (!(length > 1e-4)) continue;
-    const double score = std::abs(column.dot(space.e)) / length;
+    const double score = std::abs(column.dot(marginalised.e)) / length;
     if (result.empty() || !(result.back().first == system.regressors[k].cause)) {
       result.emplace_back(system.regressors[k].cause, static_cast<int>(k));
       best = score;
@@ -130,7 +130,7 @@ class Decider {
   }
 
   void share_abstention(const CandidateModel& model, double p) {
-    const bool bad = comparison_.spaces[model.space].bad != excluded_;
+    const bool bad = comparison_.marginalised_systems[model.marginalised].bad != excluded_;
     if (model.pattern >= 0) {
       result_.unknown += p;
     } else if (bad) {
@@ -177,12 +177,12 @@ class Decider {
     const CandidateModel* model = grouped.best != nullptr ? grouped.best : grouped.with_pattern;
     if (model == nullptr) return;
     result_.regressors = model->regressors;
-    result_.space = model->space;
+    result_.marginalised = model->marginalised;
     if (grouped.with_pattern != nullptr) result_.best_pattern = grouped.with_pattern->pattern;
     result_.pattern_left = grouped.pattern > 0.5 * grouped.probability;
     if (result_.pattern_left) {
       result_.regressors = grouped.with_pattern->regressors;
-      result_.space = grouped.with_pattern->space;
+      result_.marginalised = grouped.with_pattern->marginalised;
     }
   }
 
@@ -296,21 +296,22 @@ Eigen::MatrixXd range_of_settings(const LinearisedSystem& system, const Eigen::M
 
 }  // namespace
 
-std::vector<CauseClass> classes_of(const LinearisedSystem& system, const Space& space) {
+std::vector<CauseClass> classes_of(const LinearisedSystem& system,
+                                   const MarginalisedSystem& marginalised) {
   // Free settings: what a class shares must not hang on how well the settings were stated.
-  const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(system, space.kept);
+  const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(system, marginalised.kept);
   const auto seen = [&](Eigen::MatrixXd columns) {
     if (system.nuisances > 0) noise.matrixL().solveInPlace(columns);
     return columns;
   };
   const Eigen::Index settings = system.by_setting.cols() - system.nuisances;
-  const Eigen::MatrixXd basis =
-      range_of_settings(system, seen(system.by_setting.leftCols(settings)(space.kept, Eigen::all)));
+  const Eigen::MatrixXd basis = range_of_settings(
+      system, seen(system.by_setting.leftCols(settings)(marginalised.kept, Eigen::all)));
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
-  for (const auto& [cause, column] : leading_regressors(system, space)) {
-    Representative own{seen(system.g(space.kept, column)),
-                       space.g.col(column),
+  for (const auto& [cause, column] : leading_regressors(system, marginalised)) {
+    Representative own{seen(system.g(marginalised.kept, column)),
+                       marginalised.g.col(column),
                        system.regressors[static_cast<std::size_t>(column)].fixed};
     const double whole = own.free.norm();
     own.free -= basis * (basis.transpose() * own.free);
@@ -338,11 +339,12 @@ Decision decide(const LinearisedSystem& system,
                 const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
                 bool seen) {
-  return decide(system,
-                comparison,
-                excluded,
-                seen,
-                classes_of(system, comparison.spaces[comparison.best().space]));
+  return decide(
+      system,
+      comparison,
+      excluded,
+      seen,
+      classes_of(system, comparison.marginalised_systems[comparison.best().marginalised]));
 }
 
 Decision decide(const LinearisedSystem& system,

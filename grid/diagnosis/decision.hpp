@@ -26,7 +26,7 @@ inline constexpr double kPatternPossible = 0.25;
 /// first: a cause in the machine before one on the paper.
 using CauseClass = std::vector<CauseId>;
 [[nodiscard]] std::vector<CauseClass> classes_of(const LinearisedSystem& system,
-                                                 const Space& space);
+                                                 const MarginalisedSystem& marginalised);
 
 struct ClassProbability {
   std::size_t index = 0;  ///< into the classes
@@ -47,11 +47,12 @@ struct Decision {
   /// The causes of the verdict (indices into classes): the one named, the set, or those that act
   /// together.
   std::vector<std::size_t> listed;
-  /// What goes into the model: one regressor a cause, the pattern that is left or -1, the space.
+  /// What goes into the model: one regressor a cause, the pattern that is left or -1, the
+  /// marginalised system.
   std::vector<int> regressors;
   int best_pattern = -1;
   bool pattern_left = false;
-  std::size_t space = 0;
+  std::size_t marginalised = 0;
 };
 
 /// `seen`: the strongest effect is beyond what noise does (family-wise).
@@ -59,8 +60,8 @@ struct Decision {
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool seen);
-/// The same with the classes known: of the comparison's spaces nothing but the points set aside is
-/// asked.
+/// The same with the classes known: of the comparison's marginalised systems nothing but the points
+/// set aside is asked.
 [[nodiscard]] Decision decide(const LinearisedSystem& system,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,

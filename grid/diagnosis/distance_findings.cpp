@@ -18,10 +18,10 @@ std::string words_of_ends(const DistancePicture& distance) {
 }
 
 std::vector<BadPoint> bad_distances_found(const Session& session, const Analysis& a) {
-  const Space& space = space_of(a);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
   std::vector<BadPoint> result;
   for (std::size_t k = 0; k < session.units(); ++k) {
-    if (!space.bad[k]) continue;
+    if (!marginalised.bad[k]) continue;
     const auto row = static_cast<Eigen::Index>(k);
     // All that the others know of its holes is in the prediction, with what they leave open.
     const Eigen::RowVectorXd by_setting = a.system.by_setting.row(row);
@@ -55,10 +55,10 @@ std::vector<HolePicture> hole_pictures(const Session& session, const Analysis& a
 
 std::vector<DistancePicture> distance_pictures(const Session& session, const Analysis& a) {
   if (!session.distances) return {};
-  const Space& space = space_of(a);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
   const MeasuredHoles& set = session.distances->set();
   const auto of_machine = [&](const std::vector<int>& regressors) {
-    const Estimate fitted = estimate(session, a.system, space, regressors, -1);
+    const Estimate fitted = estimate(session, a.system, marginalised, regressors, -1);
     return left_of_machine(a.system, fitted, fitted.left);
   };
   const Shown sets = shown(a);
@@ -77,7 +77,7 @@ std::vector<DistancePicture> distance_pictures(const Session& session, const Ana
     picture.from = set.holes[distance.from].name;
     picture.to =
         distance.edge ? std::string(grid::name(*distance.edge)) : set.holes[distance.to].name;
-    picture.bad = space.bad[k];
+    picture.bad = marginalised.bad[k];
     picture.read_mm = length_of(set, distance);
     picture.before_mm = mm(before);
     picture.after_mm = mm(after);

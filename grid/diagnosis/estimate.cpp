@@ -46,7 +46,7 @@ Solution solve(const Unknowns& unknowns,
 
 Estimate estimate(const Session& session,
                   const LinearisedSystem& system,
-                  const Space& space,
+                  const MarginalisedSystem& marginalised,
                   const std::vector<int>& regressors,
                   int pattern) {
   Estimate result;
@@ -66,9 +66,9 @@ Estimate estimate(const Session& session,
   Eigen::LLT<Eigen::MatrixXd> noise;
   Pattern shape;
   if (pattern >= 0) {
-    shape = pattern_of(space, pattern);
+    shape = pattern_of(marginalised, pattern);
     Eigen::MatrixXd c = shape.sigma_mm * shape.sigma_mm *
-                        pattern_covariance(session, system, space.kept, shape.shape);
+                        pattern_covariance(session, system, marginalised.kept, shape.shape);
     c.diagonal().array() += 1.0;
     noise.compute(c);
   }
@@ -77,18 +77,19 @@ Estimate estimate(const Session& session,
   while (true) {
     const auto free = static_cast<Eigen::Index>(result.free.size());
     Unknowns unknowns{
-        Eigen::MatrixXd(static_cast<Eigen::Index>(space.kept.size()), settings + free),
+        Eigen::MatrixXd(static_cast<Eigen::Index>(marginalised.kept.size()), settings + free),
         Eigen::VectorXd::Zero(settings + free),
         Eigen::VectorXd(settings + free)};
-    unknowns.design.leftCols(settings) = system.by_setting(space.kept, Eigen::all);
+    unknowns.design.leftCols(settings) = system.by_setting(marginalised.kept, Eigen::all);
     unknowns.mean.head(settings) = system.expected_change;
     unknowns.sigma.head(settings) = system.sigma;
     for (Eigen::Index k = 0; k < free; ++k) {
       const int column = regressors[result.free[static_cast<std::size_t>(k)]];
-      unknowns.design.col(settings + k) = system.g(space.kept, column);
-      unknowns.sigma(settings + k) = kWideDelta / std::max(space.g.col(column).norm(), 1e-12);
+      unknowns.design.col(settings + k) = system.g(marginalised.kept, column);
+      unknowns.sigma(settings + k) =
+          kWideDelta / std::max(marginalised.g.col(column).norm(), 1e-12);
     }
-    solution = solve(unknowns, data(space.kept), pattern >= 0 ? &noise : nullptr);
+    solution = solve(unknowns, data(marginalised.kept), pattern >= 0 ? &noise : nullptr);
     std::size_t outside = result.free.size();
     for (std::size_t k = 0; k < result.free.size(); ++k) {
       const Regressor& d = system.regressors[static_cast<std::size_t>(regressors[result.free[k]])];
@@ -114,17 +115,18 @@ Estimate estimate(const Session& session,
   }
   result.left = left;
   result.left_beside_pattern = left;
-  const Eigen::VectorXd kept = left(space.kept);
+  const Eigen::VectorXd kept = left(marginalised.kept);
   double quadratic = kept.squaredNorm();
   if (pattern >= 0) {
     result.pattern = shape;
     result.pattern_weights = noise.solve(kept);
     quadratic = kept.dot(result.pattern_weights);
-    result.left_beside_pattern -= pattern_in_rows(session, system, space, result);
+    result.left_beside_pattern -= pattern_in_rows(session, system, marginalised, result);
   }
   const Eigen::VectorXd off =
       (result.setting_change - system.expected_change).cwiseQuotient(system.sigma);
-  const NoiseDensity density(session.noise_dof, static_cast<Eigen::Index>(space.kept.size()));
+  const NoiseDensity density(session.noise_dof,
+                             static_cast<Eigen::Index>(marginalised.kept.size()));
   result.noise_square = density.noise_square(quadratic + off.squaredNorm());
   result.covariance = solution.covariance * result.noise_square;
   result.setting_covariance = result.covariance.topLeftCorner(settings, settings);
@@ -137,7 +139,7 @@ Estimate estimate(const Session& session,
     const auto at = static_cast<Eigen::Index>(k);
     const bool is_fixed = system.regressors[static_cast<std::size_t>(regressors[k])].fixed;
     if (is_fixed || result.coefficient_sigma(at) > 0.0) continue;
-    const double length = std::max(space.g.col(regressors[k]).norm(), 1e-12);
+    const double length = std::max(marginalised.g.col(regressors[k]).norm(), 1e-12);
     result.coefficient_sigma(at) = std::sqrt(result.noise_square) / length;
   }
   return result;
@@ -145,13 +147,13 @@ Estimate estimate(const Session& session,
 
 Eigen::Vector2d pattern_at(const Session& session,
                            const LinearisedSystem& system,
-                           const Space& space,
+                           const MarginalisedSystem& marginalised,
                            const Estimate& estimate,
                            const PatternPlace& place) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
   const Eigen::Index size = system.unit_rows;
   for (Eigen::Index a = 0; a + size <= estimate.pattern_weights.size(); a += size) {
-    const Eigen::Index row = space.kept[static_cast<std::size_t>(a)];
+    const Eigen::Index row = marginalised.kept[static_cast<std::size_t>(a)];
     if (row >= session.observed_rows()) break;
     const auto weights = estimate.pattern_weights.segment(a, size);
     for (const SeenPlace& seen : system.units[static_cast<std::size_t>(row / size)]) {
@@ -165,12 +167,12 @@ Eigen::Vector2d pattern_at(const Session& session,
 
 Eigen::VectorXd pattern_in_rows(const Session& session,
                                 const LinearisedSystem& system,
-                                const Space& space,
+                                const MarginalisedSystem& marginalised,
                                 const Estimate& estimate) {
   std::vector<Eigen::Vector2d> chains;
   for (std::size_t i = 0; i < system.points.size(); ++i) {
     chains.push_back(
-        pattern_at(session, system, space, estimate, pattern_place(session, system, i)));
+        pattern_at(session, system, marginalised, estimate, pattern_place(session, system, i)));
   }
   Eigen::VectorXd all = Eigen::VectorXd::Zero(session.rows());
   for (std::size_t u = 0; u < system.units.size(); ++u) {

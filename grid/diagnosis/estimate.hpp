@@ -32,21 +32,21 @@ struct Estimate {
 /// stays at the bound.
 [[nodiscard]] Estimate estimate(const Session& session,
                                 const LinearisedSystem& system,
-                                const Space& space,
+                                const MarginalisedSystem& marginalised,
                                 const std::vector<int>& regressors,
                                 int pattern);
 
 /// What the unknown pattern adds to either chain at a place [mm]; zero where the estimate has none.
 [[nodiscard]] Eigen::Vector2d pattern_at(const Session& session,
                                          const LinearisedSystem& system,
-                                         const Space& space,
+                                         const MarginalisedSystem& marginalised,
                                          const Estimate& estimate,
                                          const PatternPlace& place);
 
 /// The same in the whitened rows, all of them.
 [[nodiscard]] Eigen::VectorXd pattern_in_rows(const Session& session,
                                               const LinearisedSystem& system,
-                                              const Space& space,
+                                              const MarginalisedSystem& marginalised,
                                               const Estimate& estimate);
 
 /// `left` with what the nuisances took put back: what the machine leaves. For points `left` itself.

@@ -28,10 +28,10 @@ double log_mass(double mean, double sigma, double low, double high) {
 /// L^-1 W K W' L^-T for a pattern of 1 mm.
 Eigen::MatrixXd reduced_pattern(const LinearisedSystem& system,
                                 const Session& session,
-                                const Space& space,
+                                const MarginalisedSystem& marginalised,
                                 const PatternShape& shape) {
-  Eigen::MatrixXd c = pattern_covariance(session, system, space.kept, shape);
-  const auto lower = space.factor.triangularView<Eigen::Lower>();
+  Eigen::MatrixXd c = pattern_covariance(session, system, marginalised.kept, shape);
+  const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
   c = lower.solve(c).eval();
   return lower.solve(c.transpose()).eval();
 }
@@ -83,31 +83,33 @@ double log_price_of_bad(const LinearisedSystem& system) {
              std::log(2.0 * std::numbers::pi * kBadPointSpread * kBadPointSpread);
 }
 
-Space make_space(const LinearisedSystem& system, const std::vector<bool>& bad, const Steps& steps) {
-  Space space;
-  space.bad = bad;
+MarginalisedSystem marginalise(const LinearisedSystem& system,
+                               const std::vector<bool>& bad,
+                               const Steps& steps) {
+  MarginalisedSystem marginalised;
+  marginalised.bad = bad;
   for (Eigen::Index row = 0; row < system.e.size(); ++row) {
     const auto unit = static_cast<std::size_t>(row / system.unit_rows);
-    if (unit >= bad.size() || !bad[unit]) space.kept.push_back(row);
+    if (unit >= bad.size() || !bad[unit]) marginalised.kept.push_back(row);
   }
   const auto set_aside = static_cast<double>(std::count(bad.begin(), bad.end(), true));
-  space.log_bad = set_aside * log_price_of_bad(system);
-  const Eigen::MatrixXd a = system.by_setting(space.kept, Eigen::all);
+  marginalised.log_bad = set_aside * log_price_of_bad(system);
+  const Eigen::MatrixXd a = system.by_setting(marginalised.kept, Eigen::all);
   Eigen::MatrixXd v = Eigen::MatrixXd::Identity(a.rows(), a.rows());
   if (steps.project_settings) {
     const Eigen::MatrixXd scaled = a * system.sigma.asDiagonal();
     v += scaled * scaled.transpose();
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(v);
-  space.factor = llt.matrixL();
-  space.log_det = 2.0 * space.factor.diagonal().array().log().sum();
-  const auto lower = space.factor.triangularView<Eigen::Lower>();
-  space.e = system.e(space.kept);
-  if (steps.project_settings) space.e -= a * system.expected_change;
-  lower.solveInPlace(space.e);
-  space.g = system.g(space.kept, Eigen::all);
-  lower.solveInPlace(space.g);
-  return space;
+  marginalised.factor = llt.matrixL();
+  marginalised.log_det = 2.0 * marginalised.factor.diagonal().array().log().sum();
+  const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
+  marginalised.e = system.e(marginalised.kept);
+  if (steps.project_settings) marginalised.e -= a * system.expected_change;
+  lower.solveInPlace(marginalised.e);
+  marginalised.g = system.g(marginalised.kept, Eigen::all);
+  lower.solveInPlace(marginalised.g);
+  return marginalised;
 }
 
 Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const LinearisedSystem& system,
@@ -134,9 +136,9 @@ double length_in_noise(const LinearisedSystem& system,
   return std::sqrt(square_in_noise(system, kept, column));
 }
 
-Eigen::VectorXd reduced(const Space& space, const Eigen::VectorXd& column) {
-  Eigen::VectorXd result = column(space.kept);
-  space.factor.triangularView<Eigen::Lower>().solveInPlace(result);
+Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::VectorXd& column) {
+  Eigen::VectorXd result = column(marginalised.kept);
+  marginalised.factor.triangularView<Eigen::Lower>().solveInPlace(result);
   return result;
 }
 
@@ -145,33 +147,34 @@ Eigen::Index Metric::position(int column) const {
   return static_cast<Eigen::Index>(found - columns.begin());
 }
 
-Metric plain_metric(const Space& space, std::vector<int> columns) {
+Metric plain_metric(const MarginalisedSystem& marginalised, std::vector<int> columns) {
   Metric metric;
   std::sort(columns.begin(), columns.end());
   metric.columns = std::move(columns);
-  const Eigen::MatrixXd g = space.g(Eigen::all, metric.columns);
-  metric.ee = space.e.squaredNorm();
-  metric.ge = g.transpose() * space.e;
+  const Eigen::MatrixXd g = marginalised.g(Eigen::all, metric.columns);
+  metric.ee = marginalised.e.squaredNorm();
+  metric.ge = g.transpose() * marginalised.e;
   metric.gg = g.transpose() * g;
-  metric.log_det = space.log_det;
+  metric.log_det = marginalised.log_det;
   return metric;
 }
 
 std::vector<Metric> pattern_metrics(const LinearisedSystem& system,
                                     const Session& session,
-                                    Space& space,
+                                    MarginalisedSystem& marginalised,
                                     const std::vector<int>& columns) {
   std::vector<int> sorted = columns;
   std::sort(sorted.begin(), sorted.end());
   std::vector<Metric> metrics;
-  space.pattern_trace.clear();
+  marginalised.pattern_trace.clear();
   for (const PatternShape& shape : kPatternShapes) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        reduced_pattern(system, session, space, shape));
+        reduced_pattern(system, session, marginalised, shape));
     const Eigen::ArrayXd values = eigen.eigenvalues().array().max(0.0);
-    space.pattern_trace.push_back(values.sum());
-    const Eigen::VectorXd e = eigen.eigenvectors().transpose() * space.e;
-    const Eigen::MatrixXd g = eigen.eigenvectors().transpose() * space.g(Eigen::all, sorted).eval();
+    marginalised.pattern_trace.push_back(values.sum());
+    const Eigen::VectorXd e = eigen.eigenvectors().transpose() * marginalised.e;
+    const Eigen::MatrixXd g =
+        eigen.eigenvectors().transpose() * marginalised.g(Eigen::all, sorted).eval();
     for (const double delta : kPatternDeltas) {
       const Eigen::ArrayXd variance = 1.0 + values * (delta * delta / values.sum());
       const Eigen::VectorXd weight = variance.inverse();
@@ -180,17 +183,17 @@ std::vector<Metric> pattern_metrics(const LinearisedSystem& system,
       metric.ee = e.cwiseProduct(weight).dot(e);
       metric.ge = g.transpose() * weight.cwiseProduct(e);
       metric.gg = g.transpose() * weight.asDiagonal() * g;
-      metric.log_det = space.log_det + variance.log().sum();
+      metric.log_det = marginalised.log_det + variance.log().sum();
       metrics.push_back(std::move(metric));
     }
   }
   return metrics;
 }
 
-Pattern pattern_of(const Space& space, int index) {
+Pattern pattern_of(const MarginalisedSystem& marginalised, int index) {
   const auto deltas = static_cast<int>(std::size(kPatternDeltas));
   const int shape = index / deltas;
-  const double trace = space.pattern_trace.at(static_cast<std::size_t>(shape));
+  const double trace = marginalised.pattern_trace.at(static_cast<std::size_t>(shape));
   return {kPatternShapes[shape], kPatternDeltas[index % deltas] / std::sqrt(trace)};
 }
 

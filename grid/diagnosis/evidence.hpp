@@ -58,7 +58,7 @@ class NoiseDensity {
 };
 
 /// The system with the settings integrated out and some points set aside.
-struct Space {
+struct MarginalisedSystem {
   std::vector<bool> bad;           ///< per unit
   std::vector<Eigen::Index> kept;  ///< rows
   Eigen::MatrixXd factor;          ///< lower L of V = L L'
@@ -66,14 +66,14 @@ struct Space {
   Eigen::MatrixXd g;               ///< L^-1
   double log_det = 0.0;            ///< of V
   double log_bad = 0.0;            ///< prior and density of the points set aside
-  /// Per shape: trace of its covariance in this space, for a pattern of 1 mm.
+  /// Per shape: trace of its covariance in this marginalised system, for a pattern of 1 mm.
   std::vector<double> pattern_trace;
 };
 /// Prior and density of one unit set aside.
 [[nodiscard]] double log_price_of_bad(const LinearisedSystem& system);
-[[nodiscard]] Space make_space(const LinearisedSystem& system,
-                               const std::vector<bool>& bad,
-                               const Steps& steps);
+[[nodiscard]] MarginalisedSystem marginalise(const LinearisedSystem& system,
+                                             const std::vector<bool>& bad,
+                                             const Steps& steps);
 /// Square root of the kept rows' covariance with the nuisances unknown but for their sigmas: the
 /// noise as a person sees it. Empty where there are none.
 [[nodiscard]] Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const LinearisedSystem& system,
@@ -86,7 +86,8 @@ struct Space {
                                      const std::vector<Eigen::Index>& kept,
                                      const Eigen::VectorXd& column);
 /// L^-1 of a column of all rows.
-[[nodiscard]] Eigen::VectorXd reduced(const Space& space, const Eigen::VectorXd& column);
+[[nodiscard]] Eigen::VectorXd reduced(const MarginalisedSystem& marginalised,
+                                      const Eigen::VectorXd& column);
 
 /// Inner products of the residual and of some columns.
 struct Metric {
@@ -97,15 +98,16 @@ struct Metric {
   double log_det = 0.0;  ///< of everything that is not noise's scale: V and the pattern
   [[nodiscard]] Eigen::Index position(int column) const;
 };
-[[nodiscard]] Metric plain_metric(const Space& space, std::vector<int> columns);
+[[nodiscard]] Metric plain_metric(const MarginalisedSystem& marginalised, std::vector<int> columns);
 
-/// The unknown pattern beside some columns, at every shape and size; notes the traces in the space.
+/// The unknown pattern beside some columns, at every shape and size; notes the traces in the
+/// marginalised system.
 [[nodiscard]] std::vector<Metric> pattern_metrics(const LinearisedSystem& system,
                                                   const Session& session,
-                                                  Space& space,
+                                                  MarginalisedSystem& marginalised,
                                                   const std::vector<int>& columns);
-/// Shape and size of pattern number `index`, in a space whose traces are noted.
-[[nodiscard]] Pattern pattern_of(const Space& space, int index);
+/// Shape and size of pattern number `index`, in a marginalised system whose traces are noted.
+[[nodiscard]] Pattern pattern_of(const MarginalisedSystem& marginalised, int index);
 
 /// What a set of regressors makes of the data.
 struct SetEvidence {

@@ -49,12 +49,12 @@ Session over_the_area(const Session& session, const Analysis& a) {
 
 }  // namespace
 
-Space without_slips(const Session& session,
-                    const LinearisedSystem& system,
-                    const Space& space,
-                    const std::vector<int>& regressors,
-                    const Steps& steps) {
-  std::vector<bool> bad = space.bad;
+MarginalisedSystem without_slips(const Session& session,
+                                 const LinearisedSystem& system,
+                                 const MarginalisedSystem& marginalised,
+                                 const std::vector<int>& regressors,
+                                 const Steps& steps) {
+  std::vector<bool> bad = marginalised.bad;
   for (const int k : regressors) {
     const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
     if (!d.slip) continue;
@@ -62,16 +62,17 @@ Space without_slips(const Session& session,
       if (session.points[i].order == static_cast<int>(d.values.back())) bad[i] = true;
     }
   }
-  return bad == space.bad ? space : make_space(system, bad, steps);
+  return bad == marginalised.bad ? marginalised : marginalise(system, bad, steps);
 }
 
 namespace {
 
 /// Over the distances as they were read: what is between them has no place of its own.
 ExpectedGain gain_of_distances(const Session& session, const Analysis& a) {
-  const Space& space = a.comparison.spaces[a.decision.space];
-  const Estimate plain = estimate(session, a.system, space, {}, -1);
-  const Estimate named = estimate(session, a.system, space, a.decision.regressors, -1);
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
+  const Estimate plain = estimate(session, a.system, marginalised, {}, -1);
+  const Estimate named = estimate(session, a.system, marginalised, a.decision.regressors, -1);
   const Eigen::VectorXd moved =
       left_of_machine(a.system, plain, plain.left) - left_of_machine(a.system, named, named.left);
   const Eigen::Index settings = a.system.by_setting.cols() - a.system.nuisances;
@@ -103,10 +104,11 @@ ExpectedGain expected_gain(const Session& session, const Analysis& a, const Step
   const auto there = linearise(area, a.state, steps);
   if (!there || area.points.empty()) return {};
   const std::vector<int>& causes = a.decision.regressors;
-  const Space& space = a.comparison.spaces[a.decision.space];
-  const Estimate plain =
-      estimate(session, a.system, without_slips(session, a.system, space, causes, steps), {}, -1);
-  const Estimate named = estimate(session, a.system, space, causes, -1);
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
+  const Estimate plain = estimate(
+      session, a.system, without_slips(session, a.system, marginalised, causes, steps), {}, -1);
+  const Estimate named = estimate(session, a.system, marginalised, causes, -1);
   const Eigen::Index settings = a.system.by_setting.cols();
   Eigen::MatrixXd design(there->by_setting.rows(), named.covariance.rows());
   design.leftCols(settings) = there->by_setting;

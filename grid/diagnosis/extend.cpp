@@ -40,8 +40,9 @@ void extend(const Session& session, const Analysis& a, bool accept_class, Diagno
     taken.push_back(column);
   }
   // The settings that belong to what is taken, and to nothing else.
-  const Estimate fitted = taken.empty() ? estimate(session, a.system, space_of(a), {}, -1)
-                                        : estimate_with(session, a, taken);
+  const Estimate fitted = taken.empty()
+                              ? estimate(session, a.system, marginalised_system(a), {}, -1)
+                              : estimate_with(session, a, taken);
   const Eigen::VectorXd values = a.system.setting + fitted.setting_change;
   diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine;
   for (model::AppliedEffect& applied : into_machine) {

@@ -21,7 +21,7 @@ constexpr double kSettingOff = 3.0;    // sigmas: 1 in 370 for each setting
 
 /// Length of a column before the settings take their share.
 double raw_length(const Analysis& a, int column) {
-  return length_in_noise(a.system, space_of(a).kept, a.system.g.col(column));
+  return length_in_noise(a.system, marginalised_system(a).kept, a.system.g.col(column));
 }
 
 double circular(double difference, const EffectParameter& p) {
@@ -98,7 +98,7 @@ Cause describe(const Session& session, const Analysis& a, std::size_t index, boo
     const Eigen::Index at = position_of(fitted, column);
     auto found = parameters(a, column, fitted.coefficient(at), fitted.coefficient_sigma(at));
     if (member == members.front()) {
-      const double length = space_of(a).g.col(column).norm();
+      const double length = marginalised_system(a).g.col(column).norm();
       cause.delta = std::abs(fitted.coefficient(at)) * length;
       cause.share_left = length / std::max(raw_length(a, column), 1e-12);
       cause.parameters = std::move(found);
@@ -155,16 +155,17 @@ std::vector<Hypothesis> hypotheses(const Analysis& a) {
 std::vector<Term> terms(const Session& session,
                         const DiagnosisOptions& options,
                         const Analysis& a) {
-  const Space& space = space_of(a);
-  const SingleScore score(a.system, space, options.steps.anchor_noise ? session.noise_dof : 1e-3);
-  const Eigen::VectorXd by_cause = score.by_cause(space.e);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const SingleScore score(
+      a.system, marginalised, options.steps.anchor_noise ? session.noise_dof : 1e-3);
+  const Eigen::VectorXd by_cause = score.by_cause(marginalised.e);
   std::vector<Term> result;
   for (std::size_t k = 0; k < score.causes().size(); ++k) {
     const CauseId& cause = score.causes()[k];
     const int column = best_regressor(a, cause);
     if (column < 0) continue;
-    const Estimate alone = estimate(session, a.system, space, {column}, -1);
-    const double length = space.g.col(column).norm();
+    const Estimate alone = estimate(session, a.system, marginalised, {column}, -1);
+    const double length = marginalised.g.col(column).norm();
     Term term;
     term.cause = cause;
     term.parameter = cause.effect->parameters.front().name;
@@ -191,13 +192,13 @@ std::vector<Bound> bounds(const Session& session,
                           const Analysis& a,
                           std::vector<NotTestable>& not_testable) {
   const std::vector<CauseId> listed = listed_causes(a);
-  const Space& space = space_of(a);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
   std::vector<Bound> result;
   for (const CauseId& cause : a.candidates.testable) {
     if (std::find(listed.begin(), listed.end(), cause) != listed.end()) continue;
     const int column = best_regressor(a, cause);
     const EffectParameter& size = cause.effect->parameters.front();
-    const double left = column < 0 ? 0.0 : space.g.col(column).norm();
+    const double left = column < 0 ? 0.0 : marginalised.g.col(column).norm();
     if (column < 0 || left < kAbsorbed * raw_length(a, column)) {
       not_testable.push_back({cause, "calibrating the settings takes up all that it would show"});
       continue;
@@ -249,7 +250,7 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
 std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a) {
   if (session.distances) return bad_distances_found(session, a);
   const auto residuals = chain_residuals(a.system, a.estimate.left_beside_pattern);
-  std::vector<bool> bad = space_of(a).bad;
+  std::vector<bool> bad = marginalised_system(a).bad;
   // A link counted wrong is a bad point with a name.
   for (const int k : a.decision.regressors) {
     const Regressor& d = regressor(a, k);
@@ -275,7 +276,7 @@ std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a
 
 std::vector<Separation> separations(const Analysis& a) {
   constexpr std::size_t kShown = 10;
-  const Space& space = space_of(a);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
   std::vector<std::size_t> shown;
   for (const ClassProbability& one : a.decision.marginal) {
     if (shown.size() < kShown) shown.push_back(one.index);
@@ -285,8 +286,8 @@ std::vector<Separation> separations(const Analysis& a) {
     for (std::size_t j = 0; j < i; ++j) {
       const CauseId& x = a.decision.classes[shown[j]].front();
       const CauseId& y = a.decision.classes[shown[i]].front();
-      const auto gx = space.g.col(best_regressor(a, x));
-      const auto gy = space.g.col(best_regressor(a, y));
+      const auto gx = marginalised.g.col(best_regressor(a, x));
+      const auto gy = marginalised.g.col(best_regressor(a, y));
       const double rho =
           std::min(1.0, std::abs(gx.dot(gy)) / std::max(gx.norm() * gy.norm(), 1e-12));
       // 1.645 sqrt(2 / (1 - rho)): 95 of 100 told apart; a class is never told apart.

@@ -45,35 +45,36 @@ class Folds {
     const ComparisonOptions compared{options_.steps, true, options_.told};
     const ModelComparison comparison = compare_models(session_, a_.system, excluded, compared);
     // The same gate as for all points: the strongest score against what noise does.
-    const Space& first = comparison.spaces[comparison.best().space];
+    const MarginalisedSystem& first =
+        comparison.marginalised_systems[comparison.best().marginalised];
     const SingleScore score(a_.system, first, session_.noise_dof);
     const bool seen = options_.told.has_value() ||
                       a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
     const Decision decision =
         decide_beside_discrepancy(session_, a_.system, comparison, excluded, seen);
-    const Space& space = comparison.spaces[decision.space];
+    const MarginalisedSystem& marginalised = comparison.marginalised_systems[decision.marginalised];
     Fold fold;
     for (const std::size_t i : points) {
       if (!bad_in_all(i)) fold.points.push_back(i);
     }
     for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
-    const Space plain =
-        without_slips(session_, a_.system, space, a_.decision.regressors, options_.steps);
+    const MarginalisedSystem plain =
+        without_slips(session_, a_.system, marginalised, a_.decision.regressors, options_.steps);
     fold.errors.calibrated = errors(fit(plain, {}), fold.points);
-    fold.errors.surface_only = beside_pattern(comparison, decision.space, {}, fold.points);
-    fold.errors.extended = errors(fit(space, decision.regressors), fold.points);
+    fold.errors.surface_only = beside_pattern(comparison, decision.marginalised, {}, fold.points);
+    fold.errors.extended = errors(fit(marginalised, decision.regressors), fold.points);
     fold.errors.extended_and_surface =
-        beside_pattern(comparison, decision.space, decision.regressors, fold.points);
+        beside_pattern(comparison, decision.marginalised, decision.regressors, fold.points);
     const std::vector<int>& all = a_.decision.regressors;
-    fold.errors.held_fast = errors(fit(space, all), fold.points);
+    fold.errors.held_fast = errors(fit(marginalised, all), fold.points);
     fold.errors.held_fast_and_surface =
-        beside_pattern(comparison, decision.space, all, fold.points);
+        beside_pattern(comparison, decision.marginalised, all, fold.points);
     return fold;
   }
 
  private:
   [[nodiscard]] bool bad_in_all(std::size_t point) const {
-    if (a_.comparison.spaces[a_.decision.space].bad[point]) return true;
+    if (a_.comparison.marginalised_systems[a_.decision.marginalised].bad[point]) return true;
     // A reading wrong at its own visit alone says nothing of any other.
     for (const int k : a_.decision.regressors) {
       const Regressor& d = a_.system.regressors[static_cast<std::size_t>(k)];
@@ -82,28 +83,29 @@ class Folds {
     return false;
   }
 
-  [[nodiscard]] Estimate fit(const Space& space,
+  [[nodiscard]] Estimate fit(const MarginalisedSystem& marginalised,
                              const std::vector<int>& regressors,
                              int pattern = -1) const {
-    return estimate(session_, a_.system, space, regressors, pattern);
+    return estimate(session_, a_.system, marginalised, regressors, pattern);
   }
 
   [[nodiscard]] std::vector<Eigen::Vector2d> beside_pattern(
       const ModelComparison& comparison,
-      std::size_t space,
+      std::size_t marginalised,
       const std::vector<int>& regressors,
       const std::vector<std::size_t>& points) const {
-    const int pattern = preferred_pattern(comparison, space, regressors);
-    return errors(fit(comparison.spaces[space], regressors, pattern), points);
+    const int pattern = preferred_pattern(comparison, marginalised, regressors);
+    return errors(fit(comparison.marginalised_systems[marginalised], regressors, pattern), points);
   }
 
   /// The pattern that the points prefer beside these causes; none where they would rather have
   /// none.
   static int preferred_pattern(const ModelComparison& comparison,
-                               std::size_t space,
+                               std::size_t marginalised,
                                const std::vector<int>& regressors) {
     for (const CandidateModel& model : comparison.models) {
-      if (model.regressors == regressors && model.space == space) return model.pattern;
+      if (model.regressors == regressors && model.marginalised == marginalised)
+        return model.pattern;
     }
     return -1;
   }
@@ -223,7 +225,7 @@ Delivered delivered(const Session& session,
   const bool moves = sheet > 0 && (session.knows(model::Setting::sheet_x_mm) ||
                                    session.knows(model::Setting::sheet_y_mm));
   if (moves) {
-    const auto& kept = a.comparison.spaces[a.decision.space].kept;
+    const auto& kept = a.comparison.marginalised_systems[a.decision.marginalised].kept;
     const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);
     const Eigen::MatrixXd scaled = by_sheet(kept, Eigen::all) * sigma.asDiagonal();
     Eigen::MatrixXd normal = scaled.transpose() * scaled;

@@ -10,7 +10,9 @@ const Regressor& regressor(const Analysis& a, int k) {
   return a.system.regressors[static_cast<std::size_t>(k)];
 }
 
-const Space& space_of(const Analysis& a) { return a.comparison.spaces[a.decision.space]; }
+const MarginalisedSystem& marginalised_system(const Analysis& a) {
+  return a.comparison.marginalised_systems[a.decision.marginalised];
+}
 
 int best_regressor(const Analysis& a, const CauseId& cause) {
   for (const int k : a.decision.regressors) {
@@ -20,13 +22,13 @@ int best_regressor(const Analysis& a, const CauseId& cause) {
     if (model.regressors.size() != 1) continue;
     if (regressor(a, model.regressors.front()).cause == cause) return model.regressors.front();
   }
-  const Space& space = space_of(a);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
   int best = -1;
   double most = -1.0;
   for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
     if (!(a.system.regressors[k].cause == cause)) continue;
-    const auto g = space.g.col(static_cast<Eigen::Index>(k));
-    const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(space.e)) / g.norm() : 0.0;
+    const auto g = marginalised.g.col(static_cast<Eigen::Index>(k));
+    const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(marginalised.e)) / g.norm() : 0.0;
     if (score > most) {
       most = score;
       best = static_cast<int>(k);
@@ -46,8 +48,8 @@ bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
 }
 
 Nearest nearest_other(const Analysis& a, int column) {
-  const Space& space = space_of(a);
-  const auto own = space.g.col(column);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const auto own = marginalised.g.col(column);
   const auto excluded = [&](const CauseId& other) {
     if (same_class(a, other, regressor(a, column).cause)) return true;
     if (a.decision.verdict != Verdict::several_causes) return false;
@@ -57,7 +59,7 @@ Nearest nearest_other(const Analysis& a, int column) {
   };
   Nearest nearest;
   for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
-    const auto g = space.g.col(static_cast<Eigen::Index>(k));
+    const auto g = marginalised.g.col(static_cast<Eigen::Index>(k));
     const double length = g.norm() * own.norm();
     if (!(length > 1e-12) || excluded(a.system.regressors[k].cause)) continue;
     const double rho = std::abs(own.dot(g)) / length;
@@ -86,7 +88,7 @@ Estimate estimate_with(const Session& session, const Analysis& a, std::vector<in
   std::sort(regressors.begin(), regressors.end());
   return estimate(session,
                   a.system,
-                  space_of(a),
+                  marginalised_system(a),
                   regressors,
                   a.decision.pattern_left ? a.decision.best_pattern : -1);
 }

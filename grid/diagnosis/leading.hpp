@@ -12,8 +12,8 @@ namespace chaintrue::grid::diagnosis {
 /// Column k of the analysis' system.
 [[nodiscard]] const Regressor& regressor(const Analysis& analysis, int k);
 
-/// The space in which the decision was made.
-[[nodiscard]] const Space& space_of(const Analysis& analysis);
+/// The marginalised system in which the decision was made.
+[[nodiscard]] const MarginalisedSystem& marginalised_system(const Analysis& analysis);
 
 /// The most probable column of a cause over the models of the comparison, or that with its best
 /// score; -1 where the cause has none.

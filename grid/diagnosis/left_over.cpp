@@ -112,22 +112,24 @@ double share_along(const Session& session,
 }  // namespace
 
 LeftOver left_over(const Session& session, const Analysis& a, std::uint64_t seed) {
-  const Space& space = a.comparison.spaces[a.decision.space];
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
   LeftOver result;
   const Eigen::VectorXd left = left_of_machine(a.system, a.estimate, a.estimate.left);
-  result.p_value = p_of_structure(session, a.system, space.kept, left, seed);
+  result.p_value = p_of_structure(session, a.system, marginalised.kept, left, seed);
   if (a.decision.best_pattern >= 0) {
     const Estimate beside =
-        estimate(session, a.system, space, a.decision.regressors, a.decision.best_pattern);
+        estimate(session, a.system, marginalised, a.decision.regressors, a.decision.best_pattern);
     const Eigen::VectorXd pattern = beside.left - beside.left_beside_pattern;
-    result.delta = length_in_noise(a.system, space.kept, pattern) / std::sqrt(beside.noise_square);
+    result.delta =
+        length_in_noise(a.system, marginalised.kept, pattern) / std::sqrt(beside.noise_square);
   }
   // A distance has no place to follow, and a few holes draw no curve.
   if (result.p_value >= kFalseAlarm || session.distances) return result;
   const auto chain = chain_residuals(a.system, a.estimate.left);
   for (const Coordinate& coordinate : kCoordinates) {
     if (coordinate.name == std::string_view("order") && !session.ordered) continue;
-    const double share = share_along(session, a.system, space.bad, chain, coordinate);
+    const double share = share_along(session, a.system, marginalised.bad, chain, coordinate);
     // Where the bed was visited in order, time and place run together: place is the simpler guess.
     const double needed = coordinate.name == std::string_view("order")
                               ? result.share + kTimeOverPlace * (1.0 - result.share)

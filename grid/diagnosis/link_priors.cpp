@@ -22,7 +22,7 @@ double strength_density(double delta) {
 
 }  // namespace
 
-void share_out_links(const Space& space, LinearisedSystem& system) {
+void share_out_links(const MarginalisedSystem& marginalised, LinearisedSystem& system) {
   std::size_t first = 0;
   while (first < system.regressors.size()) {
     std::size_t last = first;
@@ -31,8 +31,9 @@ void share_out_links(const Space& space, LinearisedSystem& system) {
     for (; last < system.regressors.size(); ++last) {
       const Regressor& d = system.regressors[last];
       if (!(d.cause == system.regressors[first].cause)) break;
-      weight.push_back(share_of_links(d.values.front()) *
-                       strength_density(space.g.col(static_cast<Eigen::Index>(last)).norm()));
+      weight.push_back(
+          share_of_links(d.values.front()) *
+          strength_density(marginalised.g.col(static_cast<Eigen::Index>(last)).norm()));
       sum += weight.back();
     }
     for (std::size_t k = first; k < last && system.regressors[first].fixed; ++k) {

@@ -23,7 +23,7 @@ constexpr double kPatternPrior = 0.10;
 /// A set of bad points so much less probable than the best is not tried beside patterns.
 constexpr double kWorthPatterns = 6.0;
 /// Sets of bad points in one comparison.
-constexpr std::size_t kMostSpaces = 8;
+constexpr std::size_t kMostOutlierSets = 8;
 
 double log_sum(const std::vector<double>& terms) {
   double high = kMinusInfinity;
@@ -39,9 +39,9 @@ std::vector<std::vector<int>> first_hypotheses(const Session& session,
                                                const LinearisedSystem& system,
                                                const std::vector<bool>& excluded,
                                                const ComparisonOptions& options) {
-  const Space space = make_space(system, excluded, options.steps);
-  const NoiseDensity noise(session.noise_dof, static_cast<Eigen::Index>(space.kept.size()));
-  const SingleScores scores = single_scores(system, space, noise, space.e, false);
+  const MarginalisedSystem marginalised = marginalise(system, excluded, options.steps);
+  const NoiseDensity noise(session.noise_dof, static_cast<Eigen::Index>(marginalised.kept.size()));
+  const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e, false);
   std::vector<std::vector<int>> hypotheses = {{}};
   for (std::size_t k = 0; k < scores.causes.size(); ++k) {
     if (options.told && !(scores.causes[k] == *options.told)) continue;
@@ -71,15 +71,15 @@ double log_prior(const std::vector<Regressor>& regressors,
 }
 
 SingleScores single_scores(const LinearisedSystem& system,
-                           const Space& space,
+                           const MarginalisedSystem& marginalised,
                            const NoiseDensity& noise,
                            const Eigen::VectorXd& e,
                            bool average_location) {
   SingleScores scores;
   const double ee = e.squaredNorm();
   const double nothing = noise.log_density(ee);
-  const Eigen::VectorXd c = space.g.transpose() * e;
-  const Eigen::VectorXd square = space.g.colwise().squaredNorm();
+  const Eigen::VectorXd c = marginalised.g.transpose() * e;
+  const Eigen::VectorXd square = marginalised.g.colwise().squaredNorm();
   std::vector<std::vector<double>> terms;
   std::vector<double> best;
   Metric metric;
@@ -125,11 +125,11 @@ std::vector<std::vector<bool>> sets_without_links(const Session& session,
                                                   const ModelComparison& comparison) {
   constexpr double kAlike = 25.0;  // squared, in sigmas: two rows, 1 in 270 000
   const CandidateModel& best = comparison.best();
-  const Space& space = comparison.spaces[best.space];
-  const Estimate fitted = estimate(session, system, space, best.regressors, -1);
+  const MarginalisedSystem& marginalised = comparison.marginalised_systems[best.marginalised];
+  const Estimate fitted = estimate(session, system, marginalised, best.regressors, -1);
   std::vector<std::vector<bool>> result;
-  for (std::size_t i = 0; i < space.bad.size(); ++i) {
-    if (!space.bad[i] || excluded[i]) continue;
+  for (std::size_t i = 0; i < marginalised.bad.size(); ++i) {
+    if (!marginalised.bad[i] || excluded[i]) continue;
     const auto row = system.unit_rows * static_cast<Eigen::Index>(i);
     bool links = false;
     for (std::size_t k = 0; k < system.regressors.size() && !links; ++k) {
@@ -140,11 +140,11 @@ std::vector<std::vector<bool>> sets_without_links(const Session& session,
                                        kAlike * fitted.noise_square;
     }
     if (!links) continue;
-    std::vector<bool> without = space.bad;
+    std::vector<bool> without = marginalised.bad;
     without[i] = false;
-    const bool known = std::any_of(comparison.spaces.begin(),
-                                   comparison.spaces.end(),
-                                   [&](const Space& s) { return s.bad == without; });
+    const bool known = std::any_of(comparison.marginalised_systems.begin(),
+                                   comparison.marginalised_systems.end(),
+                                   [&](const MarginalisedSystem& s) { return s.bad == without; });
     if (!known) result.push_back(std::move(without));
   }
   return result;
@@ -168,17 +168,20 @@ ModelComparison compare_models(const Session& session,
                                const ComparisonOptions& options) {
   ModelComparison comparison;
   const auto compare_with = [&](const std::vector<std::vector<bool>>& sets) {
-    comparison.spaces.reserve(kMostSpaces);
+    comparison.marginalised_systems.reserve(kMostOutlierSets);
     std::vector<SetSearch> searches;
     double best = kMinusInfinity;
     const auto take = [&](std::vector<CandidateModel> models) {
       std::move(models.begin(), models.end(), std::back_inserter(comparison.models));
     };
     for (const auto& bad : sets) {
-      if (comparison.spaces.size() == kMostSpaces) break;
-      comparison.spaces.push_back(make_space(system, bad, options.steps));
-      searches.emplace_back(
-          session, system, comparison.spaces.back(), comparison.spaces.size() - 1, options);
+      if (comparison.marginalised_systems.size() == kMostOutlierSets) break;
+      comparison.marginalised_systems.push_back(marginalise(system, bad, options.steps));
+      searches.emplace_back(session,
+                            system,
+                            comparison.marginalised_systems.back(),
+                            comparison.marginalised_systems.size() - 1,
+                            options);
       take(searches.back().run());
       best = std::max(best, searches.back().best());
     }

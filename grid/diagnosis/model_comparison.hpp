@@ -18,16 +18,16 @@ namespace chaintrue::grid::diagnosis {
 
 /// A set of regressors, with or without an unknown pattern, and the points set aside.
 struct CandidateModel {
-  std::vector<int> regressors;  ///< ascending
-  int pattern = -1;             ///< number of the unknown pattern, or none
-  std::size_t space = 0;        ///< into ModelComparison::spaces
-  double log_weight = 0.0;      ///< prior times evidence
-  double larger_noise = 0.0;    ///< share of it from noise larger than stated
+  std::vector<int> regressors;   ///< ascending
+  int pattern = -1;              ///< number of the unknown pattern, or none
+  std::size_t marginalised = 0;  ///< into ModelComparison::marginalised_systems
+  double log_weight = 0.0;       ///< prior times evidence
+  double larger_noise = 0.0;     ///< share of it from noise larger than stated
   double quadratic = 0.0;
 };
 
 struct ModelComparison {
-  std::vector<Space> spaces;
+  std::vector<MarginalisedSystem> marginalised_systems;
   std::vector<CandidateModel> models;  ///< those that matter, best first
   double log_total = 0.0;
   [[nodiscard]] const CandidateModel& best() const { return models.front(); }
@@ -62,7 +62,7 @@ struct SingleScores {
   std::vector<int> best_regressor;
 };
 [[nodiscard]] SingleScores single_scores(const LinearisedSystem& system,
-                                         const Space& space,
+                                         const MarginalisedSystem& marginalised,
                                          const NoiseDensity& noise,
                                          const Eigen::VectorXd& e,
                                          bool average_location);

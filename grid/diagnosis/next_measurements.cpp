@@ -94,8 +94,9 @@ void predict(const Session& session,
              const Session& next,
              const LinearisedSystem& system,
              Alternative& h) {
-  const Space& space = a.comparison.spaces[a.decision.space];
-  const Estimate fitted = estimate(session, a.system, space, h.regressors, -1);
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
+  const Estimate fitted = estimate(session, a.system, marginalised, h.regressors, -1);
   // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
   const Eigen::Index to_come = system.by_setting.cols() - settings;

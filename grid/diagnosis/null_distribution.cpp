@@ -16,9 +16,11 @@ constexpr int kBlock = 250;  // draws at a time
 
 }  // namespace
 
-SingleScore::SingleScore(const LinearisedSystem& system, const Space& space, double noise_dof)
-    : space_(space), dof_(noise_dof) {
-  square_ = space.g.colwise().squaredNorm();
+SingleScore::SingleScore(const LinearisedSystem& system,
+                         const MarginalisedSystem& marginalised,
+                         double noise_dof)
+    : marginalised_(marginalised), dof_(noise_dof) {
+  square_ = marginalised.g.colwise().squaredNorm();
   constant_.resize(square_.size());
   for (Eigen::Index k = 0; k < square_.size(); ++k) {
     const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
@@ -55,7 +57,7 @@ double SingleScore::largest(const Metric& metric, Eigen::Index rows) const {
 }
 
 Eigen::VectorXd SingleScore::by_cause(const Eigen::VectorXd& e) const {
-  const Eigen::VectorXd c = space_.g.transpose() * e;
+  const Eigen::VectorXd c = marginalised_.g.transpose() * e;
   const double ee = e.squaredNorm();
   const auto n = static_cast<double>(e.size());
   Eigen::VectorXd result =
@@ -68,7 +70,7 @@ Eigen::VectorXd SingleScore::by_cause(const Eigen::VectorXd& e) const {
 }
 
 Eigen::VectorXd SingleScore::largest(const Eigen::MatrixXd& e) const {
-  const Eigen::MatrixXd c = space_.g.transpose() * e;
+  const Eigen::MatrixXd c = marginalised_.g.transpose() * e;
   const auto n = static_cast<double>(e.rows());
   Eigen::VectorXd result = Eigen::VectorXd::Constant(e.cols(), kNoScore);
   for (Eigen::Index draw = 0; draw < e.cols(); ++draw) {

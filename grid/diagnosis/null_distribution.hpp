@@ -21,8 +21,11 @@ namespace chaintrue::grid::diagnosis {
 /// product; a regressor of the wrong sign has no score.
 class SingleScore {
  public:
-  SingleScore(const LinearisedSystem& system, const Space& space, double noise_dof);
-  /// The largest over all regressors of a cause, in the order of `causes()`; `e` like Space::e.
+  SingleScore(const LinearisedSystem& system,
+              const MarginalisedSystem& marginalised,
+              double noise_dof);
+  /// The largest over all regressors of a cause, in the order of `causes()`; `e` like
+  /// MarginalisedSystem::e.
   [[nodiscard]] Eigen::VectorXd by_cause(const Eigen::VectorXd& e) const;
   [[nodiscard]] const std::vector<CauseId>& causes() const { return causes_; }
   /// The largest over the columns of a metric of so many rows.
@@ -33,7 +36,7 @@ class SingleScore {
  private:
   /// Of a regressor with this square and inner product with the residual, in so many rows.
   [[nodiscard]] double score(Eigen::Index k, double square, double c, double ee, double n) const;
-  const Space& space_;
+  const MarginalisedSystem& marginalised_;
   double dof_;
   std::vector<CauseId> causes_;
   std::vector<std::size_t> cause_of_;

@@ -10,12 +10,12 @@ namespace chaintrue::grid::diagnosis {
 
 std::vector<PointPicture> pictures(const Session& session, const Analysis& a) {
   if (session.distances) return {};
-  const Space& space = space_of(a);
-  const Estimate before = estimate(session, a.system, space, {}, -1);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const Estimate before = estimate(session, a.system, marginalised, {}, -1);
   const auto chain_before = chain_residuals(a.system, before.left);
   const auto chain_after = chain_residuals(a.system, a.estimate.left);
   const auto explained = [&](const std::vector<int>& set) {
-    const Estimate fitted = estimate(session, a.system, space, set, -1);
+    const Estimate fitted = estimate(session, a.system, marginalised, set, -1);
     return chain_residuals(a.system, Eigen::VectorXd(before.left - fitted.left));
   };
   const Shown sets = shown(a);
@@ -28,7 +28,7 @@ std::vector<PointPicture> pictures(const Session& session, const Analysis& a) {
     p.index = session.points[i].index;
     p.mark = session.points[i].mark;
     if (session.ordered) p.order = session.points[i].order;
-    p.bad = space.bad[i];
+    p.bad = marginalised.bad[i];
     p.chain_before_mm = chain_before[i];
     p.chain_after_mm = chain_after[i];
     p.before_mm = tool_shift(state, chain_before[i]);

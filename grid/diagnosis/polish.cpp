@@ -46,12 +46,12 @@ class Round {
   Round(const Session& session,
         const State& state,
         const LinearisedSystem& system,
-        Space space,
+        MarginalisedSystem marginalised,
         int pattern)
-      : session_(session), state_(state), system_(system), space_(std::move(space)) {
+      : session_(session), state_(state), system_(system), marginalised_(std::move(marginalised)) {
     std::vector<int> all;
     for (std::size_t k = 0; k < system.regressors.size(); ++k) all.push_back(static_cast<int>(k));
-    estimate_ = diagnosis::estimate(session, system, space_, all, pattern);
+    estimate_ = diagnosis::estimate(session, system, marginalised_, all, pattern);
   }
   [[nodiscard]] const Estimate& estimate() const { return estimate_; }
 
@@ -113,8 +113,8 @@ class Round {
     values.front() = size;
     const auto g = signature(session_, state_, system_, system_.regressors[which].cause, values);
     if (!g) return std::nullopt;
-    const auto own = space_.g.col(static_cast<Eigen::Index>(which));
-    return own.dot(reduced(space_, *g)) / own.squaredNorm();
+    const auto own = marginalised_.g.col(static_cast<Eigen::Index>(which));
+    return own.dot(reduced(marginalised_, *g)) / own.squaredNorm();
   }
 
   /// What is left for one regressor once the others have taken their share.
@@ -123,11 +123,11 @@ class Round {
     Others(const Round& round, std::size_t which) : round_(round), which_(which) {
       for (std::size_t k = 0; k < round.system_.regressors.size(); ++k) {
         if (k == which) continue;
-        columns_.conservativeResize(round.space_.e.size(), columns_.cols() + 1);
-        columns_.rightCols<1>() = round.space_.g.col(static_cast<Eigen::Index>(k));
+        columns_.conservativeResize(round.marginalised_.e.size(), columns_.cols() + 1);
+        columns_.rightCols<1>() = round.marginalised_.g.col(static_cast<Eigen::Index>(k));
       }
       ldlt_.compute(columns_.transpose() * columns_);
-      e_ = without(round.space_.e);
+      e_ = without(round.marginalised_.e);
     }
 
     [[nodiscard]] double gain(double place) const {
@@ -136,7 +136,7 @@ class Round {
       values.back() = place;
       const auto g = signature(round_.session_, round_.state_, round_.system_, own.cause, values);
       if (!g) return 0.0;
-      const Eigen::VectorXd left = without(reduced(round_.space_, *g));
+      const Eigen::VectorXd left = without(reduced(round_.marginalised_, *g));
       const double square = left.squaredNorm();
       const double c = left.dot(e_);
       const double sign = round_.estimate_.coefficient(static_cast<Eigen::Index>(which_));
@@ -159,7 +159,7 @@ class Round {
   const Session& session_;
   const State& state_;
   const LinearisedSystem& system_;
-  Space space_;
+  MarginalisedSystem marginalised_;
   Estimate estimate_;
 };
 
@@ -168,7 +168,7 @@ class Round {
 Polished polish(const Session& session,
                 const State& state,
                 const LinearisedSystem& system,
-                const Space& space,
+                const MarginalisedSystem& marginalised,
                 const Leaders& leaders,
                 const Steps& steps) {
   std::vector<Regressor> own;
@@ -181,8 +181,9 @@ Polished polish(const Session& session,
   for (int round = 0; round < kRounds; ++round) {
     auto about = linearise(session, result.state, steps);
     if (!about || !renew_regressors(session, result.state, own, *about)) break;
-    Space there = make_space(*about, space.bad, steps);
-    there.pattern_trace = space.pattern_trace;  // the pattern stays as strong as it was found
+    MarginalisedSystem there = marginalise(*about, marginalised.bad, steps);
+    there.pattern_trace =
+        marginalised.pattern_trace;  // the pattern stays as strong as it was found
     const Round here(session, result.state, *about, std::move(there), leaders.pattern);
     const auto settings = static_cast<Eigen::Index>(session.settings.size());
     bool settled =

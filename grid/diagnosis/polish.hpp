@@ -24,11 +24,11 @@ struct Leaders {
   int pattern = -1;
 };
 
-/// From the state of the system, with the points set aside that `space` sets aside.
+/// From the state of the system, with the points set aside that `marginalised` leaves out.
 [[nodiscard]] Polished polish(const Session& session,
                               const State& state,
                               const LinearisedSystem& system,
-                              const Space& space,
+                              const MarginalisedSystem& marginalised,
                               const Leaders& leaders,
                               const Steps& steps);
 

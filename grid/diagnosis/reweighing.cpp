@@ -20,15 +20,15 @@ constexpr std::size_t kMostModels = 160;
 constexpr double kPatternShare = 0.01;
 constexpr std::size_t kMostPatterns = 4;
 
-using LensKey = std::pair<std::size_t, int>;  ///< space, pattern
+using LensKey = std::pair<std::size_t, int>;  ///< marginalised system, pattern
 
-/// The models that may lead once some points are gone: the best, and in each space of these
-/// nothing, and every cause alone at its best place.
+/// The models that may lead once some points are gone: the best, and in each marginalised system of
+/// these nothing, and every cause alone at its best place.
 std::map<LensKey, std::vector<CandidateModel>> followed(const LinearisedSystem& system,
                                                         const ModelComparison& comparison) {
   std::map<LensKey, double> share;
   for (const CandidateModel& model : comparison.models) {
-    share[{model.space, model.pattern}] += comparison.probability(model);
+    share[{model.marginalised, model.pattern}] += comparison.probability(model);
   }
   std::vector<std::pair<double, LensKey>> patterns;
   for (const auto& [key, p] : share) {
@@ -44,11 +44,11 @@ std::map<LensKey, std::vector<CandidateModel>> followed(const LinearisedSystem& 
   const double best = comparison.best().log_weight;
   std::map<LensKey, std::vector<CandidateModel>> result;
   std::map<LensKey, std::vector<CauseId>> alone;
-  std::set<std::size_t> spaces;
+  std::set<std::size_t> marginalised_systems;
   std::size_t taken = 0;
-  // Best first, so that a space is known before the rest of what is asked for in it.
+  // Best first, so that a marginalised system is known before the rest of what is asked for in it.
   for (const CandidateModel& model : comparison.models) {
-    const LensKey key{model.space, model.pattern};
+    const LensKey key{model.marginalised, model.pattern};
     if (!is_followed(key)) continue;
     const bool leads = model.log_weight > best - kNegligible && taken < kMostModels;
     bool first_alone = model.regressors.empty();
@@ -58,22 +58,23 @@ std::map<LensKey, std::vector<CandidateModel>> followed(const LinearisedSystem& 
       first_alone = std::find(known.begin(), known.end(), cause) == known.end();
       if (first_alone) known.push_back(cause);
     }
-    if (!leads && !(first_alone && spaces.contains(key.first))) continue;
+    if (!leads && !(first_alone && marginalised_systems.contains(key.first))) continue;
     taken += leads ? 1 : 0;
-    spaces.insert(key.first);
+    marginalised_systems.insert(key.first);
     result[key].push_back(model);
   }
   return result;
 }
 
-/// Rows of these points in a space.
-std::vector<Eigen::Index> rows_of(const Space& space, const std::vector<std::size_t>& points) {
+/// Rows of these points in a marginalised system.
+std::vector<Eigen::Index> rows_of(const MarginalisedSystem& marginalised,
+                                  const std::vector<std::size_t>& points) {
   std::vector<Eigen::Index> result;
   for (const std::size_t point : points) {
     const auto row = 2 * static_cast<Eigen::Index>(point);
-    const auto at = std::lower_bound(space.kept.begin(), space.kept.end(), row);
-    if (at == space.kept.end() || *at != row) continue;
-    const auto first = static_cast<Eigen::Index>(at - space.kept.begin());
+    const auto at = std::lower_bound(marginalised.kept.begin(), marginalised.kept.end(), row);
+    if (at == marginalised.kept.end() || *at != row) continue;
+    const auto first = static_cast<Eigen::Index>(at - marginalised.kept.begin());
     result.insert(result.end(), {first, first + 1});
   }
   return result;
@@ -84,15 +85,16 @@ std::vector<bool> with_points_out(std::vector<bool> bad, const std::vector<std::
   return bad;
 }
 
-/// The comparison's space with these points set aside, made where there is none.
+/// The comparison's marginalised system with these points set aside, made where there is none.
 std::size_t home_of(ModelComparison& comparison, std::vector<bool> bad) {
-  const auto same = std::find_if(comparison.spaces.begin(),
-                                 comparison.spaces.end(),
-                                 [&](const Space& space) { return space.bad == bad; });
-  if (same != comparison.spaces.end())
-    return static_cast<std::size_t>(same - comparison.spaces.begin());
-  comparison.spaces.emplace_back().bad = std::move(bad);
-  return comparison.spaces.size() - 1;
+  const auto same =
+      std::find_if(comparison.marginalised_systems.begin(),
+                   comparison.marginalised_systems.end(),
+                   [&](const MarginalisedSystem& marginalised) { return marginalised.bad == bad; });
+  if (same != comparison.marginalised_systems.end())
+    return static_cast<std::size_t>(same - comparison.marginalised_systems.begin());
+  comparison.marginalised_systems.emplace_back().bad = std::move(bad);
+  return comparison.marginalised_systems.size() - 1;
 }
 
 }  // namespace
@@ -103,16 +105,18 @@ Reweighing::Reweighing(const Session& session,
     : session_(session),
       a_(analysis),
       dof_(options.steps.anchor_noise ? session.noise_dof : 1e-3),
-      score_(analysis.system, analysis.comparison.spaces[analysis.comparison.best().space], dof_) {
+      score_(analysis.system,
+             analysis.comparison.marginalised_systems[analysis.comparison.best().marginalised],
+             dof_) {
   for (auto& [key, models] : followed(a_.system, a_.comparison)) {
     add_lens(key.first, key.second, std::move(models));
   }
 }
 
 void Reweighing::add_lens(std::size_t number, int pattern, std::vector<CandidateModel> models) {
-  const Space& space = a_.comparison.spaces[number];
+  const MarginalisedSystem& marginalised = a_.comparison.marginalised_systems[number];
   Lens lens;
-  lens.space = number;
+  lens.marginalised = number;
   lens.pattern = pattern;
   std::vector<int> columns;
   for (const CandidateModel& model : models) {
@@ -120,16 +124,16 @@ void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Candidate
   }
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-  const auto n = static_cast<Eigen::Index>(space.kept.size());
-  const auto lower = space.factor.triangularView<Eigen::Lower>();
+  const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
+  const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
   lens.inverse = lower.solve(Eigen::MatrixXd::Identity(n, n));
   Eigen::MatrixXd e(n, static_cast<Eigen::Index>(columns.size()) + 1);
-  e.col(0) = space.e;
-  e.rightCols(e.cols() - 1) = space.g(Eigen::all, columns);
-  double log_det = space.log_det;
+  e.col(0) = marginalised.e;
+  e.rightCols(e.cols() - 1) = marginalised.g(Eigen::all, columns);
+  double log_det = marginalised.log_det;
   if (pattern >= 0) {
-    const Pattern shape = pattern_of(space, pattern);
-    Eigen::MatrixXd k = pattern_covariance(session_, a_.system, space.kept, shape.shape);
+    const Pattern shape = pattern_of(marginalised, pattern);
+    Eigen::MatrixXd k = pattern_covariance(session_, a_.system, marginalised.kept, shape.shape);
     lower.solveInPlace(k);
     k = lower.solve(k.transpose()).eval() * (shape.sigma_mm * shape.sigma_mm);
     k.diagonal().array() += 1.0;
@@ -148,7 +152,7 @@ void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Candidate
     for (const int k : model.regressors) set.push_back(lens.metric.position(k));
     const double evidence =
         set_evidence(lens.metric, a_.system.regressors, set, noise).log_evidence;
-    lens.prior.push_back(model.log_weight - evidence - space.log_bad);
+    lens.prior.push_back(model.log_weight - evidence - marginalised.log_bad);
     lens.sets.push_back(std::move(set));
   }
   lens.models = std::move(models);
@@ -175,14 +179,14 @@ Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) 
   Without result;
   ModelComparison& comparison = result.comparison;
   std::set<std::tuple<std::size_t, int, std::vector<int>>> known;
-  std::vector<std::pair<double, std::size_t>> strongest;  // score, by space
+  std::vector<std::pair<double, std::size_t>> strongest;  // score, by marginalised system
   for (const Lens& lens : lenses_) {
-    const Space& whole = a_.comparison.spaces[lens.space];
+    const MarginalisedSystem& whole = a_.comparison.marginalised_systems[lens.marginalised];
     const auto out = rows_of(whole, points);
     const Metric metric = metric_without(lens, out);
     const Eigen::Index rows = lens.inverse.rows() - static_cast<Eigen::Index>(out.size());
     const NoiseDensity noise(dof_, rows);
-    // Spaces that differ in the points left out alone are one.
+    // Marginalised systems that differ in the points left out alone are one.
     const std::size_t home = home_of(comparison, with_points_out(whole.bad, points));
     const auto bad = static_cast<double>(
         std::count(whole.bad.begin(), whole.bad.end(), true) -
@@ -210,8 +214,8 @@ Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) 
     sum += std::exp(model.log_weight - comparison.best().log_weight);
   }
   comparison.log_total = comparison.best().log_weight + std::log(sum);
-  for (const auto& [score, space] : strongest) {
-    if (space == comparison.best().space) {
+  for (const auto& [score, marginalised] : strongest) {
+    if (marginalised == comparison.best().marginalised) {
       result.seen = result.seen || a_.null.p_value(score) < kFalseAlarm;
     }
   }

@@ -4,7 +4,8 @@
 /// comparison of their own would cost.
 ///
 /// Notation
-///   V     covariance of a space's rows, settings and pattern integrated out; V = L L', P = V^-1
+///   V     covariance of a marginalised system's rows, the pattern integrated out as well; V = L L',
+///         P = V^-1
 ///   E     residual and columns of the models, whitened by L
 ///   O     rows of the points left out
 ///   U     P times the residual and the columns
@@ -30,7 +31,8 @@ class Reweighing {
   Reweighing(const Session& session, const Analysis& analysis, const DiagnosisOptions& options);
 
   struct Without {
-    /// Best first; its spaces bear the points set aside, those left out among them, and no rows.
+    /// Best first; its marginalised systems bear the points set aside, those left out among them,
+    /// and no rows.
     ModelComparison comparison;
     /// The strongest effect is still beyond what noise does.
     bool seen = false;
@@ -39,9 +41,9 @@ class Reweighing {
   [[nodiscard]] Without without(const std::vector<std::size_t>& points) const;
 
  private:
-  /// One space with one pattern or none.
+  /// One marginalised system with one pattern or none.
   struct Lens {
-    std::size_t space = 0;
+    std::size_t marginalised = 0;
     int pattern = -1;
     Metric metric;              ///< with all points
     Eigen::MatrixXd inverse;    ///< L^-1
@@ -51,8 +53,8 @@ class Reweighing {
     std::vector<double> prior;                    ///< of each: weight less evidence
   };
 
-  void add_lens(std::size_t space, int pattern, std::vector<CandidateModel> models);
-  /// Inner products with these rows of the lens' space gone.
+  void add_lens(std::size_t marginalised, int pattern, std::vector<CandidateModel> models);
+  /// Inner products with these rows of the lens' marginalised system gone.
   [[nodiscard]] static Metric metric_without(const Lens& lens,
                                              const std::vector<Eigen::Index>& out);
 

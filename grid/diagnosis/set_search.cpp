@@ -37,19 +37,19 @@ class SetSearch::Search {
  public:
   Search(const Session& session,
          const LinearisedSystem& system,
-         Space& space,
+         MarginalisedSystem& marginalised,
          std::size_t number,
          const ComparisonOptions& options)
       : session_(session),
         system_(system),
-        space_(space),
+        marginalised_(marginalised),
         number_(number),
         options_(options),
         noise_(options.steps.anchor_noise ? session.noise_dof : 1e-3,
-               static_cast<Eigen::Index>(space.kept.size())) {}
+               static_cast<Eigen::Index>(marginalised.kept.size())) {}
 
   std::vector<CandidateModel> run() {
-    metric_ = plain_metric(space_, columns());
+    metric_ = plain_metric(marginalised_, columns());
     consider({}, -1, metric_, 0.0);
     singles();
     if (!options_.told) {
@@ -75,8 +75,8 @@ class SetSearch::Search {
     std::vector<int> kept;
     std::vector<int> fixed;
     const auto count = static_cast<int>(system_.regressors.size());
-    const Eigen::VectorXd c = space_.g.transpose() * space_.e;
-    const Eigen::VectorXd square = space_.g.colwise().squaredNorm();
+    const Eigen::VectorXd c = marginalised_.g.transpose() * marginalised_.e;
+    const Eigen::VectorXd square = marginalised_.g.colwise().squaredNorm();
     for (int k = 0; k < count; ++k) {
       const Regressor& d = system_.regressors[static_cast<std::size_t>(k)];
       if (options_.told && !(d.cause == *options_.told)) continue;
@@ -93,7 +93,7 @@ class SetSearch::Search {
     });
     leading.resize(std::min<std::size_t>(leading.size(), 8));
     const Eigen::MatrixXd cross =
-        space_.g(Eigen::all, fixed).transpose() * space_.g(Eigen::all, leading);
+        marginalised_.g(Eigen::all, fixed).transpose() * marginalised_.g(Eigen::all, leading);
     std::vector<std::pair<double, int>> gains;
     for (std::size_t f = 0; f < fixed.size(); ++f) {
       const int k = fixed[f];
@@ -123,9 +123,9 @@ class SetSearch::Search {
     model.regressors = chosen;
     std::sort(model.regressors.begin(), model.regressors.end());
     model.pattern = pattern;
-    model.space = number_;
+    model.marginalised = number_;
     model.log_weight =
-        evidence.log_evidence + space_.log_bad + log_pattern + prior(chosen, pattern >= 0);
+        evidence.log_evidence + marginalised_.log_bad + log_pattern + prior(chosen, pattern >= 0);
     model.larger_noise = noise_.larger_share(evidence.quadratic);
     model.quadratic = evidence.quadratic;
     best_ = std::max(best_, model.log_weight);
@@ -179,7 +179,7 @@ class SetSearch::Search {
       q -= (one * (ca * ca + cb * cb) - 2.0 * rho * ca * cb) / det;
       occam = 2.0 * std::log(kUsualDelta) + 0.5 * std::log(det);
     }
-    const auto n = static_cast<double>(space_.kept.size());
+    const auto n = static_cast<double>(marginalised_.kept.size());
     return -0.5 * (n + session_.noise_dof) * std::log(session_.noise_dof + std::max(q, 0.0)) -
            occam + a.log_prior + b.log_prior;
   }
@@ -268,7 +268,7 @@ class SetSearch::Search {
     }
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    const std::vector<Metric> metrics = pattern_metrics(system_, session_, space_, used);
+    const std::vector<Metric> metrics = pattern_metrics(system_, session_, marginalised_, used);
     for (int pattern = 0; pattern < kPatterns; ++pattern) {
       const Metric& metric = metrics[static_cast<std::size_t>(pattern)];
       const double share = log_share_of_pattern(pattern);
@@ -301,7 +301,7 @@ class SetSearch::Search {
 
   const Session& session_;
   const LinearisedSystem& system_;
-  Space& space_;
+  MarginalisedSystem& marginalised_;
   std::size_t number_;
   const ComparisonOptions& options_;
   NoiseDensity noise_;
@@ -313,10 +313,10 @@ class SetSearch::Search {
 
 SetSearch::SetSearch(const Session& session,
                      const LinearisedSystem& system,
-                     Space& space,
+                     MarginalisedSystem& marginalised,
                      std::size_t number,
                      const ComparisonOptions& options)
-    : search_(std::make_unique<Search>(session, system, space, number, options)) {}
+    : search_(std::make_unique<Search>(session, system, marginalised, number, options)) {}
 SetSearch::~SetSearch() = default;
 SetSearch::SetSearch(SetSearch&&) noexcept = default;
 SetSearch& SetSearch::operator=(SetSearch&&) noexcept = default;

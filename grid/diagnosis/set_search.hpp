@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The sets of causes that matter in one space: one and two at a time all of them, three and four
-/// at a time grown from the best, and the leading ones once more beside an unknown pattern.
+/// The sets of causes that matter in one marginalised system: one and two at a time all of them,
+/// three and four at a time grown from the best, and the leading ones once more beside an unknown
+/// pattern.
 #pragma once
 
 #include <memory>
@@ -13,10 +14,11 @@ namespace chaintrue::grid::diagnosis {
 
 class SetSearch {
  public:
-  /// `number` is the space's in its comparison; all references must outlive the search.
+  /// `number` is the marginalised system's in its comparison; all references must outlive the
+  /// search.
   SetSearch(const Session& session,
             const LinearisedSystem& system,
-            Space& space,
+            MarginalisedSystem& marginalised,
             std::size_t number,
             const ComparisonOptions& options);
   ~SetSearch();

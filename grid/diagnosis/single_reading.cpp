@@ -51,7 +51,7 @@ std::optional<std::string> refuse_name_of_one_reading(const Session& session,
   a.decision = decide_beside_discrepancy(session, a.system, a.comparison, none, false);
   a.estimate = estimate(session,
                         a.system,
-                        space_of(a),
+                        marginalised_system(a),
                         a.decision.regressors,
                         a.decision.pattern_left ? a.decision.best_pattern : -1);
   return fmt::format(

@@ -64,7 +64,8 @@ Eigen::VectorXd left_of(const Session& from,
                         const Session& to,
                         const LinearisedSystem& system) {
   const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
-  const Space& space = a.comparison.spaces[a.decision.space];
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
   Eigen::VectorXd left =
       system.e - system.by_setting.leftCols(machine) * model.setting_change.head(machine);
   for (std::size_t k = 0; k < model.regressors.size(); ++k) {
@@ -80,7 +81,8 @@ Eigen::VectorXd left_of(const Session& from,
     for (std::size_t i = 0; i < to.points.size(); ++i) {
       left.segment<2>(2 * static_cast<Eigen::Index>(i)) -=
           system.points[i].whitening *
-          pattern_at(from, a.system, space, model, {to.points[i].mark, system.points[i].by_mark});
+          pattern_at(
+              from, a.system, marginalised, model, {to.points[i].mark, system.points[i].by_mark});
     }
   }
   return left;
@@ -143,11 +145,12 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
     return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::point_unreachable,
                                            "a point of the other grid cannot be reached"});
   }
-  const Space& space = a->comparison.spaces[a->decision.space];
+  const MarginalisedSystem& marginalised =
+      a->comparison.marginalised_systems[a->decision.marginalised];
   const std::vector<int>& causes = a->decision.regressors;
   const Placed place(*second, *system);
   const auto predicted_by = [&](const std::vector<int>& regressors, int pattern) {
-    const Estimate model = estimate(*first, a->system, space, regressors, pattern);
+    const Estimate model = estimate(*first, a->system, marginalised, regressors, pattern);
     return summary(
         *second, *system, place(left_of(*first, *a, model, *second, *system)), options.seed);
   };

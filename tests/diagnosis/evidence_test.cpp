@@ -52,11 +52,11 @@ double log_normal_density(double x, double mean, double sigma) {
 /// p(e) with setting, size and noise integrated on a raster. Priors scale with the noise, as the
 /// conjugate form has it.
 double brute_force_at(const LinearisedSystem& system,
-                      const Space& space,
+                      const MarginalisedSystem& marginalised,
                       double lowest,
                       bool with_cause,
                       double delta_sigma) {
-  const double size_sigma = delta_sigma / space.g.col(0).norm();
+  const double size_sigma = delta_sigma / marginalised.g.col(0).norm();
   double total = 0.0;
   const double step_u = 0.05;
   for (double u = -3.0; u <= 3.0; u += step_u) {  // u = log of the noise's square
@@ -103,35 +103,38 @@ double brute_force_at(const LinearisedSystem& system,
 }
 
 double brute_force(const LinearisedSystem& system,
-                   const Space& space,
+                   const MarginalisedSystem& marginalised,
                    double lowest,
                    bool with_cause) {
   return std::log((1.0 - kWideDeltaPrior) *
-                      brute_force_at(system, space, lowest, with_cause, kUsualDelta) +
-                  kWideDeltaPrior * brute_force_at(system, space, lowest, with_cause, kWideDelta));
+                      brute_force_at(system, marginalised, lowest, with_cause, kUsualDelta) +
+                  kWideDeltaPrior *
+                      brute_force_at(system, marginalised, lowest, with_cause, kWideDelta));
 }
 
 TEST(Evidence, OfNothingEqualsTheIntegral) {
   const LinearisedSystem system = small_system(-100.0);
-  const Space space = make_space(system, {false, false, false}, {});
-  const Metric metric = plain_metric(space, {0});
+  const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
+  const Metric metric = plain_metric(marginalised, {0});
   const NoiseDensity noise(kDof, 6);
   const double closed = set_evidence(metric, system.regressors, {}, noise).log_evidence;
-  EXPECT_NEAR(closed, brute_force(system, space, -100.0, false), 2e-4)  // raster of 120 by 120
+  EXPECT_NEAR(
+      closed, brute_force(system, marginalised, -100.0, false), 2e-4)  // raster of 120 by 120
       << "settings integrated in closed form";
 }
 
 TEST(Evidence, OfACauseEqualsTheIntegral) {
   for (const double lowest : {-100.0, 0.0}) {
     const LinearisedSystem system = small_system(lowest);
-    const Space space = make_space(system, {false, false, false}, {});
-    const Metric metric = plain_metric(space, {0});
+    const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
+    const Metric metric = plain_metric(marginalised, {0});
     const NoiseDensity noise(kDof, 6);
     const std::array<Eigen::Index, 1> set = {0};
     const double closed = set_evidence(metric, system.regressors, set, noise).log_evidence;
     // Where the size is cut at zero the closed form takes the noise at its mean for the cut alone.
     const double tolerance = lowest == 0.0 ? 0.02 : 2e-3;
-    EXPECT_NEAR(closed, brute_force(system, space, lowest, true), tolerance) << "from " << lowest;
+    EXPECT_NEAR(closed, brute_force(system, marginalised, lowest, true), tolerance)
+        << "from " << lowest;
   }
 }
 
@@ -164,21 +167,22 @@ TEST(Evidence, MassOfTheNormalAddsUp) {
 
 TEST(Evidence, QuadraticIsThatOfGeneralisedLeastSquares) {
   const LinearisedSystem system = small_system(-100.0);
-  const Space space = make_space(system, {false, true, false}, {});
+  const MarginalisedSystem marginalised = marginalise(system, {false, true, false}, {});
   const std::vector<Eigen::Index> kept = {0, 1, 4, 5};
-  ASSERT_EQ(space.kept, kept);
+  ASSERT_EQ(marginalised.kept, kept);
   const Eigen::VectorXd a = system.by_setting(kept, 0);
   const Eigen::MatrixXd v = Eigen::MatrixXd::Identity(4, 4) + 4.0 * a * a.transpose();
   const Eigen::VectorXd r = system.e(kept) - 0.4 * a;
-  EXPECT_NEAR(space.e.squaredNorm(), r.dot(v.inverse() * r), 1e-12);  // rounding
-  EXPECT_NEAR(space.log_det, std::log(v.determinant()), 1e-12);       // rounding
-  EXPECT_NEAR(space.g.col(0).dot(space.e), system.g.col(0)(kept).dot(v.inverse() * r), 1e-12);
+  EXPECT_NEAR(marginalised.e.squaredNorm(), r.dot(v.inverse() * r), 1e-12);  // rounding
+  EXPECT_NEAR(marginalised.log_det, std::log(v.determinant()), 1e-12);       // rounding
+  EXPECT_NEAR(
+      marginalised.g.col(0).dot(marginalised.e), system.g.col(0)(kept).dot(v.inverse() * r), 1e-12);
 }
 
 TEST(NullDistribution, HoldsItsSize) {
   const LinearisedSystem system = small_system(0.0);
-  const Space space = make_space(system, {false, false, false}, {});
-  const SingleScore score(system, space, kDof);
+  const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
+  const SingleScore score(system, marginalised, kDof);
   const NullDistribution null = draw_null(score, 6, 4000, 1);
   synthetic::Random random(20261121);
   SCOPED_TRACE("seed 20261121");
