@@ -142,30 +142,30 @@ Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::Vec
   return result;
 }
 
-Eigen::Index Metric::position(int column) const {
+Eigen::Index NormalEquations::position(int column) const {
   const auto found = std::lower_bound(columns.begin(), columns.end(), column);
   return static_cast<Eigen::Index>(found - columns.begin());
 }
 
-Metric plain_metric(const MarginalisedSystem& marginalised, std::vector<int> columns) {
-  Metric metric;
+NormalEquations normal_equations(const MarginalisedSystem& marginalised, std::vector<int> columns) {
+  NormalEquations equations;
   std::sort(columns.begin(), columns.end());
-  metric.columns = std::move(columns);
-  const Eigen::MatrixXd g = marginalised.g(Eigen::all, metric.columns);
-  metric.ee = marginalised.e.squaredNorm();
-  metric.ge = g.transpose() * marginalised.e;
-  metric.gg = g.transpose() * g;
-  metric.log_det = marginalised.log_det;
-  return metric;
+  equations.columns = std::move(columns);
+  const Eigen::MatrixXd g = marginalised.g(Eigen::all, equations.columns);
+  equations.ee = marginalised.e.squaredNorm();
+  equations.ge = g.transpose() * marginalised.e;
+  equations.gg = g.transpose() * g;
+  equations.log_det = marginalised.log_det;
+  return equations;
 }
 
-std::vector<Metric> pattern_metrics(const LinearisedSystem& system,
-                                    const Session& session,
-                                    MarginalisedSystem& marginalised,
-                                    const std::vector<int>& columns) {
+std::vector<NormalEquations> normal_equations_beside_patterns(const LinearisedSystem& system,
+                                                              const Session& session,
+                                                              MarginalisedSystem& marginalised,
+                                                              const std::vector<int>& columns) {
   std::vector<int> sorted = columns;
   std::sort(sorted.begin(), sorted.end());
-  std::vector<Metric> metrics;
+  std::vector<NormalEquations> by_pattern;
   marginalised.pattern_trace.clear();
   for (const PatternShape& shape : kPatternShapes) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
@@ -178,16 +178,16 @@ std::vector<Metric> pattern_metrics(const LinearisedSystem& system,
     for (const double delta : kPatternDeltas) {
       const Eigen::ArrayXd variance = 1.0 + values * (delta * delta / values.sum());
       const Eigen::VectorXd weight = variance.inverse();
-      Metric metric;
-      metric.columns = sorted;
-      metric.ee = e.cwiseProduct(weight).dot(e);
-      metric.ge = g.transpose() * weight.cwiseProduct(e);
-      metric.gg = g.transpose() * weight.asDiagonal() * g;
-      metric.log_det = marginalised.log_det + variance.log().sum();
-      metrics.push_back(std::move(metric));
+      NormalEquations equations;
+      equations.columns = sorted;
+      equations.ee = e.cwiseProduct(weight).dot(e);
+      equations.ge = g.transpose() * weight.cwiseProduct(e);
+      equations.gg = g.transpose() * weight.asDiagonal() * g;
+      equations.log_det = marginalised.log_det + variance.log().sum();
+      by_pattern.push_back(std::move(equations));
     }
   }
-  return metrics;
+  return by_pattern;
 }
 
 Pattern pattern_of(const MarginalisedSystem& marginalised, int index) {
@@ -200,7 +200,7 @@ Pattern pattern_of(const MarginalisedSystem& marginalised, int index) {
 namespace {
 
 /// Set evidence for one sigma of delta.
-SetEvidence evidence_at(const Metric& metric,
+SetEvidence evidence_at(const NormalEquations& equations,
                         const std::vector<Regressor>& regressors,
                         std::span<const Eigen::Index> set,
                         const NoiseDensity& noise,
@@ -208,17 +208,17 @@ SetEvidence evidence_at(const Metric& metric,
   SetEvidence result;
   std::vector<Eigen::Index> free;
   const auto regressor = [&](Eigen::Index i) -> const Regressor& {
-    return regressors[static_cast<std::size_t>(metric.columns[static_cast<std::size_t>(i)])];
+    return regressors[static_cast<std::size_t>(equations.columns[static_cast<std::size_t>(i)])];
   };
-  double q = metric.ee;
+  double q = equations.ee;
   for (const Eigen::Index i : set) {
     if (!regressor(i).fixed) {
       free.push_back(i);
       continue;
     }
-    q -= 2.0 * metric.ge(i);
+    q -= 2.0 * equations.ge(i);
     for (const Eigen::Index j : set) {
-      if (regressor(j).fixed) q += metric.gg(i, j);
+      if (regressor(j).fixed) q += equations.gg(i, j);
     }
   }
   const auto m = static_cast<Eigen::Index>(free.size());
@@ -227,15 +227,15 @@ SetEvidence evidence_at(const Metric& metric,
   Eigen::MatrixXd a(m, m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Eigen::Index at = free[static_cast<std::size_t>(i)];
-    length(i) = std::sqrt(metric.gg(at, at));
-    c(i) = metric.ge(at);
+    length(i) = std::sqrt(equations.gg(at, at));
+    c(i) = equations.ge(at);
     for (const Eigen::Index j : set) {
-      if (regressor(j).fixed) c(i) -= metric.gg(at, j);
+      if (regressor(j).fixed) c(i) -= equations.gg(at, j);
     }
     c(i) /= length(i);
     for (Eigen::Index j = 0; j <= i; ++j) {
       a(i, j) = a(j, i) =
-          metric.gg(at, free[static_cast<std::size_t>(j)]) / (length(i) * length(j));
+          equations.gg(at, free[static_cast<std::size_t>(j)]) / (length(i) * length(j));
     }
     a(i, i) += 1.0 / (delta_sigma * delta_sigma);
   }
@@ -244,8 +244,8 @@ SetEvidence evidence_at(const Metric& metric,
   result.quadratic = std::max(q - c.dot(result.delta), 0.0);
   result.delta_square = llt.solve(Eigen::MatrixXd::Identity(m, m)).diagonal();
   const double half_log_det = Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
-  result.log_evidence = noise.log_density(result.quadratic) - 0.5 * metric.log_det - half_log_det -
-                        static_cast<double>(m) * std::log(delta_sigma);
+  result.log_evidence = noise.log_density(result.quadratic) - 0.5 * equations.log_det -
+                        half_log_det - static_cast<double>(m) * std::log(delta_sigma);
   const double s = std::sqrt(noise.noise_square(result.quadratic));
   for (Eigen::Index i = 0; i < m; ++i) {
     const Regressor& own = regressor(free[static_cast<std::size_t>(i)]);
@@ -269,14 +269,14 @@ SetEvidence evidence_at(const Metric& metric,
 
 }  // namespace
 
-SetEvidence set_evidence(const Metric& metric,
+SetEvidence set_evidence(const NormalEquations& equations,
                          const std::vector<Regressor>& regressors,
                          std::span<const Eigen::Index> set,
                          const NoiseDensity& noise) {
-  SetEvidence wide = evidence_at(metric, regressors, set, noise, kWideDelta);
+  SetEvidence wide = evidence_at(equations, regressors, set, noise, kWideDelta);
   const bool all_fixed = wide.delta.size() == 0;
   if (all_fixed) return wide;
-  const SetEvidence usual = evidence_at(metric, regressors, set, noise, kUsualDelta);
+  const SetEvidence usual = evidence_at(equations, regressors, set, noise, kUsualDelta);
   wide.log_evidence = log_sum(std::log(1.0 - kWideDeltaPrior) + usual.log_evidence,
                               std::log(kWideDeltaPrior) + wide.log_evidence);
   return wide;

@@ -90,7 +90,7 @@ struct MarginalisedSystem {
                                       const Eigen::VectorXd& column);
 
 /// Inner products of the residual and of some columns.
-struct Metric {
+struct NormalEquations {
   std::vector<int> columns;  ///< regressors, ascending
   double ee = 0.0;
   Eigen::VectorXd ge;
@@ -98,14 +98,16 @@ struct Metric {
   double log_det = 0.0;  ///< of everything that is not noise's scale: V and the pattern
   [[nodiscard]] Eigen::Index position(int column) const;
 };
-[[nodiscard]] Metric plain_metric(const MarginalisedSystem& marginalised, std::vector<int> columns);
+[[nodiscard]] NormalEquations normal_equations(const MarginalisedSystem& marginalised,
+                                               std::vector<int> columns);
 
 /// The unknown pattern beside some columns, at every shape and size; notes the traces in the
 /// marginalised system.
-[[nodiscard]] std::vector<Metric> pattern_metrics(const LinearisedSystem& system,
-                                                  const Session& session,
-                                                  MarginalisedSystem& marginalised,
-                                                  const std::vector<int>& columns);
+[[nodiscard]] std::vector<NormalEquations> normal_equations_beside_patterns(
+    const LinearisedSystem& system,
+    const Session& session,
+    MarginalisedSystem& marginalised,
+    const std::vector<int>& columns);
 /// Shape and size of pattern number `index`, in a marginalised system whose traces are noted.
 [[nodiscard]] Pattern pattern_of(const MarginalisedSystem& marginalised, int index);
 
@@ -116,8 +118,9 @@ struct SetEvidence {
   Eigen::VectorXd delta;         ///< of the free ones, in the order of the set
   Eigen::VectorXd delta_square;  ///< their variances, in units of s^2
 };
-/// `set` holds positions in the metric. Minus infinity where a cause would need what it cannot be.
-[[nodiscard]] SetEvidence set_evidence(const Metric& metric,
+/// `set` holds positions in the normal equations. Minus infinity where a cause would need what it
+/// cannot be.
+[[nodiscard]] SetEvidence set_evidence(const NormalEquations& equations,
                                        const std::vector<Regressor>& regressors,
                                        std::span<const Eigen::Index> set,
                                        const NoiseDensity& noise);

@@ -82,11 +82,11 @@ SingleScores single_scores(const LinearisedSystem& system,
   const Eigen::VectorXd square = marginalised.g.colwise().squaredNorm();
   std::vector<std::vector<double>> terms;
   std::vector<double> best;
-  Metric metric;
-  metric.columns = {0};
-  metric.ee = ee;
-  metric.ge.resize(1);
-  metric.gg.resize(1, 1);
+  NormalEquations equations;
+  equations.columns = {0};
+  equations.ee = ee;
+  equations.ge.resize(1);
+  equations.gg.resize(1, 1);
   const std::array<Eigen::Index, 1> first = {0};
   for (std::size_t k = 0; k < system.regressors.size(); ++k) {
     const Regressor& regressor = system.regressors[k];
@@ -98,11 +98,11 @@ SingleScores single_scores(const LinearisedSystem& system,
     }
     const auto at = static_cast<Eigen::Index>(k);
     if (!(square(at) > 1e-8)) continue;
-    metric.ge(0) = c(at);
-    metric.gg(0, 0) = square(at);
+    equations.ge(0) = c(at);
+    equations.gg(0, 0) = square(at);
     const std::vector<Regressor> one = {regressor};
     const double factor =
-        set_evidence(metric, one, first, noise).log_evidence - nothing + regressor.log_prior;
+        set_evidence(equations, one, first, noise).log_evidence - nothing + regressor.log_prior;
     terms.back().push_back(factor);
     if (factor > best.back()) {
       best.back() = factor;

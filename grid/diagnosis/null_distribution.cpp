@@ -42,15 +42,15 @@ double SingleScore::score(Eigen::Index k, double square, double c, double ee, do
   return constant_(k) - 0.5 * (n + dof_) * std::log1p(-drop / (dof_ + ee));
 }
 
-double SingleScore::largest(const Metric& metric, Eigen::Index rows) const {
+double SingleScore::largest(const NormalEquations& equations, Eigen::Index rows) const {
   double result = kNoScore;
-  for (std::size_t i = 0; i < metric.columns.size(); ++i) {
+  for (std::size_t i = 0; i < equations.columns.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     result = std::max(result,
-                      score(metric.columns[i],
-                            metric.gg(at, at),
-                            metric.ge(at),
-                            metric.ee,
+                      score(equations.columns[i],
+                            equations.gg(at, at),
+                            equations.ge(at),
+                            equations.ee,
                             static_cast<double>(rows)));
   }
   return result;

@@ -28,8 +28,8 @@ class SingleScore {
   /// MarginalisedSystem::e.
   [[nodiscard]] Eigen::VectorXd by_cause(const Eigen::VectorXd& e) const;
   [[nodiscard]] const std::vector<CauseId>& causes() const { return causes_; }
-  /// The largest over the columns of a metric of so many rows.
-  [[nodiscard]] double largest(const Metric& metric, Eigen::Index rows) const;
+  /// The largest over the columns of normal equations of so many rows.
+  [[nodiscard]] double largest(const NormalEquations& equations, Eigen::Index rows) const;
   /// The largest of all, for each column of `e`.
   [[nodiscard]] Eigen::VectorXd largest(const Eigen::MatrixXd& e) const;
 

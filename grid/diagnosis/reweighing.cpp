@@ -145,13 +145,14 @@ void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Candidate
   lens.precision = lens.inverse.transpose() * e;
   const Eigen::MatrixXd gram = e.transpose() * e;
   const Eigen::Index c = e.cols() - 1;
-  lens.metric = {columns, gram(0, 0), gram.col(0).tail(c), gram.bottomRightCorner(c, c), log_det};
+  lens.equations = {
+      columns, gram(0, 0), gram.col(0).tail(c), gram.bottomRightCorner(c, c), log_det};
   const NoiseDensity noise(dof_, n);
   for (const CandidateModel& model : models) {
     std::vector<Eigen::Index> set;
-    for (const int k : model.regressors) set.push_back(lens.metric.position(k));
+    for (const int k : model.regressors) set.push_back(lens.equations.position(k));
     const double evidence =
-        set_evidence(lens.metric, a_.system.regressors, set, noise).log_evidence;
+        set_evidence(lens.equations, a_.system.regressors, set, noise).log_evidence;
     lens.prior.push_back(model.log_weight - evidence - marginalised.log_bad);
     lens.sets.push_back(std::move(set));
   }
@@ -159,19 +160,20 @@ void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Candidate
   lenses_.push_back(std::move(lens));
 }
 
-Metric Reweighing::metric_without(const Lens& lens, const std::vector<Eigen::Index>& out) {
-  Metric metric = lens.metric;
-  if (out.empty()) return metric;
+NormalEquations Reweighing::equations_without(const Lens& lens,
+                                              const std::vector<Eigen::Index>& out) {
+  NormalEquations equations = lens.equations;
+  if (out.empty()) return equations;
   const Eigen::MatrixXd half = lens.inverse(Eigen::all, out);
   const Eigen::LLT<Eigen::MatrixXd> block(half.transpose() * half);
   Eigen::MatrixXd seen = lens.precision(out, Eigen::all);
   block.matrixL().solveInPlace(seen);
   const Eigen::Index c = seen.cols() - 1;
-  metric.ee -= seen.col(0).squaredNorm();
-  metric.ge.noalias() -= seen.rightCols(c).transpose() * seen.col(0);
-  metric.gg.noalias() -= seen.rightCols(c).transpose() * seen.rightCols(c);
-  metric.log_det += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
-  return metric;
+  equations.ee -= seen.col(0).squaredNorm();
+  equations.ge.noalias() -= seen.rightCols(c).transpose() * seen.col(0);
+  equations.gg.noalias() -= seen.rightCols(c).transpose() * seen.rightCols(c);
+  equations.log_det += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
+  return equations;
 }
 
 Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) const {
@@ -183,7 +185,7 @@ Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) 
   for (const Lens& lens : lenses_) {
     const MarginalisedSystem& whole = a_.comparison.marginalised_systems[lens.marginalised];
     const auto out = rows_of(whole, points);
-    const Metric metric = metric_without(lens, out);
+    const NormalEquations equations = equations_without(lens, out);
     const Eigen::Index rows = lens.inverse.rows() - static_cast<Eigen::Index>(out.size());
     const NoiseDensity noise(dof_, rows);
     // Marginalised systems that differ in the points left out alone are one.
@@ -194,7 +196,8 @@ Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) 
     for (std::size_t k = 0; k < lens.models.size(); ++k) {
       const CandidateModel& model = lens.models[k];
       if (!known.emplace(home, lens.pattern, model.regressors).second) continue;
-      const SetEvidence evidence = set_evidence(metric, a_.system.regressors, lens.sets[k], noise);
+      const SetEvidence evidence =
+          set_evidence(equations, a_.system.regressors, lens.sets[k], noise);
       if (!std::isfinite(evidence.log_evidence)) continue;
       comparison.models.push_back({model.regressors,
                                    lens.pattern,
@@ -203,7 +206,7 @@ Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) 
                                    noise.larger_share(evidence.quadratic),
                                    evidence.quadratic});
     }
-    if (lens.pattern < 0) strongest.emplace_back(score_.largest(metric, rows), home);
+    if (lens.pattern < 0) strongest.emplace_back(score_.largest(equations, rows), home);
   }
   std::stable_sort(
       comparison.models.begin(),

@@ -45,18 +45,18 @@ class Reweighing {
   struct Lens {
     std::size_t marginalised = 0;
     int pattern = -1;
-    Metric metric;              ///< with all points
+    NormalEquations equations;  ///< with all points
     Eigen::MatrixXd inverse;    ///< L^-1
     Eigen::MatrixXd precision;  ///< U: first column the residual
     std::vector<CandidateModel> models;
-    std::vector<std::vector<Eigen::Index>> sets;  ///< of each: its columns in the metric
+    std::vector<std::vector<Eigen::Index>> sets;  ///< of each: its columns in the equations
     std::vector<double> prior;                    ///< of each: weight less evidence
   };
 
   void add_lens(std::size_t marginalised, int pattern, std::vector<CandidateModel> models);
   /// Inner products with these rows of the lens' marginalised system gone.
-  [[nodiscard]] static Metric metric_without(const Lens& lens,
-                                             const std::vector<Eigen::Index>& out);
+  [[nodiscard]] static NormalEquations equations_without(const Lens& lens,
+                                                         const std::vector<Eigen::Index>& out);
 
   const Session& session_;
   const Analysis& a_;

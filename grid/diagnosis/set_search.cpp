@@ -49,8 +49,8 @@ class SetSearch::Search {
                static_cast<Eigen::Index>(marginalised.kept.size())) {}
 
   std::vector<CandidateModel> run() {
-    metric_ = plain_metric(marginalised_, columns());
-    consider({}, -1, metric_, 0.0);
+    equations_ = normal_equations(marginalised_, columns());
+    consider({}, -1, equations_, 0.0);
     singles();
     if (!options_.told) {
       pairs();
@@ -110,14 +110,15 @@ class SetSearch::Search {
     return kept;
   }
 
-  /// Weighs a set (positions in the metric) and keeps it where it matters.
+  /// Weighs a set (positions in the normal equations) and keeps it where it matters.
   double consider(const std::vector<Eigen::Index>& set,
                   int pattern,
-                  const Metric& metric,
+                  const NormalEquations& equations,
                   double log_pattern) {
     std::vector<int> chosen;
-    for (const Eigen::Index i : set) chosen.push_back(metric.columns[static_cast<std::size_t>(i)]);
-    const SetEvidence evidence = set_evidence(metric, system_.regressors, set, noise_);
+    for (const Eigen::Index i : set)
+      chosen.push_back(equations.columns[static_cast<std::size_t>(i)]);
+    const SetEvidence evidence = set_evidence(equations, system_.regressors, set, noise_);
     if (!std::isfinite(evidence.log_evidence)) return kMinusInfinity;
     CandidateModel model;
     model.regressors = chosen;
@@ -142,9 +143,9 @@ class SetSearch::Search {
   }
 
   void singles() {
-    for (std::size_t k = 0; k < metric_.columns.size(); ++k) {
+    for (std::size_t k = 0; k < equations_.columns.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(k);
-      const double weight = consider({at}, -1, metric_, 0.0);
+      const double weight = consider({at}, -1, equations_, 0.0);
       scored_.push_back({weight, {at}});
     }
   }
@@ -153,12 +154,12 @@ class SetSearch::Search {
   [[nodiscard]] double quick_weight(Eigen::Index i, Eigen::Index j) const {
     const Regressor& a = regressor(i);
     const Regressor& b = regressor(j);
-    const double aa = metric_.gg(i, i);
-    const double bb = metric_.gg(j, j);
-    double q = metric_.ee;
-    double ca = metric_.ge(i);
-    double cb = metric_.ge(j);
-    const double ab = metric_.gg(i, j);
+    const double aa = equations_.gg(i, i);
+    const double bb = equations_.gg(j, j);
+    double q = equations_.ee;
+    double ca = equations_.ge(i);
+    double cb = equations_.ge(j);
+    const double ab = equations_.gg(i, j);
     double occam = 0.0;
     constexpr double kPrecision = 1.0 / (kWideDelta * kWideDelta);
     if (a.fixed && b.fixed) {
@@ -185,7 +186,7 @@ class SetSearch::Search {
   }
 
   void pairs() {
-    const auto count = static_cast<Eigen::Index>(metric_.columns.size());
+    const auto count = static_cast<Eigen::Index>(equations_.columns.size());
     std::vector<std::pair<double, std::pair<Eigen::Index, Eigen::Index>>> quick;
     double best = kMinusInfinity;
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -202,7 +203,7 @@ class SetSearch::Search {
     for (std::size_t k = 0; k < quick.size(); ++k) {
       if (quick[k].first < best - kPairsWithin || k > kMostPairs) break;
       const std::vector<Eigen::Index> set = {quick[k].second.first, quick[k].second.second};
-      scored_.push_back({consider(set, -1, metric_, 0.0), set});
+      scored_.push_back({consider(set, -1, equations_, 0.0), set});
     }
   }
 
@@ -222,18 +223,18 @@ class SetSearch::Search {
 
   void extend(const std::vector<Eigen::Index>& parent, std::set<std::vector<Eigen::Index>>& seen) {
     // What the parent leaves, and of each regressor: a score for the cost of one inner product.
-    const Eigen::MatrixXd own = metric_.gg(parent, parent);
+    const Eigen::MatrixXd own = equations_.gg(parent, parent);
     const Eigen::LDLT<Eigen::MatrixXd> ldlt(own);
     const Eigen::VectorXd left =
-        metric_.ge - metric_.gg(Eigen::all, parent) * ldlt.solve(metric_.ge(parent));
+        equations_.ge - equations_.gg(Eigen::all, parent) * ldlt.solve(equations_.ge(parent));
     std::vector<std::pair<double, Eigen::Index>> order;
     for (Eigen::Index i = 0; i < left.size(); ++i) {
       bool fits = true;
       for (const Eigen::Index p : parent) fits = fits && compatible(regressor(i), regressor(p));
       if (!fits) continue;
-      const Eigen::VectorXd x = metric_.gg(parent, i);
-      const double square = metric_.gg(i, i) - x.dot(ldlt.solve(x));
-      if (!(square > 1e-6 * metric_.gg(i, i))) continue;
+      const Eigen::VectorXd x = equations_.gg(parent, i);
+      const double square = equations_.gg(i, i) - x.dot(ldlt.solve(x));
+      if (!(square > 1e-6 * equations_.gg(i, i))) continue;
       const double gain = regressor(i).fixed ? 2.0 * left(i) - square : left(i) * left(i) / square;
       order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);
     }
@@ -243,7 +244,7 @@ class SetSearch::Search {
       set.push_back(order[k].second);
       std::sort(set.begin(), set.end());
       if (!seen.insert(set).second) continue;
-      scored_.push_back({consider(set, -1, metric_, 0.0), set});
+      scored_.push_back({consider(set, -1, equations_, 0.0), set});
     }
   }
 
@@ -263,21 +264,22 @@ class SetSearch::Search {
       ++taken[s.set.size()];
       sets.push_back(s.set);
       for (const Eigen::Index i : s.set) {
-        used.push_back(metric_.columns[static_cast<std::size_t>(i)]);
+        used.push_back(equations_.columns[static_cast<std::size_t>(i)]);
       }
     }
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    const std::vector<Metric> metrics = pattern_metrics(system_, session_, marginalised_, used);
+    const std::vector<NormalEquations> by_pattern =
+        normal_equations_beside_patterns(system_, session_, marginalised_, used);
     for (int pattern = 0; pattern < kPatterns; ++pattern) {
-      const Metric& metric = metrics[static_cast<std::size_t>(pattern)];
+      const NormalEquations& equations = by_pattern[static_cast<std::size_t>(pattern)];
       const double share = log_share_of_pattern(pattern);
       for (const auto& set : sets) {
         std::vector<Eigen::Index> there;
         for (const Eigen::Index i : set) {
-          there.push_back(metric.position(metric_.columns[static_cast<std::size_t>(i)]));
+          there.push_back(equations.position(equations_.columns[static_cast<std::size_t>(i)]));
         }
-        consider(there, pattern, metric, share);
+        consider(there, pattern, equations, share);
       }
     }
   }
@@ -290,7 +292,7 @@ class SetSearch::Search {
 
   [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
     return system_
-        .regressors[static_cast<std::size_t>(metric_.columns[static_cast<std::size_t>(i)])];
+        .regressors[static_cast<std::size_t>(equations_.columns[static_cast<std::size_t>(i)])];
   }
 
   static constexpr double kLeastSquare = 1e-8;
@@ -305,7 +307,7 @@ class SetSearch::Search {
   std::size_t number_;
   const ComparisonOptions& options_;
   NoiseDensity noise_;
-  Metric metric_;
+  NormalEquations equations_;
   std::vector<CandidateModel> models_;
   std::vector<Scored> scored_;
   double best_ = kMinusInfinity;

@@ -115,9 +115,9 @@ double brute_force(const LinearisedSystem& system,
 TEST(Evidence, OfNothingEqualsTheIntegral) {
   const LinearisedSystem system = small_system(-100.0);
   const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
-  const Metric metric = plain_metric(marginalised, {0});
+  const NormalEquations equations = normal_equations(marginalised, {0});
   const NoiseDensity noise(kDof, 6);
-  const double closed = set_evidence(metric, system.regressors, {}, noise).log_evidence;
+  const double closed = set_evidence(equations, system.regressors, {}, noise).log_evidence;
   EXPECT_NEAR(
       closed, brute_force(system, marginalised, -100.0, false), 2e-4)  // raster of 120 by 120
       << "settings integrated in closed form";
@@ -127,10 +127,10 @@ TEST(Evidence, OfACauseEqualsTheIntegral) {
   for (const double lowest : {-100.0, 0.0}) {
     const LinearisedSystem system = small_system(lowest);
     const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
-    const Metric metric = plain_metric(marginalised, {0});
+    const NormalEquations equations = normal_equations(marginalised, {0});
     const NoiseDensity noise(kDof, 6);
     const std::array<Eigen::Index, 1> set = {0};
-    const double closed = set_evidence(metric, system.regressors, set, noise).log_evidence;
+    const double closed = set_evidence(equations, system.regressors, set, noise).log_evidence;
     // Where the size is cut at zero the closed form takes the noise at its mean for the cut alone.
     const double tolerance = lowest == 0.0 ? 0.02 : 2e-3;
     EXPECT_NEAR(closed, brute_force(system, marginalised, lowest, true), tolerance)
