@@ -6,8 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "grid/diagnosis/downdating.hpp"
 #include "grid/diagnosis/leading.hpp"
-#include "grid/diagnosis/reweighing.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -135,13 +135,13 @@ std::optional<Stability> examine_stability(const Session& session,
   if (a.decision.listed.empty() || session.distances) return std::nullopt;
   const std::vector<LeftOut> groups = groups_to_leave_out(session);
   if (groups.empty()) return std::nullopt;
-  const Reweighing reweighing(session, a, options);
+  const Downdating downdating(session, a, options);
   const Statement statement(a);
-  const double all = statement.log_odds(reweighing.without({}).comparison);
+  const double all = statement.log_odds(downdating.without({}).comparison);
   Stability result;
   result.probability = probability_of(all);
   for (const LeftOut& group : groups) {
-    const auto without = reweighing.without(group.points);
+    const auto without = downdating.without(group.points);
     std::vector<bool> excluded(session.points.size(), false);
     for (const std::size_t i : group.points) excluded[i] = true;
     const bool seen = without.seen || options.told.has_value();

@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/diagnosis/downdating.hpp"
 #include "grid/diagnosis/leading.hpp"
 #include "grid/diagnosis/normal_plot.hpp"
-#include "grid/diagnosis/reweighing.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "tests/diagnosis/sessions.hpp"
 
@@ -79,13 +79,13 @@ TEST(LeavingOut, MarksThatLieAnywhereHaveNoColumns) {
 }
 
 // Nothing left out: the comparison itself, but for what the followed models leave aside.
-TEST(Reweighing, OfAllPointsIsTheComparison) {
+TEST(Downdating, OfAllPointsIsTheComparison) {
   const auto session = make_session(session_of({kLongLeft}, 3));
   const auto a = analyse(*session, verdict_alone());
   ASSERT_TRUE(a);
   ASSERT_FALSE(a->decision.listed.empty());
-  const Reweighing reweighing(*session, *a, verdict_alone());
-  const auto all = reweighing.without({});
+  const Downdating downdating(*session, *a, verdict_alone());
+  const auto all = downdating.without({});
   EXPECT_TRUE(all.seen);
   EXPECT_EQ(all.comparison.best().regressors, a->comparison.best().regressors);
   // Two factorisations of one matrix.
@@ -96,7 +96,7 @@ TEST(Reweighing, OfAllPointsIsTheComparison) {
 }
 
 // The short way against the long one: a comparison of its own without each point and line.
-TEST(Reweighing, SaysWhatAComparisonMadeAnewSays) {
+TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
   const model::AppliedEffect wave{
       "sprocket_eccentricity", "left", {{"amplitude_mm", 0.6}, {"phase_rad", 1.0}}};
   for (const auto& [hidden, seed] : {std::pair(wave, 1), std::pair(kLongLeft, 2)}) {

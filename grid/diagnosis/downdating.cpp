@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/reweighing.hpp"
+#include "grid/diagnosis/downdating.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -20,35 +20,35 @@ constexpr std::size_t kMostModels = 160;
 constexpr double kPatternShare = 0.01;
 constexpr std::size_t kMostPatterns = 4;
 
-using LensKey = std::pair<std::size_t, int>;  ///< marginalised system, pattern
+using FactorisationKey = std::pair<std::size_t, int>;  ///< marginalised system, pattern
 
 /// The models that may lead once some points are gone: the best, and in each marginalised system of
 /// these nothing, and every cause alone at its best place.
-std::map<LensKey, std::vector<CandidateModel>> followed(const LinearisedSystem& system,
-                                                        const ModelComparison& comparison) {
-  std::map<LensKey, double> share;
+std::map<FactorisationKey, std::vector<CandidateModel>> followed(
+    const LinearisedSystem& system, const ModelComparison& comparison) {
+  std::map<FactorisationKey, double> share;
   for (const CandidateModel& model : comparison.models) {
     share[{model.marginalised, model.pattern}] += comparison.probability(model);
   }
-  std::vector<std::pair<double, LensKey>> patterns;
+  std::vector<std::pair<double, FactorisationKey>> patterns;
   for (const auto& [key, p] : share) {
     if (key.second >= 0 && p >= kPatternShare) patterns.emplace_back(-p, key);
   }
   std::sort(patterns.begin(), patterns.end());
   if (patterns.size() > kMostPatterns) patterns.resize(kMostPatterns);
-  const auto is_followed = [&](const LensKey& key) {
+  const auto is_followed = [&](const FactorisationKey& key) {
     return key.second < 0 || std::any_of(patterns.begin(), patterns.end(), [&](const auto& p) {
              return p.second == key;
            });
   };
   const double best = comparison.best().log_weight;
-  std::map<LensKey, std::vector<CandidateModel>> result;
-  std::map<LensKey, std::vector<CauseId>> alone;
+  std::map<FactorisationKey, std::vector<CandidateModel>> result;
+  std::map<FactorisationKey, std::vector<CauseId>> alone;
   std::set<std::size_t> marginalised_systems;
   std::size_t taken = 0;
   // Best first, so that a marginalised system is known before the rest of what is asked for in it.
   for (const CandidateModel& model : comparison.models) {
-    const LensKey key{model.marginalised, model.pattern};
+    const FactorisationKey key{model.marginalised, model.pattern};
     if (!is_followed(key)) continue;
     const bool leads = model.log_weight > best - kNegligible && taken < kMostModels;
     bool first_alone = model.regressors.empty();
@@ -99,7 +99,7 @@ std::size_t home_of(ModelComparison& comparison, std::vector<bool> bad) {
 
 }  // namespace
 
-Reweighing::Reweighing(const Session& session,
+Downdating::Downdating(const Session& session,
                        const Analysis& analysis,
                        const DiagnosisOptions& options)
     : session_(session),
@@ -109,15 +109,17 @@ Reweighing::Reweighing(const Session& session,
              analysis.comparison.marginalised_systems[analysis.comparison.best().marginalised],
              dof_) {
   for (auto& [key, models] : followed(a_.system, a_.comparison)) {
-    add_lens(key.first, key.second, std::move(models));
+    add_factorisation(key.first, key.second, std::move(models));
   }
 }
 
-void Reweighing::add_lens(std::size_t number, int pattern, std::vector<CandidateModel> models) {
+void Downdating::add_factorisation(std::size_t number,
+                                   int pattern,
+                                   std::vector<CandidateModel> models) {
   const MarginalisedSystem& marginalised = a_.comparison.marginalised_systems[number];
-  Lens lens;
-  lens.marginalised = number;
-  lens.pattern = pattern;
+  Factorisation factorised;
+  factorised.marginalised = number;
+  factorised.pattern = pattern;
   std::vector<int> columns;
   for (const CandidateModel& model : models) {
     columns.insert(columns.end(), model.regressors.begin(), model.regressors.end());
@@ -126,7 +128,7 @@ void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Candidate
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
   const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
   const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
-  lens.inverse = lower.solve(Eigen::MatrixXd::Identity(n, n));
+  factorised.inverse = lower.solve(Eigen::MatrixXd::Identity(n, n));
   Eigen::MatrixXd e(n, static_cast<Eigen::Index>(columns.size()) + 1);
   e.col(0) = marginalised.e;
   e.rightCols(e.cols() - 1) = marginalised.g(Eigen::all, columns);
@@ -138,35 +140,35 @@ void Reweighing::add_lens(std::size_t number, int pattern, std::vector<Candidate
     k = lower.solve(k.transpose()).eval() * (shape.sigma_mm * shape.sigma_mm);
     k.diagonal().array() += 1.0;
     const Eigen::LLT<Eigen::MatrixXd> llt(k);
-    llt.matrixL().solveInPlace(lens.inverse);
+    llt.matrixL().solveInPlace(factorised.inverse);
     llt.matrixL().solveInPlace(e);
     log_det += 2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
   }
-  lens.precision = lens.inverse.transpose() * e;
+  factorised.precision = factorised.inverse.transpose() * e;
   const Eigen::MatrixXd gram = e.transpose() * e;
   const Eigen::Index c = e.cols() - 1;
-  lens.equations = {
+  factorised.equations = {
       columns, gram(0, 0), gram.col(0).tail(c), gram.bottomRightCorner(c, c), log_det};
   const NoiseDensity noise(dof_, n);
   for (const CandidateModel& model : models) {
     std::vector<Eigen::Index> set;
-    for (const int k : model.regressors) set.push_back(lens.equations.position(k));
+    for (const int k : model.regressors) set.push_back(factorised.equations.position(k));
     const double evidence =
-        set_evidence(lens.equations, a_.system.regressors, set, noise).log_evidence;
-    lens.prior.push_back(model.log_weight - evidence - marginalised.log_bad);
-    lens.sets.push_back(std::move(set));
+        set_evidence(factorised.equations, a_.system.regressors, set, noise).log_evidence;
+    factorised.prior.push_back(model.log_weight - evidence - marginalised.log_bad);
+    factorised.sets.push_back(std::move(set));
   }
-  lens.models = std::move(models);
-  lenses_.push_back(std::move(lens));
+  factorised.models = std::move(models);
+  factorisations_.push_back(std::move(factorised));
 }
 
-NormalEquations Reweighing::equations_without(const Lens& lens,
-                                              const std::vector<Eigen::Index>& out) {
-  NormalEquations equations = lens.equations;
+NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
+                                                const std::vector<Eigen::Index>& out) {
+  NormalEquations equations = factorised.equations;
   if (out.empty()) return equations;
-  const Eigen::MatrixXd half = lens.inverse(Eigen::all, out);
+  const Eigen::MatrixXd half = factorised.inverse(Eigen::all, out);
   const Eigen::LLT<Eigen::MatrixXd> block(half.transpose() * half);
-  Eigen::MatrixXd seen = lens.precision(out, Eigen::all);
+  Eigen::MatrixXd seen = factorised.precision(out, Eigen::all);
   block.matrixL().solveInPlace(seen);
   const Eigen::Index c = seen.cols() - 1;
   equations.ee -= seen.col(0).squaredNorm();
@@ -176,37 +178,37 @@ NormalEquations Reweighing::equations_without(const Lens& lens,
   return equations;
 }
 
-Reweighing::Without Reweighing::without(const std::vector<std::size_t>& points) const {
+Downdating::Without Downdating::without(const std::vector<std::size_t>& points) const {
   const double price = log_price_of_bad(a_.system);
   Without result;
   ModelComparison& comparison = result.comparison;
   std::set<std::tuple<std::size_t, int, std::vector<int>>> known;
   std::vector<std::pair<double, std::size_t>> strongest;  // score, by marginalised system
-  for (const Lens& lens : lenses_) {
-    const MarginalisedSystem& whole = a_.comparison.marginalised_systems[lens.marginalised];
+  for (const Factorisation& factorised : factorisations_) {
+    const MarginalisedSystem& whole = a_.comparison.marginalised_systems[factorised.marginalised];
     const auto out = rows_of(whole, points);
-    const NormalEquations equations = equations_without(lens, out);
-    const Eigen::Index rows = lens.inverse.rows() - static_cast<Eigen::Index>(out.size());
+    const NormalEquations equations = downdated_equations(factorised, out);
+    const Eigen::Index rows = factorised.inverse.rows() - static_cast<Eigen::Index>(out.size());
     const NoiseDensity noise(dof_, rows);
     // Marginalised systems that differ in the points left out alone are one.
     const std::size_t home = home_of(comparison, with_points_out(whole.bad, points));
     const auto bad = static_cast<double>(
         std::count(whole.bad.begin(), whole.bad.end(), true) -
         std::count_if(points.begin(), points.end(), [&](std::size_t i) { return whole.bad[i]; }));
-    for (std::size_t k = 0; k < lens.models.size(); ++k) {
-      const CandidateModel& model = lens.models[k];
-      if (!known.emplace(home, lens.pattern, model.regressors).second) continue;
+    for (std::size_t k = 0; k < factorised.models.size(); ++k) {
+      const CandidateModel& model = factorised.models[k];
+      if (!known.emplace(home, factorised.pattern, model.regressors).second) continue;
       const SetEvidence evidence =
-          set_evidence(equations, a_.system.regressors, lens.sets[k], noise);
+          set_evidence(equations, a_.system.regressors, factorised.sets[k], noise);
       if (!std::isfinite(evidence.log_evidence)) continue;
       comparison.models.push_back({model.regressors,
-                                   lens.pattern,
+                                   factorised.pattern,
                                    home,
-                                   lens.prior[k] + evidence.log_evidence + bad * price,
+                                   factorised.prior[k] + evidence.log_evidence + bad * price,
                                    noise.larger_share(evidence.quadratic),
                                    evidence.quadratic});
     }
-    if (lens.pattern < 0) strongest.emplace_back(score_.largest(equations, rows), home);
+    if (factorised.pattern < 0) strongest.emplace_back(score_.largest(equations, rows), home);
   }
   std::stable_sort(
       comparison.models.begin(),

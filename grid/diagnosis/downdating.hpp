@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The models of a comparison weighed again without some of the points, at a small part of what a
-/// comparison of their own would cost.
+/// Evidence downdated: the models of a comparison without some of the points, at a small part of
+/// what a comparison of their own would cost.
 ///
 /// Notation
 ///   V     covariance of a marginalised system's rows, the pattern integrated out as well; V = L L',
@@ -25,10 +25,10 @@
 
 namespace chaintrue::grid::diagnosis {
 
-class Reweighing {
+class Downdating {
  public:
   /// Both arguments are kept by reference.
-  Reweighing(const Session& session, const Analysis& analysis, const DiagnosisOptions& options);
+  Downdating(const Session& session, const Analysis& analysis, const DiagnosisOptions& options);
 
   struct Without {
     /// Best first; its marginalised systems bear the points set aside, those left out among them,
@@ -42,7 +42,7 @@ class Reweighing {
 
  private:
   /// One marginalised system with one pattern or none.
-  struct Lens {
+  struct Factorisation {
     std::size_t marginalised = 0;
     int pattern = -1;
     NormalEquations equations;  ///< with all points
@@ -53,16 +53,16 @@ class Reweighing {
     std::vector<double> prior;                    ///< of each: weight less evidence
   };
 
-  void add_lens(std::size_t marginalised, int pattern, std::vector<CandidateModel> models);
-  /// Inner products with these rows of the lens' marginalised system gone.
-  [[nodiscard]] static NormalEquations equations_without(const Lens& lens,
-                                                         const std::vector<Eigen::Index>& out);
+  void add_factorisation(std::size_t marginalised, int pattern, std::vector<CandidateModel> models);
+  /// Inner products with these rows of the marginalised system gone.
+  [[nodiscard]] static NormalEquations downdated_equations(const Factorisation& factorised,
+                                                           const std::vector<Eigen::Index>& out);
 
   const Session& session_;
   const Analysis& a_;
   double dof_;
   SingleScore score_;
-  std::vector<Lens> lenses_;
+  std::vector<Factorisation> factorisations_;
 };
 
 }  // namespace chaintrue::grid::diagnosis
