@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/bad_points.hpp"
 #include "grid/diagnosis/link_priors.hpp"
+#include "grid/diagnosis/outlier_search.hpp"
 #include "grid/diagnosis/polish.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -50,8 +50,8 @@ tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const St
     auto system = linearise(session, state, steps);
     if (!system) return tl::unexpected(unreachable(session, system.error()));
     system->g.resize(session.rows(), 0);
-    const auto bad = bad_point_sets(session, *system, none, {{}}, projected).front();
-    const MarginalisedSystem marginalised = marginalise(*system, bad, projected);
+    const auto outliers = outlier_sets(session, *system, none, {{}}, projected).front();
+    const MarginalisedSystem marginalised = marginalise(*system, outliers, projected);
     const Eigen::VectorXd change = estimate(session, *system, marginalised, {}, -1).setting_change;
     state = with_settings(session, state, system->setting + change);
     const auto problems = model::problems_of(state.machine);

@@ -130,11 +130,12 @@ class Decider {
   }
 
   void share_abstention(const CandidateModel& model, double p) {
-    const bool bad = comparison_.marginalised_systems[model.marginalised].bad != excluded_;
+    const bool with_outliers =
+        comparison_.marginalised_systems[model.marginalised].outliers != excluded_;
     if (model.pattern >= 0) {
       result_.unknown += p;
-    } else if (bad) {
-      result_.bad_points += p;
+    } else if (with_outliers) {
+      result_.outliers += p;
     } else {
       result_.noise += p * model.larger_noise;
       result_.nothing += p * (1.0 - model.larger_noise);
@@ -252,11 +253,11 @@ class Decider {
       result_.pattern_left = false;
     }
     const double most =
-        std::max({result_.nothing, result_.noise, result_.bad_points, result_.unknown});
+        std::max({result_.nothing, result_.noise, result_.outliers, result_.unknown});
     if (result_.pattern > 0.5 || result_.unknown == most) {
       result_.verdict = Verdict::unknown_pattern;
       result_.pattern_left = true;
-    } else if (result_.bad_points == most) {
+    } else if (result_.outliers == most) {
       result_.verdict = Verdict::bad_points;
     } else if (result_.noise == most) {
       result_.verdict = Verdict::noise_larger_than_stated;

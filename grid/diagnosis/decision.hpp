@@ -40,7 +40,7 @@ struct Decision {
   std::vector<ClassProbability> marginal;
   double nothing = 0.0;
   double noise = 0.0;
-  double bad_points = 0.0;
+  double outliers = 0.0;
   double unknown = 0.0;
   double caused = 0.0;   ///< one cause or more
   double pattern = 0.0;  ///< with an unknown pattern, beside causes or alone

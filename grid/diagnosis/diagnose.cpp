@@ -63,7 +63,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(
   d.not_testable = analysis->candidates.not_testable;
   d.bounds = bounds(*session, *analysis, d.not_testable);
   d.settings = settings_found(*session, *analysis);
-  d.bad_points = bad_points_found(*session, *analysis);
+  d.bad_points = outliers_found(*session, *analysis);
   d.separations = separations(*analysis);
   d.points = pictures(*session, *analysis);
   d.holes = hole_pictures(*session, *analysis);

@@ -99,7 +99,7 @@ struct LeftOver {
   double p_value = 1.0;
 };
 
-struct BadPoint {
+struct Outlier {
   std::size_t index = 0;  ///< into the grid's points, or the holes' distances
   /// Where the tool would have to have been, less where the mark is.
   Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
@@ -313,7 +313,7 @@ struct Diagnosis {
   std::vector<Cause> causes;
   std::vector<Hypothesis> hypotheses;
   LeftOver left_over;
-  std::vector<BadPoint> bad_points;
+  std::vector<Outlier> bad_points;
   std::vector<NotTestable> not_testable;
   std::vector<Bound> bounds;
   std::vector<CalibratedSetting> settings;

@@ -17,24 +17,24 @@ std::string words_of_ends(const DistancePicture& distance) {
              : fmt::format("{}-{}", distance.from, distance.to);
 }
 
-std::vector<BadPoint> bad_distances_found(const Session& session, const Analysis& a) {
+std::vector<Outlier> distance_outliers_found(const Session& session, const Analysis& a) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
-  std::vector<BadPoint> result;
+  std::vector<Outlier> result;
   for (std::size_t k = 0; k < session.units(); ++k) {
-    if (!marginalised.bad[k]) continue;
+    if (!marginalised.outliers[k]) continue;
     const auto row = static_cast<Eigen::Index>(k);
     // All that the others know of its holes is in the prediction, with what they leave open.
     const Eigen::RowVectorXd by_setting = a.system.by_setting.row(row);
     const double variance = a.estimate.noise_square +
                             by_setting.dot(a.estimate.setting_covariance * by_setting.transpose());
     const double off = a.estimate.left_beside_pattern(row);
-    BadPoint bad;
-    bad.index = session.distance_index[k];
-    bad.off_mm = off * a.system.row_sigma_mm(row);
-    bad.distance = std::abs(off) / std::sqrt(variance);
-    result.push_back(bad);
+    Outlier outlier;
+    outlier.index = session.distance_index[k];
+    outlier.off_mm = off * a.system.row_sigma_mm(row);
+    outlier.distance = std::abs(off) / std::sqrt(variance);
+    result.push_back(outlier);
   }
-  std::sort(result.begin(), result.end(), [](const BadPoint& x, const BadPoint& y) {
+  std::sort(result.begin(), result.end(), [](const Outlier& x, const Outlier& y) {
     return x.index < y.index;
   });
   return result;
@@ -77,7 +77,7 @@ std::vector<DistancePicture> distance_pictures(const Session& session, const Ana
     picture.from = set.holes[distance.from].name;
     picture.to =
         distance.edge ? std::string(grid::name(*distance.edge)) : set.holes[distance.to].name;
-    picture.bad = marginalised.bad[k];
+    picture.bad = marginalised.outliers[k];
     picture.read_mm = length_of(set, distance);
     picture.before_mm = mm(before);
     picture.after_mm = mm(after);

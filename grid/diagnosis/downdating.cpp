@@ -80,20 +80,21 @@ std::vector<Eigen::Index> rows_of(const MarginalisedSystem& marginalised,
   return result;
 }
 
-std::vector<bool> with_points_out(std::vector<bool> bad, const std::vector<std::size_t>& points) {
-  for (const std::size_t point : points) bad[point] = true;
-  return bad;
+std::vector<bool> with_points_out(std::vector<bool> outliers,
+                                  const std::vector<std::size_t>& points) {
+  for (const std::size_t point : points) outliers[point] = true;
+  return outliers;
 }
 
 /// The comparison's marginalised system with these points set aside, made where there is none.
-std::size_t home_of(ModelComparison& comparison, std::vector<bool> bad) {
-  const auto same =
-      std::find_if(comparison.marginalised_systems.begin(),
-                   comparison.marginalised_systems.end(),
-                   [&](const MarginalisedSystem& marginalised) { return marginalised.bad == bad; });
+std::size_t home_of(ModelComparison& comparison, std::vector<bool> outliers) {
+  const auto same = std::find_if(
+      comparison.marginalised_systems.begin(),
+      comparison.marginalised_systems.end(),
+      [&](const MarginalisedSystem& marginalised) { return marginalised.outliers == outliers; });
   if (same != comparison.marginalised_systems.end())
     return static_cast<std::size_t>(same - comparison.marginalised_systems.begin());
-  comparison.marginalised_systems.emplace_back().bad = std::move(bad);
+  comparison.marginalised_systems.emplace_back().outliers = std::move(outliers);
   return comparison.marginalised_systems.size() - 1;
 }
 
@@ -155,7 +156,7 @@ void Downdating::add_factorisation(std::size_t number,
     for (const int k : model.regressors) set.push_back(factorised.equations.position(k));
     const double evidence =
         set_evidence(factorised.equations, a_.system.regressors, set, noise).log_evidence;
-    factorised.prior.push_back(model.log_weight - evidence - marginalised.log_bad);
+    factorised.prior.push_back(model.log_weight - evidence - marginalised.log_outliers);
     factorised.sets.push_back(std::move(set));
   }
   factorised.models = std::move(models);
@@ -179,7 +180,7 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
 }
 
 Downdating::Without Downdating::without(const std::vector<std::size_t>& points) const {
-  const double price = log_price_of_bad(a_.system);
+  const double price = log_price_of_outlier(a_.system);
   Without result;
   ModelComparison& comparison = result.comparison;
   std::set<std::tuple<std::size_t, int, std::vector<int>>> known;
@@ -191,10 +192,12 @@ Downdating::Without Downdating::without(const std::vector<std::size_t>& points) 
     const Eigen::Index rows = factorised.inverse.rows() - static_cast<Eigen::Index>(out.size());
     const NoiseDensity noise(dof_, rows);
     // Marginalised systems that differ in the points left out alone are one.
-    const std::size_t home = home_of(comparison, with_points_out(whole.bad, points));
-    const auto bad = static_cast<double>(
-        std::count(whole.bad.begin(), whole.bad.end(), true) -
-        std::count_if(points.begin(), points.end(), [&](std::size_t i) { return whole.bad[i]; }));
+    const std::size_t home = home_of(comparison, with_points_out(whole.outliers, points));
+    const auto outliers =
+        static_cast<double>(std::count(whole.outliers.begin(), whole.outliers.end(), true) -
+                            std::count_if(points.begin(), points.end(), [&](std::size_t i) {
+                              return whole.outliers[i];
+                            }));
     for (std::size_t k = 0; k < factorised.models.size(); ++k) {
       const CandidateModel& model = factorised.models[k];
       if (!known.emplace(home, factorised.pattern, model.regressors).second) continue;
@@ -204,7 +207,7 @@ Downdating::Without Downdating::without(const std::vector<std::size_t>& points) 
       comparison.models.push_back({model.regressors,
                                    factorised.pattern,
                                    home,
-                                   factorised.prior[k] + evidence.log_evidence + bad * price,
+                                   factorised.prior[k] + evidence.log_evidence + outliers * price,
                                    noise.larger_share(evidence.quadratic),
                                    evidence.quadratic});
     }

@@ -15,7 +15,7 @@
 /// which are the inverse of a partitioned matrix and Schur's determinant (G. Golub and C. Van Loan,
 /// Matrix Computations (2013), section 3.2.11; F. Zhang, The Schur Complement (2005), theorem 1.1).
 ///
-/// Exact for each model that the comparison kept; models that it let go, sets of bad points that it
+/// Exact for each model that the comparison kept; models that it let go, sets of outliers that it
 /// never met, and patterns that hold less than a hundredth of the probability are not looked at.
 #pragma once
 

@@ -77,23 +77,23 @@ double NoiseDensity::noise_square(double quadratic) const {
   return sum;
 }
 
-double log_price_of_bad(const LinearisedSystem& system) {
-  return std::log(kBadPointPrior) -
+double log_price_of_outlier(const LinearisedSystem& system) {
+  return std::log(kOutlierPrior) -
          0.5 * static_cast<double>(system.unit_rows) *
-             std::log(2.0 * std::numbers::pi * kBadPointSpread * kBadPointSpread);
+             std::log(2.0 * std::numbers::pi * kOutlierSpread * kOutlierSpread);
 }
 
 MarginalisedSystem marginalise(const LinearisedSystem& system,
-                               const std::vector<bool>& bad,
+                               const std::vector<bool>& outliers,
                                const Steps& steps) {
   MarginalisedSystem marginalised;
-  marginalised.bad = bad;
+  marginalised.outliers = outliers;
   for (Eigen::Index row = 0; row < system.e.size(); ++row) {
     const auto unit = static_cast<std::size_t>(row / system.unit_rows);
-    if (unit >= bad.size() || !bad[unit]) marginalised.kept.push_back(row);
+    if (unit >= outliers.size() || !outliers[unit]) marginalised.kept.push_back(row);
   }
-  const auto set_aside = static_cast<double>(std::count(bad.begin(), bad.end(), true));
-  marginalised.log_bad = set_aside * log_price_of_bad(system);
+  const auto set_aside = static_cast<double>(std::count(outliers.begin(), outliers.end(), true));
+  marginalised.log_outliers = set_aside * log_price_of_outlier(system);
   const Eigen::MatrixXd a = system.by_setting(marginalised.kept, Eigen::all);
   Eigen::MatrixXd v = Eigen::MatrixXd::Identity(a.rows(), a.rows());
   if (steps.project_settings) {

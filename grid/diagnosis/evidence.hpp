@@ -36,10 +36,10 @@ inline constexpr double kWideDelta = 60.0;
 inline constexpr double kWideDeltaPrior = 0.15;
 inline constexpr double kLargerNoise[] = {1.5, 2.0, 2.7};
 inline constexpr double kLargerNoisePrior = 0.06;  ///< shared by all of them
-/// A bad point's whitened reading is spread this wide, in sigmas.
-inline constexpr double kBadPointSpread = 40.0;
-/// Chance beforehand that a point is bad.
-inline constexpr double kBadPointPrior = 0.01;
+/// An outlier's whitened reading is spread this wide, in sigmas.
+inline constexpr double kOutlierSpread = 40.0;
+/// Chance beforehand that a point is an outlier.
+inline constexpr double kOutlierPrior = 0.01;
 /// The data's density as a function of their quadratic form, the noise averaged out.
 class NoiseDensity {
  public:
@@ -59,20 +59,20 @@ class NoiseDensity {
 
 /// The system with the settings integrated out and some points set aside.
 struct MarginalisedSystem {
-  std::vector<bool> bad;           ///< per unit
+  std::vector<bool> outliers;      ///< per unit
   std::vector<Eigen::Index> kept;  ///< rows
   Eigen::MatrixXd factor;          ///< lower L of V = L L'
   Eigen::VectorXd e;               ///< L^-1
   Eigen::MatrixXd g;               ///< L^-1
   double log_det = 0.0;            ///< of V
-  double log_bad = 0.0;            ///< prior and density of the points set aside
+  double log_outliers = 0.0;       ///< prior and density of the points set aside
   /// Per shape: trace of its covariance in this marginalised system, for a pattern of 1 mm.
   std::vector<double> pattern_trace;
 };
 /// Prior and density of one unit set aside.
-[[nodiscard]] double log_price_of_bad(const LinearisedSystem& system);
+[[nodiscard]] double log_price_of_outlier(const LinearisedSystem& system);
 [[nodiscard]] MarginalisedSystem marginalise(const LinearisedSystem& system,
-                                             const std::vector<bool>& bad,
+                                             const std::vector<bool>& outliers,
                                              const Steps& steps);
 /// Square root of the kept rows' covariance with the nuisances unknown but for their sigmas: the
 /// noise as a person sees it. Empty where there are none.

@@ -54,15 +54,15 @@ MarginalisedSystem without_slips(const Session& session,
                                  const MarginalisedSystem& marginalised,
                                  const std::vector<int>& regressors,
                                  const Steps& steps) {
-  std::vector<bool> bad = marginalised.bad;
+  std::vector<bool> outliers = marginalised.outliers;
   for (const int k : regressors) {
     const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
     if (!d.slip) continue;
     for (std::size_t i = 0; i < session.points.size(); ++i) {
-      if (session.points[i].order == static_cast<int>(d.values.back())) bad[i] = true;
+      if (session.points[i].order == static_cast<int>(d.values.back())) outliers[i] = true;
     }
   }
-  return bad == marginalised.bad ? marginalised : marginalise(system, bad, steps);
+  return outliers == marginalised.outliers ? marginalised : marginalise(system, outliers, steps);
 }
 
 namespace {

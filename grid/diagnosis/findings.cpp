@@ -145,7 +145,7 @@ std::vector<Hypothesis> hypotheses(const Analysis& a) {
   result.push_back({"nothing", "", a.decision.nothing});
   result.push_back({"unknown", "", a.decision.pattern});
   result.push_back({"noise", "", a.decision.noise});
-  result.push_back({"bad_points", "", a.decision.bad_points});
+  result.push_back({"bad_points", "", a.decision.outliers});
   std::stable_sort(result.begin(), result.end(), [](const Hypothesis& x, const Hypothesis& y) {
     return x.probability > y.probability;
   });
@@ -247,28 +247,28 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
   return result;
 }
 
-std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a) {
-  if (session.distances) return bad_distances_found(session, a);
+std::vector<Outlier> outliers_found(const Session& session, const Analysis& a) {
+  if (session.distances) return distance_outliers_found(session, a);
   const auto residuals = chain_residuals(a.system, a.estimate.left_beside_pattern);
-  std::vector<bool> bad = marginalised_system(a).bad;
-  // A link counted wrong is a bad point with a name.
+  std::vector<bool> outliers = marginalised_system(a).outliers;
+  // A link counted wrong is an outlier with a name.
   for (const int k : a.decision.regressors) {
     const Regressor& d = regressor(a, k);
     if (!d.slip) continue;
     for (std::size_t i = 0; i < session.points.size(); ++i) {
-      if (session.points[i].order == static_cast<int>(d.values.back())) bad[i] = true;
+      if (session.points[i].order == static_cast<int>(d.values.back())) outliers[i] = true;
     }
   }
-  std::vector<BadPoint> result;
+  std::vector<Outlier> result;
   for (std::size_t i = 0; i < session.points.size(); ++i) {
-    if (!bad[i]) continue;
+    if (!outliers[i]) continue;
     const double s = std::sqrt(a.estimate.noise_square);
     const Eigen::Vector2d whitened = a.system.points[i].whitening * residuals[i];
     result.push_back({session.points[i].index,
                       tool_shift(a.system.points[i], residuals[i]),
                       whitened.norm() / s});
   }
-  std::sort(result.begin(), result.end(), [](const BadPoint& x, const BadPoint& y) {
+  std::sort(result.begin(), result.end(), [](const Outlier& x, const Outlier& y) {
     return x.index < y.index;
   });
   return result;

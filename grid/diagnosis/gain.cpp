@@ -55,7 +55,7 @@ class Folds {
     const MarginalisedSystem& marginalised = comparison.marginalised_systems[decision.marginalised];
     Fold fold;
     for (const std::size_t i : points) {
-      if (!bad_in_all(i)) fold.points.push_back(i);
+      if (!outlier_in_all(i)) fold.points.push_back(i);
     }
     for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
     const MarginalisedSystem plain =
@@ -73,8 +73,8 @@ class Folds {
   }
 
  private:
-  [[nodiscard]] bool bad_in_all(std::size_t point) const {
-    if (a_.comparison.marginalised_systems[a_.decision.marginalised].bad[point]) return true;
+  [[nodiscard]] bool outlier_in_all(std::size_t point) const {
+    if (a_.comparison.marginalised_systems[a_.decision.marginalised].outliers[point]) return true;
     // A reading wrong at its own visit alone says nothing of any other.
     for (const int k : a_.decision.regressors) {
       const Regressor& d = a_.system.regressors[static_cast<std::size_t>(k)];

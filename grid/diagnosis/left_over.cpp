@@ -81,13 +81,13 @@ constexpr Coordinate kCoordinates[] = {
 /// less what as many terms take of noise.
 double share_along(const Session& session,
                    const LinearisedSystem& system,
-                   const std::vector<bool>& bad,
+                   const std::vector<bool>& outliers,
                    const std::vector<Eigen::Vector2d>& chain,
                    const Coordinate& coordinate) {
   std::vector<double> t;
   std::vector<std::size_t> used;
   for (std::size_t i = 0; i < session.points.size(); ++i) {
-    if (bad[i]) continue;
+    if (outliers[i]) continue;
     t.push_back(coordinate.value(session.points[i], system.points[i]));
     used.push_back(i);
   }
@@ -129,7 +129,7 @@ LeftOver left_over(const Session& session, const Analysis& a, std::uint64_t seed
   const auto chain = chain_residuals(a.system, a.estimate.left);
   for (const Coordinate& coordinate : kCoordinates) {
     if (coordinate.name == std::string_view("order") && !session.ordered) continue;
-    const double share = share_along(session, a.system, marginalised.bad, chain, coordinate);
+    const double share = share_along(session, a.system, marginalised.outliers, chain, coordinate);
     // Where the bed was visited in order, time and place run together: place is the simpler guess.
     const double needed = coordinate.name == std::string_view("order")
                               ? result.share + kTimeOverPlace * (1.0 - result.share)

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "grid/diagnosis/bad_points.hpp"
 #include "grid/diagnosis/estimate.hpp"
+#include "grid/diagnosis/outlier_search.hpp"
 #include "grid/diagnosis/set_search.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -20,9 +20,9 @@ constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 /// pattern beside it.
 constexpr std::array<double, kMostCauses + 1> kPriorOfCount = {0.50, 0.25, 0.05, 0.02, 0.01};
 constexpr double kPatternPrior = 0.10;
-/// A set of bad points so much less probable than the best is not tried beside patterns.
+/// A set of outliers so much less probable than the best is not tried beside patterns.
 constexpr double kWorthPatterns = 6.0;
-/// Sets of bad points in one comparison.
+/// Sets of outliers in one comparison.
 constexpr std::size_t kMostOutlierSets = 8;
 
 double log_sum(const std::vector<double>& terms) {
@@ -117,8 +117,8 @@ SingleScores single_scores(const LinearisedSystem& system,
 
 namespace {
 
-/// Of the best model's bad points those that are off by just what a whole number of links does:
-/// each set of bad points once more without one of them.
+/// Of the best model's outliers those that are off by just what a whole number of links does:
+/// each set of outliers once more without one of them.
 std::vector<std::vector<bool>> sets_without_links(const Session& session,
                                                   const LinearisedSystem& system,
                                                   const std::vector<bool>& excluded,
@@ -128,8 +128,8 @@ std::vector<std::vector<bool>> sets_without_links(const Session& session,
   const MarginalisedSystem& marginalised = comparison.marginalised_systems[best.marginalised];
   const Estimate fitted = estimate(session, system, marginalised, best.regressors, -1);
   std::vector<std::vector<bool>> result;
-  for (std::size_t i = 0; i < marginalised.bad.size(); ++i) {
-    if (!marginalised.bad[i] || excluded[i]) continue;
+  for (std::size_t i = 0; i < marginalised.outliers.size(); ++i) {
+    if (!marginalised.outliers[i] || excluded[i]) continue;
     const auto row = system.unit_rows * static_cast<Eigen::Index>(i);
     bool links = false;
     for (std::size_t k = 0; k < system.regressors.size() && !links; ++k) {
@@ -140,11 +140,12 @@ std::vector<std::vector<bool>> sets_without_links(const Session& session,
                                        kAlike * fitted.noise_square;
     }
     if (!links) continue;
-    std::vector<bool> without = marginalised.bad;
+    std::vector<bool> without = marginalised.outliers;
     without[i] = false;
-    const bool known = std::any_of(comparison.marginalised_systems.begin(),
-                                   comparison.marginalised_systems.end(),
-                                   [&](const MarginalisedSystem& s) { return s.bad == without; });
+    const bool known =
+        std::any_of(comparison.marginalised_systems.begin(),
+                    comparison.marginalised_systems.end(),
+                    [&](const MarginalisedSystem& s) { return s.outliers == without; });
     if (!known) result.push_back(std::move(without));
   }
   return result;
@@ -174,9 +175,9 @@ ModelComparison compare_models(const Session& session,
     const auto take = [&](std::vector<CandidateModel> models) {
       std::move(models.begin(), models.end(), std::back_inserter(comparison.models));
     };
-    for (const auto& bad : sets) {
+    for (const auto& outliers : sets) {
       if (comparison.marginalised_systems.size() == kMostOutlierSets) break;
-      comparison.marginalised_systems.push_back(marginalise(system, bad, options.steps));
+      comparison.marginalised_systems.push_back(marginalise(system, outliers, options.steps));
       searches.emplace_back(session,
                             system,
                             comparison.marginalised_systems.back(),
@@ -192,11 +193,11 @@ ModelComparison compare_models(const Session& session,
     }
     finish(comparison);
   };
-  compare_with(bad_point_sets(session,
-                              system,
-                              excluded,
-                              first_hypotheses(session, system, excluded, options),
-                              options.steps));
+  compare_with(outlier_sets(session,
+                            system,
+                            excluded,
+                            first_hypotheses(session, system, excluded, options),
+                            options.steps));
   const auto more = sets_without_links(session, system, excluded, comparison);
   if (!more.empty()) compare_with(more);
   return comparison;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The evidence of the data for each of: nothing, every cause, causes together, bad points, noise
+/// The evidence of the data for each of: nothing, every cause, causes together, outliers, noise
 /// larger than stated, an unknown pattern, and causes beside an unknown pattern.
 ///
-/// Every hypothesis looks for its own bad points, by mean shifts added one after the other without
-/// stopping at the first that does not pay, so that several bad points cannot hide each other; the
-/// few sets of bad points so found are each given the whole comparison. Causes are searched
+/// Every hypothesis looks for its own outliers, by mean shifts added one after the other without
+/// stopping at the first that does not pay, so that several outliers cannot hide each other; the
+/// few sets of outliers so found are each given the whole comparison. Causes are searched
 /// exhaustively one and two at a time, three and four at a time from the best of those.
 #pragma once
 
@@ -50,7 +50,7 @@ struct ComparisonOptions {
 /// Most causes in one set.
 inline constexpr std::size_t kMostCauses = 4;
 
-/// Prior of a set of regressors, of its bad points not.
+/// Prior of a set of regressors, of its outliers not.
 [[nodiscard]] double log_prior(const std::vector<Regressor>& regressors,
                                const std::vector<int>& set,
                                bool pattern);

@@ -28,7 +28,7 @@ std::vector<PointPicture> pictures(const Session& session, const Analysis& a) {
     p.index = session.points[i].index;
     p.mark = session.points[i].mark;
     if (session.ordered) p.order = session.points[i].order;
-    p.bad = marginalised.bad[i];
+    p.bad = marginalised.outliers[i];
     p.chain_before_mm = chain_before[i];
     p.chain_after_mm = chain_after[i];
     p.before_mm = tool_shift(state, chain_before[i]);

@@ -181,7 +181,7 @@ Polished polish(const Session& session,
   for (int round = 0; round < kRounds; ++round) {
     auto about = linearise(session, result.state, steps);
     if (!about || !renew_regressors(session, result.state, own, *about)) break;
-    MarginalisedSystem there = marginalise(*about, marginalised.bad, steps);
+    MarginalisedSystem there = marginalise(*about, marginalised.outliers, steps);
     there.pattern_trace =
         marginalised.pattern_trace;  // the pattern stays as strong as it was found
     const Round here(session, result.state, *about, std::move(there), leaders.pattern);

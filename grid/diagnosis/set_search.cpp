@@ -125,8 +125,8 @@ class SetSearch::Search {
     std::sort(model.regressors.begin(), model.regressors.end());
     model.pattern = pattern;
     model.marginalised = number_;
-    model.log_weight =
-        evidence.log_evidence + marginalised_.log_bad + log_pattern + prior(chosen, pattern >= 0);
+    model.log_weight = evidence.log_evidence + marginalised_.log_outliers + log_pattern +
+                       prior(chosen, pattern >= 0);
     model.larger_noise = noise_.larger_share(evidence.quadratic);
     model.quadratic = evidence.quadratic;
     best_ = std::max(best_, model.log_weight);

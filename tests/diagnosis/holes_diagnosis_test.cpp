@@ -280,7 +280,7 @@ TEST(HolesDiagnosis, ADistanceThatIsOffIsNamedWithItsAmount) {
     const std::size_t k = seed % set.distances.size();
     set.distances[k].distance_mm -= 12.0;
     const Diagnosis found = diagnosed(set);
-    for (const BadPoint& bad : found.bad_points) {
+    for (const Outlier& bad : found.bad_points) {
       if (bad.index != k) {
         ++others;
         continue;

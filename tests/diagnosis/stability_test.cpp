@@ -116,7 +116,7 @@ TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
           *session, a->system, excluded, {verdict_alone().steps, true, std::nullopt});
       const Decision decision = decide(a->system, comparison, excluded, true, a->decision.classes);
       EXPECT_EQ(stability->removals[k].stands, still_named(a->decision, decision)) << "group " << k;
-      // What the models of all points leave aside: sets of bad points and patterns that only show
+      // What the models of all points leave aside: sets of outliers and patterns that only show
       // once these points are gone.
       EXPECT_NEAR(stability->removals[k].probability, probability_that_all_act(*a, comparison), 0.1)
           << "group " << k;

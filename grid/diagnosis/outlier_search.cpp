@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/bad_points.hpp"
+#include "grid/diagnosis/outlier_search.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -23,7 +23,7 @@ struct Seen {
 };
 
 struct Found {
-  std::vector<bool> bad;
+  std::vector<bool> outliers;
   double log_weight = 0.0;
 };
 
@@ -88,13 +88,13 @@ Found search(Seen seen,
   using Block = Eigen::Matrix<double, kRows, kRows>;
   auto free = blocks(system, marginalised);
   const auto count = static_cast<double>(free.size());
-  const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostBadShare * count)));
+  const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostOutlierShare * count)));
   auto n = static_cast<Eigen::Index>(marginalised.kept.size());
-  const double price = log_price_of_bad(system);
-  Found best{marginalised.bad,
+  const double price = log_price_of_outlier(system);
+  Found best{marginalised.outliers,
              NoiseDensity(by.noise_dof, n).log_density(seen.quadratic) - 0.5 * seen.log_det +
                  by.log_prior};
-  std::vector<bool> bad = marginalised.bad;
+  std::vector<bool> outliers = marginalised.outliers;
   for (std::size_t step = 1; step <= most && free.size() > by.fewest_units; ++step) {
     std::size_t worst = 0;
     double drop = -1.0;
@@ -116,23 +116,23 @@ Found search(Seen seen,
     seen.log_det += std::log(block.determinant());
     seen.u -= columns * u;
     seen.precision.noalias() -= columns * seen.precision.template middleRows<kRows>(at).eval();
-    bad[free[worst].second] = true;
+    outliers[free[worst].second] = true;
     free.erase(free.begin() + static_cast<std::ptrdiff_t>(worst));
     n -= kRows;
     const double weight = NoiseDensity(by.noise_dof, n).log_density(std::max(seen.quadratic, 0.0)) -
                           0.5 * seen.log_det + by.log_prior + static_cast<double>(step) * price;
-    if (weight > best.log_weight) best = {bad, weight};
+    if (weight > best.log_weight) best = {outliers, weight};
   }
   return best;
 }
 
 }  // namespace
 
-std::vector<std::vector<bool>> bad_point_sets(const Session& session,
-                                              const LinearisedSystem& system,
-                                              const std::vector<bool>& excluded,
-                                              const std::vector<std::vector<int>>& hypotheses,
-                                              const Steps& steps) {
+std::vector<std::vector<bool>> outlier_sets(const Session& session,
+                                            const LinearisedSystem& system,
+                                            const std::vector<bool>& excluded,
+                                            const std::vector<std::vector<int>>& hypotheses,
+                                            const Steps& steps) {
   if (!steps.robust) return {excluded};
   const MarginalisedSystem marginalised = marginalise(system, excluded, steps);
   const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
@@ -147,8 +147,8 @@ std::vector<std::vector<bool>> bad_point_sets(const Session& session,
         log_prior(system.regressors, set, false), session.noise_dof, session.fewest_units()};
     const auto look = system.unit_rows == 2 ? search<2> : search<1>;
     Found one = look(seen_by(nothing, marginalised, system, set), system, marginalised, by);
-    const auto same =
-        std::find_if(found.begin(), found.end(), [&](const Found& f) { return f.bad == one.bad; });
+    const auto same = std::find_if(
+        found.begin(), found.end(), [&](const Found& f) { return f.outliers == one.outliers; });
     if (same == found.end()) {
       found.push_back(std::move(one));
     } else {
@@ -161,7 +161,7 @@ std::vector<std::vector<bool>> bad_point_sets(const Session& session,
   std::vector<std::vector<bool>> sets;
   for (const Found& one : found) {
     if (sets.size() == kMostSets || one.log_weight < found.front().log_weight - kNegligible) break;
-    sets.push_back(one.bad);
+    sets.push_back(one.outliers);
   }
   return sets;
 }
