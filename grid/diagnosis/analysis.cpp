@@ -127,10 +127,10 @@ void speak_of_leaders(const LinearisedSystem& system,
 
 }  // namespace
 
-/// Share of what noise does not explain that causes named beside an unknown pattern must explain.
+/// Share of what noise does not explain that causes named beside a model discrepancy must explain.
 constexpr double kExplained = 0.93;
-/// From this probability of a pattern on; below it what noise leaves would decide.
-constexpr double kPatternLikely = 0.5;
+/// From this probability of a discrepancy on; below it what noise leaves would decide.
+constexpr double kDiscrepancyLikely = 0.5;
 
 Decision decide_beside_discrepancy(const Session& session,
                                    const LinearisedSystem& system,
@@ -139,11 +139,12 @@ Decision decide_beside_discrepancy(const Session& session,
                                    bool seen) {
   Decision decision = decide(system, comparison, excluded, seen);
   speak_of_leaders(system, comparison, decision);
-  if (decision.listed.empty() || decision.pattern <= kPatternLikely || decision.best_pattern < 0) {
+  if (decision.listed.empty() || decision.discrepancy <= kDiscrepancyLikely ||
+      decision.best_discrepancy < 0) {
     return decision;
   }
-  // A pattern that nobody knows looks somewhat like this cause or that: what is named must explain
-  // nearly all that noise does not.
+  // A discrepancy that nobody knows looks somewhat like this cause or that: what is named must
+  // explain nearly all that noise does not.
   const MarginalisedSystem& marginalised = comparison.marginalised_systems[decision.marginalised];
   const auto unexplained = [&](const std::vector<int>& regressors) {
     const Estimate fitted = estimate(session, system, marginalised, regressors, -1);
@@ -170,7 +171,7 @@ void compare_and_decide(const Session& session,
                         a.system,
                         a.comparison.marginalised_systems[a.decision.marginalised],
                         a.decision.regressors,
-                        a.decision.pattern_left ? a.decision.best_pattern : -1);
+                        a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
 }
 
 void test_significance(const Session& session, const DiagnosisOptions& options, Analysis& a) {
@@ -209,7 +210,8 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     compare_and_decide(session, comparison, true, a);
     if (pass + 1 == kPasses || a.decision.regressors.empty()) break;
     const Decision& decision = a.decision;
-    const Leaders leaders{decision.regressors, decision.pattern_left ? decision.best_pattern : -1};
+    const Leaders leaders{decision.regressors,
+                          decision.discrepancy_left ? decision.best_discrepancy : -1};
     Polished polished = polish(session,
                                a.state,
                                a.system,
@@ -227,7 +229,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
                           a.system,
                           a.comparison.marginalised_systems[a.decision.marginalised],
                           a.decision.regressors,
-                          a.decision.pattern_left ? a.decision.best_pattern : -1);
+                          a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
   }
   return a;
 }

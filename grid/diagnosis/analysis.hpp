@@ -24,7 +24,7 @@ struct Analysis {
   Estimate estimate;  ///< of the decision's causes
 };
 
-/// decide(), abstaining where an unknown pattern is as strong as the cause it would be named
+/// decide(), abstaining where a model discrepancy is as strong as the cause it would be named
 /// beside.
 [[nodiscard]] Decision decide_beside_discrepancy(const Session& session,
                                                  const LinearisedSystem& system,

@@ -14,7 +14,7 @@ namespace {
 
 /// Probability that anything acts at all from which causes are spoken of.
 constexpr double kCaused = 0.65;
-constexpr double kNeededBesidePattern = 0.98;
+constexpr double kNeededBesideDiscrepancy = 0.98;
 constexpr double kLikelierThanNot = 0.5;
 constexpr double kAbsorbed = 1e-3;
 
@@ -67,9 +67,9 @@ using Key = std::vector<std::size_t>;  ///< classes that act, ascending
 
 struct Grouped {
   double probability = 0.0;
-  double pattern = 0.0;
-  const CandidateModel* best = nullptr;  ///< without a pattern, where there is one
-  const CandidateModel* with_pattern = nullptr;
+  double discrepancy = 0.0;
+  const CandidateModel* best = nullptr;  ///< without a discrepancy, where there is one
+  const CandidateModel* with_discrepancy = nullptr;
 };
 
 class Decider {
@@ -114,10 +114,10 @@ class Decider {
       std::sort(key.begin(), key.end());
       Grouped& one = groups_[key];
       one.probability += p;
-      if (model.pattern >= 0) {
-        one.pattern += p;
-        result_.pattern += p;
-        if (one.with_pattern == nullptr) one.with_pattern = &model;
+      if (model.discrepancy >= 0) {
+        one.discrepancy += p;
+        result_.discrepancy += p;
+        if (one.with_discrepancy == nullptr) one.with_discrepancy = &model;
       } else if (one.best == nullptr) {
         one.best = &model;
       }
@@ -132,7 +132,7 @@ class Decider {
   void share_abstention(const CandidateModel& model, double p) {
     const bool with_outliers =
         comparison_.marginalised_systems[model.marginalised].outliers != excluded_;
-    if (model.pattern >= 0) {
+    if (model.discrepancy >= 0) {
       result_.unknown += p;
     } else if (with_outliers) {
       result_.outliers += p;
@@ -175,15 +175,16 @@ class Decider {
   }
 
   void take(const Grouped& grouped) {
-    const CandidateModel* model = grouped.best != nullptr ? grouped.best : grouped.with_pattern;
+    const CandidateModel* model = grouped.best != nullptr ? grouped.best : grouped.with_discrepancy;
     if (model == nullptr) return;
     result_.regressors = model->regressors;
     result_.marginalised = model->marginalised;
-    if (grouped.with_pattern != nullptr) result_.best_pattern = grouped.with_pattern->pattern;
-    result_.pattern_left = grouped.pattern > 0.5 * grouped.probability;
-    if (result_.pattern_left) {
-      result_.regressors = grouped.with_pattern->regressors;
-      result_.marginalised = grouped.with_pattern->marginalised;
+    if (grouped.with_discrepancy != nullptr)
+      result_.best_discrepancy = grouped.with_discrepancy->discrepancy;
+    result_.discrepancy_left = grouped.discrepancy > 0.5 * grouped.probability;
+    if (result_.discrepancy_left) {
+      result_.regressors = grouped.with_discrepancy->regressors;
+      result_.marginalised = grouped.with_discrepancy->marginalised;
     }
   }
 
@@ -202,10 +203,10 @@ class Decider {
   }
 
   void name_causes(const Grouped& leading) {
-    // Beside a pattern that nobody knows a cause must be needed, not only possible.
-    if (result_.pattern > kPatternPossible &&
+    // Beside a discrepancy that nobody knows a cause must be needed, not only possible.
+    if (result_.discrepancy > kDiscrepancyPossible &&
         (leading_key_.size() > 1 ? result_.marginal.front().probability : result_.caused) <
-            kNeededBesidePattern) {
+            kNeededBesideDiscrepancy) {
       abstain();
       return;
     }
@@ -250,13 +251,13 @@ class Decider {
     const auto found = groups_.find({});
     if (found != groups_.end()) {
       take(found->second);
-      result_.pattern_left = false;
+      result_.discrepancy_left = false;
     }
     const double most =
         std::max({result_.nothing, result_.noise, result_.outliers, result_.unknown});
-    if (result_.pattern > 0.5 || result_.unknown == most) {
+    if (result_.discrepancy > 0.5 || result_.unknown == most) {
       result_.verdict = Verdict::unknown_pattern;
-      result_.pattern_left = true;
+      result_.discrepancy_left = true;
     } else if (result_.outliers == most) {
       result_.verdict = Verdict::bad_points;
     } else if (result_.noise == most) {

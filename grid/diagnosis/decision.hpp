@@ -19,8 +19,8 @@ inline constexpr double kSetHolds = 0.98;
 /// Chance of a false alarm over the whole catalogue.
 inline constexpr double kFalseAlarm = 0.01;
 
-/// From this probability of an unknown pattern on, names are given more sparingly.
-inline constexpr double kPatternPossible = 0.25;
+/// From this probability of a model discrepancy on, names are given more sparingly.
+inline constexpr double kDiscrepancyPossible = 0.25;
 
 /// Causes that these data cannot separate, however strong; the one that gives the class its name
 /// first: a cause in the machine before one on the paper.
@@ -42,16 +42,16 @@ struct Decision {
   double noise = 0.0;
   double outliers = 0.0;
   double unknown = 0.0;
-  double caused = 0.0;   ///< one cause or more
-  double pattern = 0.0;  ///< with an unknown pattern, beside causes or alone
+  double caused = 0.0;       ///< one cause or more
+  double discrepancy = 0.0;  ///< with a model discrepancy, beside causes or alone
   /// The causes of the verdict (indices into classes): the one named, the set, or those that act
   /// together.
   std::vector<std::size_t> listed;
-  /// What goes into the model: one regressor a cause, the pattern that is left or -1, the
+  /// What goes into the model: one regressor a cause, the discrepancy that is left or -1, the
   /// marginalised system.
   std::vector<int> regressors;
-  int best_pattern = -1;
-  bool pattern_left = false;
+  int best_discrepancy = -1;
+  bool discrepancy_left = false;
   std::size_t marginalised = 0;
 };
 

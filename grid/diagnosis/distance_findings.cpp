@@ -27,7 +27,7 @@ std::vector<Outlier> distance_outliers_found(const Session& session, const Analy
     const Eigen::RowVectorXd by_setting = a.system.by_setting.row(row);
     const double variance = a.estimate.noise_square +
                             by_setting.dot(a.estimate.setting_covariance * by_setting.transpose());
-    const double off = a.estimate.left_beside_pattern(row);
+    const double off = a.estimate.left_beside_discrepancy(row);
     Outlier outlier;
     outlier.index = session.distance_index[k];
     outlier.off_mm = off * a.system.row_sigma_mm(row);

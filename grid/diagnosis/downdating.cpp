@@ -16,11 +16,11 @@ namespace {
 /// Models so far below the best are not followed, nor more than so many in all.
 constexpr double kNegligible = 14.0;
 constexpr std::size_t kMostModels = 160;
-/// Share of the probability from which a pattern is followed, and the most of them.
-constexpr double kPatternShare = 0.01;
-constexpr std::size_t kMostPatterns = 4;
+/// Share of the probability from which a discrepancy is followed, and the most of them.
+constexpr double kDiscrepancyShare = 0.01;
+constexpr std::size_t kMostDiscrepancies = 4;
 
-using FactorisationKey = std::pair<std::size_t, int>;  ///< marginalised system, pattern
+using FactorisationKey = std::pair<std::size_t, int>;  ///< marginalised system, discrepancy
 
 /// The models that may lead once some points are gone: the best, and in each marginalised system of
 /// these nothing, and every cause alone at its best place.
@@ -28,18 +28,18 @@ std::map<FactorisationKey, std::vector<CandidateModel>> followed(
     const LinearisedSystem& system, const ModelComparison& comparison) {
   std::map<FactorisationKey, double> share;
   for (const CandidateModel& model : comparison.models) {
-    share[{model.marginalised, model.pattern}] += comparison.probability(model);
+    share[{model.marginalised, model.discrepancy}] += comparison.probability(model);
   }
-  std::vector<std::pair<double, FactorisationKey>> patterns;
+  std::vector<std::pair<double, FactorisationKey>> discrepancies;
   for (const auto& [key, p] : share) {
-    if (key.second >= 0 && p >= kPatternShare) patterns.emplace_back(-p, key);
+    if (key.second >= 0 && p >= kDiscrepancyShare) discrepancies.emplace_back(-p, key);
   }
-  std::sort(patterns.begin(), patterns.end());
-  if (patterns.size() > kMostPatterns) patterns.resize(kMostPatterns);
+  std::sort(discrepancies.begin(), discrepancies.end());
+  if (discrepancies.size() > kMostDiscrepancies) discrepancies.resize(kMostDiscrepancies);
   const auto is_followed = [&](const FactorisationKey& key) {
-    return key.second < 0 || std::any_of(patterns.begin(), patterns.end(), [&](const auto& p) {
-             return p.second == key;
-           });
+    return key.second < 0 || std::any_of(discrepancies.begin(),
+                                         discrepancies.end(),
+                                         [&](const auto& p) { return p.second == key; });
   };
   const double best = comparison.best().log_weight;
   std::map<FactorisationKey, std::vector<CandidateModel>> result;
@@ -48,7 +48,7 @@ std::map<FactorisationKey, std::vector<CandidateModel>> followed(
   std::size_t taken = 0;
   // Best first, so that a marginalised system is known before the rest of what is asked for in it.
   for (const CandidateModel& model : comparison.models) {
-    const FactorisationKey key{model.marginalised, model.pattern};
+    const FactorisationKey key{model.marginalised, model.discrepancy};
     if (!is_followed(key)) continue;
     const bool leads = model.log_weight > best - kNegligible && taken < kMostModels;
     bool first_alone = model.regressors.empty();
@@ -115,12 +115,12 @@ Downdating::Downdating(const Session& session,
 }
 
 void Downdating::add_factorisation(std::size_t number,
-                                   int pattern,
+                                   int discrepancy,
                                    std::vector<CandidateModel> models) {
   const MarginalisedSystem& marginalised = a_.comparison.marginalised_systems[number];
   Factorisation factorised;
   factorised.marginalised = number;
-  factorised.pattern = pattern;
+  factorised.discrepancy = discrepancy;
   std::vector<int> columns;
   for (const CandidateModel& model : models) {
     columns.insert(columns.end(), model.regressors.begin(), model.regressors.end());
@@ -134,11 +134,12 @@ void Downdating::add_factorisation(std::size_t number,
   e.col(0) = marginalised.e;
   e.rightCols(e.cols() - 1) = marginalised.g(Eigen::all, columns);
   double log_det = marginalised.log_det;
-  if (pattern >= 0) {
-    const Pattern shape = pattern_of(marginalised, pattern);
-    Eigen::MatrixXd k = pattern_covariance(session_, a_.system, marginalised.kept, shape.shape);
+  if (discrepancy >= 0) {
+    const Discrepancy process = discrepancy_of(marginalised, discrepancy);
+    Eigen::MatrixXd k =
+        discrepancy_covariance(session_, a_.system, marginalised.kept, process.kernel);
     lower.solveInPlace(k);
-    k = lower.solve(k.transpose()).eval() * (shape.sigma_mm * shape.sigma_mm);
+    k = lower.solve(k.transpose()).eval() * (process.sigma_mm * process.sigma_mm);
     k.diagonal().array() += 1.0;
     const Eigen::LLT<Eigen::MatrixXd> llt(k);
     llt.matrixL().solveInPlace(factorised.inverse);
@@ -200,18 +201,18 @@ Downdating::Without Downdating::without(const std::vector<std::size_t>& points) 
                             }));
     for (std::size_t k = 0; k < factorised.models.size(); ++k) {
       const CandidateModel& model = factorised.models[k];
-      if (!known.emplace(home, factorised.pattern, model.regressors).second) continue;
+      if (!known.emplace(home, factorised.discrepancy, model.regressors).second) continue;
       const SetEvidence evidence =
           set_evidence(equations, a_.system.regressors, factorised.sets[k], noise);
       if (!std::isfinite(evidence.log_evidence)) continue;
       comparison.models.push_back({model.regressors,
-                                   factorised.pattern,
+                                   factorised.discrepancy,
                                    home,
                                    factorised.prior[k] + evidence.log_evidence + outliers * price,
                                    noise.larger_share(evidence.quadratic),
                                    evidence.quadratic});
     }
-    if (factorised.pattern < 0) strongest.emplace_back(score_.largest(equations, rows), home);
+    if (factorised.discrepancy < 0) strongest.emplace_back(score_.largest(equations, rows), home);
   }
   std::stable_sort(
       comparison.models.begin(),

@@ -4,8 +4,8 @@
 /// what a comparison of their own would cost.
 ///
 /// Notation
-///   V     covariance of a marginalised system's rows, the pattern integrated out as well; V = L L',
-///         P = V^-1
+///   V     covariance of a marginalised system's rows, the discrepancy integrated out as well;
+///         V = L L', P = V^-1
 ///   E     residual and columns of the models, whitened by L
 ///   O     rows of the points left out
 ///   U     P times the residual and the columns
@@ -16,7 +16,8 @@
 /// Matrix Computations (2013), section 3.2.11; F. Zhang, The Schur Complement (2005), theorem 1.1).
 ///
 /// Exact for each model that the comparison kept; models that it let go, sets of outliers that it
-/// never met, and patterns that hold less than a hundredth of the probability are not looked at.
+/// never met, and discrepancies that hold less than a hundredth of the probability are not looked
+/// at.
 #pragma once
 
 #include <vector>
@@ -41,10 +42,10 @@ class Downdating {
   [[nodiscard]] Without without(const std::vector<std::size_t>& points) const;
 
  private:
-  /// One marginalised system with one pattern or none.
+  /// One marginalised system with one discrepancy or none.
   struct Factorisation {
     std::size_t marginalised = 0;
-    int pattern = -1;
+    int discrepancy = -1;
     NormalEquations equations;  ///< with all points
     Eigen::MatrixXd inverse;    ///< L^-1
     Eigen::MatrixXd precision;  ///< U: first column the residual
@@ -53,7 +54,9 @@ class Downdating {
     std::vector<double> prior;                    ///< of each: weight less evidence
   };
 
-  void add_factorisation(std::size_t marginalised, int pattern, std::vector<CandidateModel> models);
+  void add_factorisation(std::size_t marginalised,
+                         int discrepancy,
+                         std::vector<CandidateModel> models);
   /// Inner products with these rows of the marginalised system gone.
   [[nodiscard]] static NormalEquations downdated_equations(const Factorisation& factorised,
                                                            const std::vector<Eigen::Index>& out);

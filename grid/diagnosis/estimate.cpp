@@ -48,7 +48,7 @@ Estimate estimate(const Session& session,
                   const LinearisedSystem& system,
                   const MarginalisedSystem& marginalised,
                   const std::vector<int>& regressors,
-                  int pattern) {
+                  int discrepancy) {
   Estimate result;
   result.regressors = regressors;
   const auto settings = system.setting.size();
@@ -64,11 +64,11 @@ Estimate estimate(const Session& session,
     }
   }
   Eigen::LLT<Eigen::MatrixXd> noise;
-  Pattern shape;
-  if (pattern >= 0) {
-    shape = pattern_of(marginalised, pattern);
-    Eigen::MatrixXd c = shape.sigma_mm * shape.sigma_mm *
-                        pattern_covariance(session, system, marginalised.kept, shape.shape);
+  Discrepancy process;
+  if (discrepancy >= 0) {
+    process = discrepancy_of(marginalised, discrepancy);
+    Eigen::MatrixXd c = process.sigma_mm * process.sigma_mm *
+                        discrepancy_covariance(session, system, marginalised.kept, process.kernel);
     c.diagonal().array() += 1.0;
     noise.compute(c);
   }
@@ -89,7 +89,7 @@ Estimate estimate(const Session& session,
       unknowns.sigma(settings + k) =
           kWideDelta / std::max(marginalised.g.col(column).norm(), 1e-12);
     }
-    solution = solve(unknowns, data(marginalised.kept), pattern >= 0 ? &noise : nullptr);
+    solution = solve(unknowns, data(marginalised.kept), discrepancy >= 0 ? &noise : nullptr);
     std::size_t outside = result.free.size();
     for (std::size_t k = 0; k < result.free.size(); ++k) {
       const Regressor& d = system.regressors[static_cast<std::size_t>(regressors[result.free[k]])];
@@ -114,14 +114,14 @@ Estimate estimate(const Session& session,
     left -= system.g.col(regressors[result.free[k]]) * result.coefficient(at);
   }
   result.left = left;
-  result.left_beside_pattern = left;
+  result.left_beside_discrepancy = left;
   const Eigen::VectorXd kept = left(marginalised.kept);
   double quadratic = kept.squaredNorm();
-  if (pattern >= 0) {
-    result.pattern = shape;
-    result.pattern_weights = noise.solve(kept);
-    quadratic = kept.dot(result.pattern_weights);
-    result.left_beside_pattern -= pattern_in_rows(session, system, marginalised, result);
+  if (discrepancy >= 0) {
+    result.discrepancy = process;
+    result.discrepancy_weights = noise.solve(kept);
+    quadratic = kept.dot(result.discrepancy_weights);
+    result.left_beside_discrepancy -= discrepancy_in_rows(session, system, marginalised, result);
   }
   const Eigen::VectorXd off =
       (result.setting_change - system.expected_change).cwiseQuotient(system.sigma);
@@ -145,34 +145,35 @@ Estimate estimate(const Session& session,
   return result;
 }
 
-Eigen::Vector2d pattern_at(const Session& session,
-                           const LinearisedSystem& system,
-                           const MarginalisedSystem& marginalised,
-                           const Estimate& estimate,
-                           const PatternPlace& place) {
+Eigen::Vector2d discrepancy_at(const Session& session,
+                               const LinearisedSystem& system,
+                               const MarginalisedSystem& marginalised,
+                               const Estimate& estimate,
+                               const DiscrepancyPlace& place) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
   const Eigen::Index size = system.unit_rows;
-  for (Eigen::Index a = 0; a + size <= estimate.pattern_weights.size(); a += size) {
+  for (Eigen::Index a = 0; a + size <= estimate.discrepancy_weights.size(); a += size) {
     const Eigen::Index row = marginalised.kept[static_cast<std::size_t>(a)];
     if (row >= session.observed_rows()) break;
-    const auto weights = estimate.pattern_weights.segment(a, size);
+    const auto weights = estimate.discrepancy_weights.segment(a, size);
     for (const SeenPlace& seen : system.units[static_cast<std::size_t>(row / size)]) {
       mm +=
-          pattern_block(estimate.pattern.shape, place, pattern_place(session, system, seen.place)) *
+          discrepancy_block(
+              estimate.discrepancy.kernel, place, discrepancy_place(session, system, seen.place)) *
           seen.by_chain.topRows(size).transpose() * weights;
     }
   }
-  return estimate.pattern.sigma_mm * estimate.pattern.sigma_mm * mm;
+  return estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm * mm;
 }
 
-Eigen::VectorXd pattern_in_rows(const Session& session,
-                                const LinearisedSystem& system,
-                                const MarginalisedSystem& marginalised,
-                                const Estimate& estimate) {
+Eigen::VectorXd discrepancy_in_rows(const Session& session,
+                                    const LinearisedSystem& system,
+                                    const MarginalisedSystem& marginalised,
+                                    const Estimate& estimate) {
   std::vector<Eigen::Vector2d> chains;
   for (std::size_t i = 0; i < system.points.size(); ++i) {
-    chains.push_back(
-        pattern_at(session, system, marginalised, estimate, pattern_place(session, system, i)));
+    chains.push_back(discrepancy_at(
+        session, system, marginalised, estimate, discrepancy_place(session, system, i)));
   }
   Eigen::VectorXd all = Eigen::VectorXd::Zero(session.rows());
   for (std::size_t u = 0; u < system.units.size(); ++u) {

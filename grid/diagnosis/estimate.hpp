@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Settings, sizes of causes and, where there is one, the unknown pattern, for one model of the
+/// Settings, sizes of causes and, where there is one, the model discrepancy, for one model of the
 /// comparison; and what is then left at every point, those that were held out included.
 #pragma once
 
@@ -18,36 +18,37 @@ struct Estimate {
   Eigen::VectorXd coefficient;  ///< of each regressor
   /// 0 where the size is a whole number; at a bound what noise alone makes of it.
   Eigen::VectorXd coefficient_sigma;
-  double noise_square = 1.0;            ///< s^2
-  Eigen::VectorXd left;                 ///< whitened, all rows, the pattern not taken out
-  Eigen::VectorXd left_beside_pattern;  ///< the same with the pattern taken out
-  Pattern pattern;
-  Eigen::VectorXd pattern_weights;  ///< per kept row; empty without a pattern
+  double noise_square = 1.0;                ///< s^2
+  Eigen::VectorXd left;                     ///< whitened, all rows, the discrepancy not taken out
+  Eigen::VectorXd left_beside_discrepancy;  ///< the same with the discrepancy taken out
+  Discrepancy discrepancy;
+  Eigen::VectorXd discrepancy_weights;  ///< per kept row; empty without a discrepancy
   /// Covariance of setting_change and of the free coefficients, in that order.
   Eigen::MatrixXd covariance;
   std::vector<std::size_t> free;  ///< positions in `regressors`
 };
 
-/// `regressors` and `pattern` as the model has them. A coefficient that would leave its bounds
+/// `regressors` and `discrepancy` as the model has them. A coefficient that would leave its bounds
 /// stays at the bound.
 [[nodiscard]] Estimate estimate(const Session& session,
                                 const LinearisedSystem& system,
                                 const MarginalisedSystem& marginalised,
                                 const std::vector<int>& regressors,
-                                int pattern);
+                                int discrepancy);
 
-/// What the unknown pattern adds to either chain at a place [mm]; zero where the estimate has none.
-[[nodiscard]] Eigen::Vector2d pattern_at(const Session& session,
-                                         const LinearisedSystem& system,
-                                         const MarginalisedSystem& marginalised,
-                                         const Estimate& estimate,
-                                         const PatternPlace& place);
+/// What the model discrepancy adds to either chain at a place [mm]; zero where the estimate has
+/// none.
+[[nodiscard]] Eigen::Vector2d discrepancy_at(const Session& session,
+                                             const LinearisedSystem& system,
+                                             const MarginalisedSystem& marginalised,
+                                             const Estimate& estimate,
+                                             const DiscrepancyPlace& place);
 
 /// The same in the whitened rows, all of them.
-[[nodiscard]] Eigen::VectorXd pattern_in_rows(const Session& session,
-                                              const LinearisedSystem& system,
-                                              const MarginalisedSystem& marginalised,
-                                              const Estimate& estimate);
+[[nodiscard]] Eigen::VectorXd discrepancy_in_rows(const Session& session,
+                                                  const LinearisedSystem& system,
+                                                  const MarginalisedSystem& marginalised,
+                                                  const Estimate& estimate);
 
 /// `left` with what the nuisances took put back: what the machine leaves. For points `left` itself.
 [[nodiscard]] Eigen::VectorXd left_of_machine(const LinearisedSystem& system,

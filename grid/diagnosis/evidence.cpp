@@ -25,12 +25,12 @@ double log_mass(double mean, double sigma, double low, double high) {
   return log_normal_mass((low - mean) / sigma, (high - mean) / sigma);
 }
 
-/// L^-1 W K W' L^-T for a pattern of 1 mm.
-Eigen::MatrixXd reduced_pattern(const LinearisedSystem& system,
-                                const Session& session,
-                                const MarginalisedSystem& marginalised,
-                                const PatternShape& shape) {
-  Eigen::MatrixXd c = pattern_covariance(session, system, marginalised.kept, shape);
+/// L^-1 W K W' L^-T for a discrepancy of 1 mm.
+Eigen::MatrixXd reduced_discrepancy(const LinearisedSystem& system,
+                                    const Session& session,
+                                    const MarginalisedSystem& marginalised,
+                                    const DiscrepancyKernel& kernel) {
+  Eigen::MatrixXd c = discrepancy_covariance(session, system, marginalised.kept, kernel);
   const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
   c = lower.solve(c).eval();
   return lower.solve(c.transpose()).eval();
@@ -159,23 +159,24 @@ NormalEquations normal_equations(const MarginalisedSystem& marginalised, std::ve
   return equations;
 }
 
-std::vector<NormalEquations> normal_equations_beside_patterns(const LinearisedSystem& system,
-                                                              const Session& session,
-                                                              MarginalisedSystem& marginalised,
-                                                              const std::vector<int>& columns) {
+std::vector<NormalEquations> normal_equations_beside_discrepancies(
+    const LinearisedSystem& system,
+    const Session& session,
+    MarginalisedSystem& marginalised,
+    const std::vector<int>& columns) {
   std::vector<int> sorted = columns;
   std::sort(sorted.begin(), sorted.end());
-  std::vector<NormalEquations> by_pattern;
-  marginalised.pattern_trace.clear();
-  for (const PatternShape& shape : kPatternShapes) {
+  std::vector<NormalEquations> by_discrepancy;
+  marginalised.discrepancy_trace.clear();
+  for (const DiscrepancyKernel& kernel : kDiscrepancyKernels) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        reduced_pattern(system, session, marginalised, shape));
+        reduced_discrepancy(system, session, marginalised, kernel));
     const Eigen::ArrayXd values = eigen.eigenvalues().array().max(0.0);
-    marginalised.pattern_trace.push_back(values.sum());
+    marginalised.discrepancy_trace.push_back(values.sum());
     const Eigen::VectorXd e = eigen.eigenvectors().transpose() * marginalised.e;
     const Eigen::MatrixXd g =
         eigen.eigenvectors().transpose() * marginalised.g(Eigen::all, sorted).eval();
-    for (const double delta : kPatternDeltas) {
+    for (const double delta : kDiscrepancyStrengths) {
       const Eigen::ArrayXd variance = 1.0 + values * (delta * delta / values.sum());
       const Eigen::VectorXd weight = variance.inverse();
       NormalEquations equations;
@@ -184,17 +185,17 @@ std::vector<NormalEquations> normal_equations_beside_patterns(const LinearisedSy
       equations.ge = g.transpose() * weight.cwiseProduct(e);
       equations.gg = g.transpose() * weight.asDiagonal() * g;
       equations.log_det = marginalised.log_det + variance.log().sum();
-      by_pattern.push_back(std::move(equations));
+      by_discrepancy.push_back(std::move(equations));
     }
   }
-  return by_pattern;
+  return by_discrepancy;
 }
 
-Pattern pattern_of(const MarginalisedSystem& marginalised, int index) {
-  const auto deltas = static_cast<int>(std::size(kPatternDeltas));
-  const int shape = index / deltas;
-  const double trace = marginalised.pattern_trace.at(static_cast<std::size_t>(shape));
-  return {kPatternShapes[shape], kPatternDeltas[index % deltas] / std::sqrt(trace)};
+Discrepancy discrepancy_of(const MarginalisedSystem& marginalised, int index) {
+  const auto deltas = static_cast<int>(std::size(kDiscrepancyStrengths));
+  const int kernel = index / deltas;
+  const double trace = marginalised.discrepancy_trace.at(static_cast<std::size_t>(kernel));
+  return {kDiscrepancyKernels[kernel], kDiscrepancyStrengths[index % deltas] / std::sqrt(trace)};
 }
 
 namespace {

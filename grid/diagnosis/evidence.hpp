@@ -12,7 +12,7 @@
 ///            cut to what the parameter may be
 ///   s^2      the noise's square over the stated one: scaled inverse chi^2, dof as stated, about 1;
 ///            with a small weight about one of kLargerNoise squared
-///   K        covariance of the unknown pattern (pattern.hpp)
+///   K        covariance of the model discrepancy (discrepancy.hpp)
 ///
 /// With conjugate priors all integrals are closed but for the cut, which is the mass of the
 /// posterior inside the bounds over that of the prior (exact for one cause).
@@ -27,7 +27,7 @@
 #include <span>
 #include <vector>
 
-#include "grid/diagnosis/pattern.hpp"
+#include "grid/diagnosis/discrepancy.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -66,8 +66,8 @@ struct MarginalisedSystem {
   Eigen::MatrixXd g;               ///< L^-1
   double log_det = 0.0;            ///< of V
   double log_outliers = 0.0;       ///< prior and density of the points set aside
-  /// Per shape: trace of its covariance in this marginalised system, for a pattern of 1 mm.
-  std::vector<double> pattern_trace;
+  /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.
+  std::vector<double> discrepancy_trace;
 };
 /// Prior and density of one unit set aside.
 [[nodiscard]] double log_price_of_outlier(const LinearisedSystem& system);
@@ -95,21 +95,22 @@ struct NormalEquations {
   double ee = 0.0;
   Eigen::VectorXd ge;
   Eigen::MatrixXd gg;
-  double log_det = 0.0;  ///< of everything that is not noise's scale: V and the pattern
+  double log_det = 0.0;  ///< of everything that is not noise's scale: V and the discrepancy
   [[nodiscard]] Eigen::Index position(int column) const;
 };
 [[nodiscard]] NormalEquations normal_equations(const MarginalisedSystem& marginalised,
                                                std::vector<int> columns);
 
-/// The unknown pattern beside some columns, at every shape and size; notes the traces in the
+/// The model discrepancy beside some columns, at every kernel and strength; notes the traces in the
 /// marginalised system.
-[[nodiscard]] std::vector<NormalEquations> normal_equations_beside_patterns(
+[[nodiscard]] std::vector<NormalEquations> normal_equations_beside_discrepancies(
     const LinearisedSystem& system,
     const Session& session,
     MarginalisedSystem& marginalised,
     const std::vector<int>& columns);
-/// Shape and size of pattern number `index`, in a marginalised system whose traces are noted.
-[[nodiscard]] Pattern pattern_of(const MarginalisedSystem& marginalised, int index);
+/// Kernel and strength of discrepancy number `index`, in a marginalised system whose traces are
+/// noted.
+[[nodiscard]] Discrepancy discrepancy_of(const MarginalisedSystem& marginalised, int index);
 
 /// What a set of regressors makes of the data.
 struct SetEvidence {

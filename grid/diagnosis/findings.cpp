@@ -143,7 +143,7 @@ std::vector<Hypothesis> hypotheses(const Analysis& a) {
                       one.probability});
   }
   result.push_back({"nothing", "", a.decision.nothing});
-  result.push_back({"unknown", "", a.decision.pattern});
+  result.push_back({"unknown", "", a.decision.discrepancy});
   result.push_back({"noise", "", a.decision.noise});
   result.push_back({"bad_points", "", a.decision.outliers});
   std::stable_sort(result.begin(), result.end(), [](const Hypothesis& x, const Hypothesis& y) {
@@ -249,7 +249,7 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
 
 std::vector<Outlier> outliers_found(const Session& session, const Analysis& a) {
   if (session.distances) return distance_outliers_found(session, a);
-  const auto residuals = chain_residuals(a.system, a.estimate.left_beside_pattern);
+  const auto residuals = chain_residuals(a.system, a.estimate.left_beside_discrepancy);
   std::vector<bool> outliers = marginalised_system(a).outliers;
   // A link counted wrong is an outlier with a name.
   for (const int k : a.decision.regressors) {

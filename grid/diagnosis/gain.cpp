@@ -61,14 +61,15 @@ class Folds {
     const MarginalisedSystem plain =
         without_slips(session_, a_.system, marginalised, a_.decision.regressors, options_.steps);
     fold.errors.calibrated = errors(fit(plain, {}), fold.points);
-    fold.errors.surface_only = beside_pattern(comparison, decision.marginalised, {}, fold.points);
+    fold.errors.surface_only =
+        beside_discrepancy(comparison, decision.marginalised, {}, fold.points);
     fold.errors.extended = errors(fit(marginalised, decision.regressors), fold.points);
     fold.errors.extended_and_surface =
-        beside_pattern(comparison, decision.marginalised, decision.regressors, fold.points);
+        beside_discrepancy(comparison, decision.marginalised, decision.regressors, fold.points);
     const std::vector<int>& all = a_.decision.regressors;
     fold.errors.held_fast = errors(fit(marginalised, all), fold.points);
     fold.errors.held_fast_and_surface =
-        beside_pattern(comparison, decision.marginalised, all, fold.points);
+        beside_discrepancy(comparison, decision.marginalised, all, fold.points);
     return fold;
   }
 
@@ -85,35 +86,36 @@ class Folds {
 
   [[nodiscard]] Estimate fit(const MarginalisedSystem& marginalised,
                              const std::vector<int>& regressors,
-                             int pattern = -1) const {
-    return estimate(session_, a_.system, marginalised, regressors, pattern);
+                             int discrepancy = -1) const {
+    return estimate(session_, a_.system, marginalised, regressors, discrepancy);
   }
 
-  [[nodiscard]] std::vector<Eigen::Vector2d> beside_pattern(
+  [[nodiscard]] std::vector<Eigen::Vector2d> beside_discrepancy(
       const ModelComparison& comparison,
       std::size_t marginalised,
       const std::vector<int>& regressors,
       const std::vector<std::size_t>& points) const {
-    const int pattern = preferred_pattern(comparison, marginalised, regressors);
-    return errors(fit(comparison.marginalised_systems[marginalised], regressors, pattern), points);
+    const int discrepancy = preferred_discrepancy(comparison, marginalised, regressors);
+    return errors(fit(comparison.marginalised_systems[marginalised], regressors, discrepancy),
+                  points);
   }
 
-  /// The pattern that the points prefer beside these causes; none where they would rather have
+  /// The discrepancy that the points prefer beside these causes; none where they would rather have
   /// none.
-  static int preferred_pattern(const ModelComparison& comparison,
-                               std::size_t marginalised,
-                               const std::vector<int>& regressors) {
+  static int preferred_discrepancy(const ModelComparison& comparison,
+                                   std::size_t marginalised,
+                                   const std::vector<int>& regressors) {
     for (const CandidateModel& model : comparison.models) {
       if (model.regressors == regressors && model.marginalised == marginalised)
-        return model.pattern;
+        return model.discrepancy;
     }
     return -1;
   }
 
-  /// What the model leaves, the pattern that it may have taken out.
+  /// What the model leaves, the discrepancy that it may have taken out.
   [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Estimate& model,
                                                     const std::vector<std::size_t>& points) const {
-    const Eigen::VectorXd left = left_of_machine(a_.system, model, model.left_beside_pattern);
+    const Eigen::VectorXd left = left_of_machine(a_.system, model, model.left_beside_discrepancy);
     std::vector<Eigen::Vector2d> result;
     for (const std::size_t i : points) result.push_back(error_of_unit(a_.system, left, i));
     return result;

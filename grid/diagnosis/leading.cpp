@@ -90,7 +90,7 @@ Estimate estimate_with(const Session& session, const Analysis& a, std::vector<in
                   a.system,
                   marginalised_system(a),
                   regressors,
-                  a.decision.pattern_left ? a.decision.best_pattern : -1);
+                  a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
 }
 
 }  // namespace chaintrue::grid::diagnosis

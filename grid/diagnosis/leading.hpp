@@ -38,7 +38,7 @@ struct Shown {
 };
 [[nodiscard]] Shown shown(const Analysis& analysis);
 
-/// Estimate with these columns, beside the pattern where the decision holds one.
+/// Estimate with these columns, beside the discrepancy where the decision holds one.
 [[nodiscard]] Estimate estimate_with(const Session& session,
                                      const Analysis& analysis,
                                      std::vector<int> columns);

@@ -10,7 +10,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr double kSmooth_mm = 450.0;  // length over which a pattern is looked for
+constexpr double kSmooth_mm = 450.0;  // length over which a discrepancy is looked for
 constexpr int kDraws = 999;
 constexpr int kDegree = 4;
 /// Share of what is left that a coordinate must explain, beyond what its terms take by chance.
@@ -25,7 +25,8 @@ double p_of_structure(const Session& session,
                       const Eigen::VectorXd& left,
                       std::uint64_t seed) {
   Eigen::VectorXd e = left(kept);
-  Eigen::MatrixXd k = pattern_covariance(session, system, kept, {PatternKind::chains, kSmooth_mm});
+  Eigen::MatrixXd k =
+      discrepancy_covariance(session, system, kept, {DiscrepancyKind::chains, kSmooth_mm});
   if (system.nuisances > 0) {
     const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(system, kept);
     noise.matrixL().solveInPlace(e);
@@ -117,12 +118,12 @@ LeftOver left_over(const Session& session, const Analysis& a, std::uint64_t seed
   LeftOver result;
   const Eigen::VectorXd left = left_of_machine(a.system, a.estimate, a.estimate.left);
   result.p_value = p_of_structure(session, a.system, marginalised.kept, left, seed);
-  if (a.decision.best_pattern >= 0) {
-    const Estimate beside =
-        estimate(session, a.system, marginalised, a.decision.regressors, a.decision.best_pattern);
-    const Eigen::VectorXd pattern = beside.left - beside.left_beside_pattern;
+  if (a.decision.best_discrepancy >= 0) {
+    const Estimate beside = estimate(
+        session, a.system, marginalised, a.decision.regressors, a.decision.best_discrepancy);
+    const Eigen::VectorXd discrepancy = beside.left - beside.left_beside_discrepancy;
     result.delta =
-        length_in_noise(a.system, marginalised.kept, pattern) / std::sqrt(beside.noise_square);
+        length_in_noise(a.system, marginalised.kept, discrepancy) / std::sqrt(beside.noise_square);
   }
   // A distance has no place to follow, and a few holes draw no curve.
   if (result.p_value >= kFalseAlarm || session.distances) return result;

@@ -16,12 +16,12 @@ namespace {
 
 constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
-/// Beforehand: nothing, one cause, two, three, four; and how much rarer each is with an unknown
-/// pattern beside it.
+/// Beforehand: nothing, one cause, two, three, four; and how much rarer each is with a model
+/// discrepancy beside it.
 constexpr std::array<double, kMostCauses + 1> kPriorOfCount = {0.50, 0.25, 0.05, 0.02, 0.01};
-constexpr double kPatternPrior = 0.10;
-/// A set of outliers so much less probable than the best is not tried beside patterns.
-constexpr double kWorthPatterns = 6.0;
+constexpr double kDiscrepancyPrior = 0.10;
+/// A set of outliers so much less probable than the best is not tried beside discrepancies.
+constexpr double kWorthDiscrepancies = 6.0;
 /// Sets of outliers in one comparison.
 constexpr std::size_t kMostOutlierSets = 8;
 
@@ -58,10 +58,10 @@ double ModelComparison::probability(const CandidateModel& model) const {
 
 double log_prior(const std::vector<Regressor>& regressors,
                  const std::vector<int>& set,
-                 bool pattern) {
+                 bool discrepancy) {
   const auto effects = static_cast<double>(model::effects::catalogue().size());
   std::size_t lasting = 0;
-  double value = pattern ? std::log(kPatternPrior) : 0.0;
+  double value = discrepancy ? std::log(kDiscrepancyPrior) : 0.0;
   for (const int k : set) {
     const Regressor& d = regressors[static_cast<std::size_t>(k)];
     value += d.log_prior - std::log(effects);
@@ -187,8 +187,8 @@ ModelComparison compare_models(const Session& session,
       best = std::max(best, searches.back().best());
     }
     for (SetSearch& search : searches) {
-      if (options.patterns && search.best() > best - kWorthPatterns) {
-        take(search.run_beside_patterns());
+      if (options.discrepancies && search.best() > best - kWorthDiscrepancies) {
+        take(search.run_beside_discrepancies());
       }
     }
     finish(comparison);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The evidence of the data for each of: nothing, every cause, causes together, outliers, noise
-/// larger than stated, an unknown pattern, and causes beside an unknown pattern.
+/// larger than stated, a model discrepancy, and causes beside a model discrepancy.
 ///
 /// Every hypothesis looks for its own outliers, by mean shifts added one after the other without
 /// stopping at the first that does not pay, so that several outliers cannot hide each other; the
@@ -16,10 +16,10 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// A set of regressors, with or without an unknown pattern, and the points set aside.
+/// A set of regressors, with or without a model discrepancy, and the points set aside.
 struct CandidateModel {
   std::vector<int> regressors;   ///< ascending
-  int pattern = -1;              ///< number of the unknown pattern, or none
+  int discrepancy = -1;          ///< number of the model discrepancy, or none
   std::size_t marginalised = 0;  ///< into ModelComparison::marginalised_systems
   double log_weight = 0.0;       ///< prior times evidence
   double larger_noise = 0.0;     ///< share of it from noise larger than stated
@@ -36,7 +36,7 @@ struct ModelComparison {
 
 struct ComparisonOptions {
   Steps steps;
-  bool patterns = true;
+  bool discrepancies = true;
   /// Nothing but this cause acts.
   std::optional<CauseId> told;
 };
@@ -53,7 +53,7 @@ inline constexpr std::size_t kMostCauses = 4;
 /// Prior of a set of regressors, of its outliers not.
 [[nodiscard]] double log_prior(const std::vector<Regressor>& regressors,
                                const std::vector<int>& set,
-                               bool pattern);
+                               bool discrepancy);
 
 /// log BF of one cause against nothing, its places averaged: by position in `causes`.
 struct SingleScores {

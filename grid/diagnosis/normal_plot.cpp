@@ -96,7 +96,7 @@ std::optional<NormalPlot> normal_plot(const Session& session,
   const Eigen::Index rows = rows_of_points(session, marginalised);
   if (rows < 2 * static_cast<Eigen::Index>(kFewestPoints)) return std::nullopt;
   const Eigen::VectorXd& left =
-      a.decision.pattern_left ? a.estimate.left_beside_pattern : a.estimate.left;
+      a.decision.discrepancy_left ? a.estimate.left_beside_discrepancy : a.estimate.left;
   NormalPlot plot;
   plot.values = shape_of(Eigen::VectorXd(left(marginalised.kept)).head(rows));
   const Eigen::MatrixXd noise = left_of_noise(a, seed);

@@ -47,11 +47,11 @@ class Round {
         const State& state,
         const LinearisedSystem& system,
         MarginalisedSystem marginalised,
-        int pattern)
+        int discrepancy)
       : session_(session), state_(state), system_(system), marginalised_(std::move(marginalised)) {
     std::vector<int> all;
     for (std::size_t k = 0; k < system.regressors.size(); ++k) all.push_back(static_cast<int>(k));
-    estimate_ = diagnosis::estimate(session, system, marginalised_, all, pattern);
+    estimate_ = diagnosis::estimate(session, system, marginalised_, all, discrepancy);
   }
   [[nodiscard]] const Estimate& estimate() const { return estimate_; }
 
@@ -182,9 +182,9 @@ Polished polish(const Session& session,
     auto about = linearise(session, result.state, steps);
     if (!about || !renew_regressors(session, result.state, own, *about)) break;
     MarginalisedSystem there = marginalise(*about, marginalised.outliers, steps);
-    there.pattern_trace =
-        marginalised.pattern_trace;  // the pattern stays as strong as it was found
-    const Round here(session, result.state, *about, std::move(there), leaders.pattern);
+    there.discrepancy_trace =
+        marginalised.discrepancy_trace;  // the discrepancy stays as strong as it was found
+    const Round here(session, result.state, *about, std::move(there), leaders.discrepancy);
     const auto settings = static_cast<Eigen::Index>(session.settings.size());
     bool settled =
         here.estimate().setting_change.head(settings).cwiseAbs().maxCoeff() < kSettled_mm;
@@ -194,8 +194,8 @@ Polished polish(const Session& session,
       moved[k].values.front() = here.size(k);
       settled = settled && std::abs(moved[k].values.front() - own[k].values.front()) <
                                kSettled * std::abs(own[k].values.front());
-      // Beside a pattern the best of the places tried has to do: e has the pattern in it.
-      if (has_continuous_place(own[k]) && leaders.pattern < 0)
+      // Beside a discrepancy the best of the places tried has to do: e has the discrepancy in it.
+      if (has_continuous_place(own[k]) && leaders.discrepancy < 0)
         moved[k].values.back() = here.place(k, reaches[k]);
     }
     State next =

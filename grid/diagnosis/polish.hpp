@@ -18,10 +18,10 @@ struct Polished {
   std::vector<Refinement> refinements;  ///< of the causes whose size is no whole number
 };
 
-/// What leads: regressors of the system, beside an unknown pattern or none (-1).
+/// What leads: regressors of the system, beside a model discrepancy or none (-1).
 struct Leaders {
   std::vector<int> regressors;
-  int pattern = -1;
+  int discrepancy = -1;
 };
 
 /// From the state of the system, with the points set aside that `marginalised` leaves out.

@@ -19,8 +19,8 @@ constexpr double kNegligible = 16.0;
 constexpr std::size_t kKeptFixed = 60;
 /// Pairs and triples from which larger sets are searched.
 constexpr std::size_t kBeam = 24;
-/// Sets that are also tried beside an unknown pattern.
-constexpr std::size_t kBesidePattern = 24;
+/// Sets that are also tried beside a model discrepancy.
+constexpr std::size_t kBesideDiscrepancy = 24;
 
 /// May two regressors act together: one cause acts at one place, and an effect that acts on both
 /// chains alike not also on one of them.
@@ -59,10 +59,10 @@ class SetSearch::Search {
     return std::move(models_);
   }
 
-  /// The best sets once more, with a pattern that nobody knows beside them.
-  std::vector<CandidateModel> run_beside_patterns() {
+  /// The best sets once more, with a discrepancy that nobody knows beside them.
+  std::vector<CandidateModel> run_beside_discrepancies() {
     models_.clear();
-    beside_patterns();
+    beside_discrepancies();
     return std::move(models_);
   }
 
@@ -112,9 +112,9 @@ class SetSearch::Search {
 
   /// Weighs a set (positions in the normal equations) and keeps it where it matters.
   double consider(const std::vector<Eigen::Index>& set,
-                  int pattern,
+                  int discrepancy,
                   const NormalEquations& equations,
-                  double log_pattern) {
+                  double log_discrepancy) {
     std::vector<int> chosen;
     for (const Eigen::Index i : set)
       chosen.push_back(equations.columns[static_cast<std::size_t>(i)]);
@@ -123,10 +123,10 @@ class SetSearch::Search {
     CandidateModel model;
     model.regressors = chosen;
     std::sort(model.regressors.begin(), model.regressors.end());
-    model.pattern = pattern;
+    model.discrepancy = discrepancy;
     model.marginalised = number_;
-    model.log_weight = evidence.log_evidence + marginalised_.log_outliers + log_pattern +
-                       prior(chosen, pattern >= 0);
+    model.log_weight = evidence.log_evidence + marginalised_.log_outliers + log_discrepancy +
+                       prior(chosen, discrepancy >= 0);
     model.larger_noise = noise_.larger_share(evidence.quadratic);
     model.quadratic = evidence.quadratic;
     best_ = std::max(best_, model.log_weight);
@@ -134,8 +134,8 @@ class SetSearch::Search {
     return model.log_weight;
   }
 
-  [[nodiscard]] double prior(const std::vector<int>& set, bool pattern) const {
-    double value = log_prior(system_.regressors, set, pattern);
+  [[nodiscard]] double prior(const std::vector<int>& set, bool discrepancy) const {
+    double value = log_prior(system_.regressors, set, discrepancy);
     if (!options_.steps.average_location) {
       for (const int k : set) value -= system_.regressors[static_cast<std::size_t>(k)].log_prior;
     }
@@ -248,7 +248,7 @@ class SetSearch::Search {
     }
   }
 
-  void beside_patterns() {
+  void beside_discrepancies() {
     std::stable_sort(scored_.begin(), scored_.end(), heavier);
     std::vector<std::vector<Eigen::Index>> sets = {{}};
     std::vector<int> used;
@@ -259,7 +259,7 @@ class SetSearch::Search {
       const CauseId cause = regressor(s.set.front()).cause;
       // Every cause alone at its best places, and the best of the others.
       const auto times = std::count(alone.begin(), alone.end(), cause);
-      if (single ? times >= 2 : taken[s.set.size()] >= kBesidePattern / 2) continue;
+      if (single ? times >= 2 : taken[s.set.size()] >= kBesideDiscrepancy / 2) continue;
       if (single) alone.push_back(cause);
       ++taken[s.set.size()];
       sets.push_back(s.set);
@@ -269,17 +269,17 @@ class SetSearch::Search {
     }
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    const std::vector<NormalEquations> by_pattern =
-        normal_equations_beside_patterns(system_, session_, marginalised_, used);
-    for (int pattern = 0; pattern < kPatterns; ++pattern) {
-      const NormalEquations& equations = by_pattern[static_cast<std::size_t>(pattern)];
-      const double share = log_share_of_pattern(pattern);
+    const std::vector<NormalEquations> by_discrepancy =
+        normal_equations_beside_discrepancies(system_, session_, marginalised_, used);
+    for (int discrepancy = 0; discrepancy < kDiscrepancies; ++discrepancy) {
+      const NormalEquations& equations = by_discrepancy[static_cast<std::size_t>(discrepancy)];
+      const double share = log_share_of_discrepancy(discrepancy);
       for (const auto& set : sets) {
         std::vector<Eigen::Index> there;
         for (const Eigen::Index i : set) {
           there.push_back(equations.position(equations_.columns[static_cast<std::size_t>(i)]));
         }
-        consider(there, pattern, equations, share);
+        consider(there, discrepancy, equations, share);
       }
     }
   }
@@ -323,8 +323,8 @@ SetSearch::~SetSearch() = default;
 SetSearch::SetSearch(SetSearch&&) noexcept = default;
 SetSearch& SetSearch::operator=(SetSearch&&) noexcept = default;
 std::vector<CandidateModel> SetSearch::run() { return search_->run(); }
-std::vector<CandidateModel> SetSearch::run_beside_patterns() {
-  return search_->run_beside_patterns();
+std::vector<CandidateModel> SetSearch::run_beside_discrepancies() {
+  return search_->run_beside_discrepancies();
 }
 double SetSearch::best() const { return search_->best(); }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The sets of causes that matter in one marginalised system: one and two at a time all of them,
-/// three and four at a time grown from the best, and the leading ones once more beside an unknown
-/// pattern.
+/// three and four at a time grown from the best, and the leading ones once more beside a model
+/// discrepancy.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@ class SetSearch {
 
   [[nodiscard]] std::vector<CandidateModel> run();
   /// After run().
-  [[nodiscard]] std::vector<CandidateModel> run_beside_patterns();
+  [[nodiscard]] std::vector<CandidateModel> run_beside_discrepancies();
   /// Largest weight so far.
   [[nodiscard]] double best() const;
 

@@ -53,7 +53,7 @@ std::optional<std::string> refuse_name_of_one_reading(const Session& session,
                         a.system,
                         marginalised_system(a),
                         a.decision.regressors,
-                        a.decision.pattern_left ? a.decision.best_pattern : -1);
+                        a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
   return fmt::format(
       "Point {} by itself would make a name of it ({}{}, {:.0f} %); without it nothing is named. A "
       "lasting cause shows in more than one point, so the point is set aside: measure it again, "

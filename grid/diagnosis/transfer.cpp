@@ -77,11 +77,11 @@ Eigen::VectorXd left_of(const Session& from,
     const auto g = signature(to, a.state, system, d.cause, d.values);
     if (g) left -= *g * model.coefficient(static_cast<Eigen::Index>(k));
   }
-  if (model.pattern_weights.size() > 0) {
+  if (model.discrepancy_weights.size() > 0) {
     for (std::size_t i = 0; i < to.points.size(); ++i) {
       left.segment<2>(2 * static_cast<Eigen::Index>(i)) -=
           system.points[i].whitening *
-          pattern_at(
+          discrepancy_at(
               from, a.system, marginalised, model, {to.points[i].mark, system.points[i].by_mark});
     }
   }
@@ -149,8 +149,8 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
       a->comparison.marginalised_systems[a->decision.marginalised];
   const std::vector<int>& causes = a->decision.regressors;
   const Placed place(*second, *system);
-  const auto predicted_by = [&](const std::vector<int>& regressors, int pattern) {
-    const Estimate model = estimate(*first, a->system, marginalised, regressors, pattern);
+  const auto predicted_by = [&](const std::vector<int>& regressors, int discrepancy) {
+    const Estimate model = estimate(*first, a->system, marginalised, regressors, discrepancy);
     return summary(
         *second, *system, place(left_of(*first, *a, model, *second, *system)), options.seed);
   };
@@ -160,7 +160,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
       summary(*second, *stated, Placed(*second, *stated)(stated->e), options.seed);
   result.calibrated = predicted_by({}, -1);
   result.extended = predicted_by(causes, -1);
-  result.extended_and_surface = predicted_by(causes, a->decision.best_pattern);
+  result.extended_and_surface = predicted_by(causes, a->decision.best_discrepancy);
   result.noise_floor_mm = floor_of(*second, *system);
   return result;
 }

@@ -92,7 +92,7 @@ TEST(Downdating, OfAllPointsIsTheComparison) {
   EXPECT_NEAR(all.comparison.best().log_weight, a->comparison.best().log_weight, 1e-6);
   EXPECT_NEAR(probability_that_all_act(*a, all.comparison),
               probability_that_all_act(*a, a->comparison),
-              0.01);  // what patterns of less than a hundredth hold
+              0.01);  // what discrepancies of less than a hundredth hold
 }
 
 // The short way against the long one: a comparison of its own without each point and line.
@@ -116,8 +116,8 @@ TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
           *session, a->system, excluded, {verdict_alone().steps, true, std::nullopt});
       const Decision decision = decide(a->system, comparison, excluded, true, a->decision.classes);
       EXPECT_EQ(stability->removals[k].stands, still_named(a->decision, decision)) << "group " << k;
-      // What the models of all points leave aside: sets of outliers and patterns that only show
-      // once these points are gone.
+      // What the models of all points leave aside: sets of outliers and discrepancies that only
+      // show once these points are gone.
       EXPECT_NEAR(stability->removals[k].probability, probability_that_all_act(*a, comparison), 0.1)
           << "group " << k;
     }
