@@ -9,7 +9,7 @@
 
 #include "grid/diagnosis/link_priors.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
-#include "grid/diagnosis/polish.hpp"
+#include "grid/diagnosis/relinearise.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -212,14 +212,15 @@ tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
     const Decision& decision = a.decision;
     const Leaders leaders{decision.regressors,
                           decision.discrepancy_left ? decision.best_discrepancy : -1};
-    Polished polished = polish(session,
-                               a.state,
-                               a.system,
-                               a.comparison.marginalised_systems[decision.marginalised],
-                               leaders,
-                               options.steps);
-    known = std::move(polished.refinements);
-    a.state = std::move(polished.state);
+    Relinearised relinearised =
+        relinearise(session,
+                    a.state,
+                    a.system,
+                    a.comparison.marginalised_systems[decision.marginalised],
+                    leaders,
+                    options.steps);
+    known = std::move(relinearised.refinements);
+    a.state = std::move(relinearised.state);
   }
   test_significance(session, options, a);
   if (a.family_wise_p >= kFalseAlarm && !options.told) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/polish.hpp"
+#include "grid/diagnosis/relinearise.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -165,19 +165,19 @@ class Round {
 
 }  // namespace
 
-Polished polish(const Session& session,
-                const State& state,
-                const LinearisedSystem& system,
-                const MarginalisedSystem& marginalised,
-                const Leaders& leaders,
-                const Steps& steps) {
+Relinearised relinearise(const Session& session,
+                         const State& state,
+                         const LinearisedSystem& system,
+                         const MarginalisedSystem& marginalised,
+                         const Leaders& leaders,
+                         const Steps& steps) {
   std::vector<Regressor> own;
   std::vector<Reach> reaches;
   for (const int k : leaders.regressors) {
     own.push_back(system.regressors[static_cast<std::size_t>(k)]);
     reaches.push_back(reach(system, own.back()));
   }
-  Polished result{state, {}};
+  Relinearised result{state, {}};
   for (int round = 0; round < kRounds; ++round) {
     auto about = linearise(session, result.state, steps);
     if (!about || !renew_regressors(session, result.state, own, *about)) break;

@@ -13,7 +13,7 @@
 
 namespace chaintrue::grid::diagnosis {
 
-struct Polished {
+struct Relinearised {
   State state;
   std::vector<Refinement> refinements;  ///< of the causes whose size is no whole number
 };
@@ -25,11 +25,11 @@ struct Leaders {
 };
 
 /// From the state of the system, with the points set aside that `marginalised` leaves out.
-[[nodiscard]] Polished polish(const Session& session,
-                              const State& state,
-                              const LinearisedSystem& system,
-                              const MarginalisedSystem& marginalised,
-                              const Leaders& leaders,
-                              const Steps& steps);
+[[nodiscard]] Relinearised relinearise(const Session& session,
+                                       const State& state,
+                                       const LinearisedSystem& system,
+                                       const MarginalisedSystem& marginalised,
+                                       const Leaders& leaders,
+                                       const Steps& steps);
 
 }  // namespace chaintrue::grid::diagnosis
