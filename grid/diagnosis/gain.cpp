@@ -24,7 +24,7 @@ struct Errors {
   /// With the causes that the fold itself names.
   std::vector<Eigen::Vector2d> extended, extended_and_surface;
   /// With the causes that all points name, their sizes fitted without the fold.
-  std::vector<Eigen::Vector2d> held_fast, held_fast_and_surface;
+  std::vector<Eigen::Vector2d> fixed_naming, fixed_naming_and_surface;
 };
 
 /// Held-out points of one fold.
@@ -67,8 +67,8 @@ class Folds {
     fold.errors.extended_and_surface =
         beside_discrepancy(comparison, decision.marginalised, decision.regressors, fold.points);
     const std::vector<int>& all = a_.decision.regressors;
-    fold.errors.held_fast = errors(fit(marginalised, all), fold.points);
-    fold.errors.held_fast_and_surface =
+    fold.errors.fixed_naming = errors(fit(marginalised, all), fold.points);
+    fold.errors.fixed_naming_and_surface =
         beside_discrepancy(comparison, decision.marginalised, all, fold.points);
     return fold;
   }
@@ -251,8 +251,8 @@ void append(const Errors& fold, Errors& all) {
   join(all.surface_only, fold.surface_only);
   join(all.extended, fold.extended);
   join(all.extended_and_surface, fold.extended_and_surface);
-  join(all.held_fast, fold.held_fast);
-  join(all.held_fast_and_surface, fold.held_fast_and_surface);
+  join(all.fixed_naming, fold.fixed_naming);
+  join(all.fixed_naming_and_surface, fold.fixed_naming_and_surface);
 }
 
 /// Which errors speak of the extension: an extension that does not help on points it has not seen
@@ -270,8 +270,8 @@ Extension extension_of(const Analysis& a, const Errors& errors) {
   }
   // A block without which these points leave two names, the wrong one first, says little against
   // the name that all points give.
-  if (!a.decision.listed.empty() && rms(errors.held_fast) < rms(errors.calibrated)) {
-    return {&errors.held_fast, &errors.held_fast_and_surface, true, false};
+  if (!a.decision.listed.empty() && rms(errors.fixed_naming) < rms(errors.calibrated)) {
+    return {&errors.fixed_naming, &errors.fixed_naming_and_surface, true, false};
   }
   return {&errors.calibrated, &errors.surface_only, false, true};
 }
