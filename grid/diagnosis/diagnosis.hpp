@@ -340,7 +340,7 @@ struct Diagnosis {
   /// Empty where no cause is named or too few points would be left.
   std::optional<Stability> stability;
   std::optional<NormalPlot> normal_plot;
-  /// Another grid foretold; empty where none was asked for.
+  /// Another grid predicted; empty where none was asked for.
   std::optional<Transfer> transferred;
 };
 

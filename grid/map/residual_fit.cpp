@@ -269,7 +269,7 @@ MapContents contents_of(const MeasuredGrid& grid,
 }
 
 /// Readings with all their digits, as a simulator or a very good measurement gives them, bear a
-/// smoother surface than noisy ones. It is taken where it foretells left-out points a fifth better;
+/// smoother surface than noisy ones. It is taken where it predicts left-out points a fifth better;
 /// then `input` says so.
 void prefer_smoother(JointFitInput& input, JointFit& joint) {
   constexpr double kClearlyBetter = 0.8;

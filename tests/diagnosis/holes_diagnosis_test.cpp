@@ -141,7 +141,7 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
       1e-9 * line->setting_jacobian.cwiseAbs().maxCoeff());
 }
 
-// A setting's column foretells what moving the setting does: the whole path by differences.
+// A setting's column predicts what moving the setting does: the whole path by differences.
 TEST(HolesDiagnosis, ColumnsAreDerivativesOfTheWholePath) {
   const MeasuredHoles set = holes({}, 3);
   const auto session = make_session(set);
