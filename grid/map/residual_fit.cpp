@@ -224,11 +224,12 @@ std::vector<std::string> notes_of(const MapContents& map) {
   return notes;
 }
 
-/// C = F F'; rounding may leave C a hair indefinite, so that a Cholesky factor need not exist.
+/// C = F F'; rounding may leave C not quite semidefinite, so jitter on the diagonal lets it be
+/// factorised.
 Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance) {
-  constexpr double kHair = 1e-12;
+  constexpr double kJitter = 1e-12;
   Eigen::MatrixXd lifted = 0.5 * (covariance + covariance.transpose());
-  lifted.diagonal() *= 1.0 + kHair;
+  lifted.diagonal() *= 1.0 + kJitter;
   lifted.diagonal().array() += 1e-18;
   return lifted.llt().matrixL();
 }
