@@ -83,10 +83,11 @@ Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vecto
   return mark_jacobian.inverse() * chain_mm;
 }
 
-/// Lays the sheet under the machine as stated by weighted least squares on its good points.
-model::SheetPlacement lay_sheet(const JointFitInput& input,
-                                const JointFit& fit,
-                                const model::ReadingModel& stated) {
+/// Fits the placement of the sheet under the machine as stated, by weighted least squares on its
+/// good points.
+model::SheetPlacement fit_sheet_placement(const JointFitInput& input,
+                                          const JointFit& fit,
+                                          const model::ReadingModel& stated) {
   const std::vector<model::Setting> settings(model::kSheetSettings.begin(),
                                              model::kSheetSettings.end());
   model::SheetPlacement sheet;
@@ -127,7 +128,7 @@ std::vector<MapPoint> map_points(const JointFitInput& input,
                                  const MeasuredGrid& grid) {
   const model::ReadingModel stated(*grid.machine);
   const model::SheetPlacement laid =
-      grid.sheet ? lay_sheet(input, fit, stated) : model::SheetPlacement{};
+      grid.sheet ? fit_sheet_placement(input, fit, stated) : model::SheetPlacement{};
   std::vector<MapPoint> points;
   for (const FittedPoint& fitted : fit.points) {
     MapPoint point;
