@@ -11,10 +11,10 @@ namespace {
 std::vector<model::Visit> visits_of(const Session& session,
                                     const State& state,
                                     const model::Machine& machine) {
-  const model::Paper paper(machine);
+  const model::MarkFrame mark_frame(machine);
   std::vector<model::Visit> visits;
   for (std::size_t i = 0; i < session.points.size(); ++i) {
-    visits.push_back({state.sheet.to_bed(paper.place(session.points[i].mark)),
+    visits.push_back({state.sheet.to_bed(mark_frame.place(session.points[i].mark)),
                       session.ordered ? session.points[i].order : static_cast<int>(i)});
   }
   return visits;
@@ -60,10 +60,10 @@ class Points final : public Observed {
       const Steps& steps,
       LinearisedSystem& system) const override {
     const model::ReadingModel model(state.machine);
-    const model::Paper paper(state.machine);
+    const model::MarkFrame mark_frame(state.machine);
     Eigen::Matrix2d summed = Eigen::Matrix2d::Zero();
     for (std::size_t i = 0; i < session.points.size(); ++i) {
-      const model::BedPoint place = paper.place(session.points[i].mark);
+      const model::BedPoint place = mark_frame.place(session.points[i].mark);
       const auto reading = model.at(state.sheet.to_bed(place));
       if (!reading) return tl::unexpected(model::VisitFailure{i, reading.error()});
       PointState seen{*reading, reading->position_jacobian * state.sheet.rotation(), {}};
