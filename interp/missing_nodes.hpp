@@ -10,7 +10,7 @@
 ///     R f + C f - R C f (1)
 ///
 /// the blending of W. Gordon (SIAM J. Numer. Anal. 8 (1971) 158-177): its error (1 - R)(1 - C) f is
-/// that of one line foretelling the error of the other, none for g(x) + h(y). Where another hole
+/// that of one line predicting the error of the other, none for g(x) + h(y). Where another hole
 /// leaves R C f open, the line with more nodes present decides alone. Meant for what a model leaves
 /// over: residuals are smooth at the scale of a cell; raw chain lengths are filled some millimetres
 /// wrong next to the motors.

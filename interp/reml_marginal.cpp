@@ -29,7 +29,7 @@ Marginal::Marginal(const PenalisedProblem& problem,
                    Shape shape)
     : problem_(problem), prior_kind_(prior) {
   structure_ =
-      shape == Shape::kAny && is_arrow(problem) ? make_arrow(problem) : make_dense(problem);
+      shape == Shape::kAny && is_bordered(problem) ? make_bordered(problem) : make_dense(problem);
   if (problem.prior_mean.size() > 0 && problem.prior_precision.size() > 0) {
     prior_square_ = problem.prior_mean.dot(problem.prior_precision * problem.prior_mean);
   }

@@ -5,10 +5,10 @@
 /// Two ways to work with A = X'X / sigma2 + S0 + sum lambda_k S_k at many lambda (internal to
 /// interp; notation as in reml.hpp). Both answer in working coordinates, b = T (working b).
 ///
-///   dense   any penalties; each lambda costs O(q^3). T is the identity.
-///   arrow   each penalty has columns of its own, coupled to the others only through the p columns
-///           that no penalty touches. T diagonalises the penalty and X'X of each block together, A
-///           becomes an arrow, and each lambda costs O(q p^2).
+///   dense     any penalties; each lambda costs O(q^3). T is the identity.
+///   bordered  each penalty has columns of its own, coupled to the others only through the p
+///             columns that no penalty touches: A is bordered block-diagonal. T diagonalises the
+///             penalty and X'X of each block together, and each lambda costs O(q p^2).
 
 #include <memory>
 #include <optional>
@@ -25,7 +25,7 @@ struct Traces {
 };
 
 /// A covariance in working coordinates: diag(diagonal) + dense + sum of weight W W' over the roots
-/// W. An empty part is zero; the dense way fills `dense` alone, the arrow the others.
+/// W. An empty part is zero; the dense way fills `dense` alone, the bordered one the others.
 struct WorkingCovariance {
   struct Root {
     double weight;
@@ -77,10 +77,10 @@ class Structure {
 };
 
 /// Null where a block's own data and penalty leave some of its columns free.
-[[nodiscard]] std::unique_ptr<Structure> make_arrow(const PenalisedProblem& problem);
+[[nodiscard]] std::unique_ptr<Structure> make_bordered(const PenalisedProblem& problem);
 [[nodiscard]] std::unique_ptr<Structure> make_dense(const PenalisedProblem& problem);
-/// Whether the problem has the shape that make_arrow asks for.
-[[nodiscard]] bool is_arrow(const PenalisedProblem& problem);
+/// Whether the problem has the shape that make_bordered asks for.
+[[nodiscard]] bool is_bordered(const PenalisedProblem& problem);
 
 /// A pivot of the unit-diagonal A below this share of q means that a combination of columns is
 /// free.

@@ -351,7 +351,7 @@ tl::expected<std::vector<ChainLengths>, VisitFailure> readings(const ReadingMode
   return result;
 }
 
-Paper::Paper(const Machine& machine) {
+MarkFrame::MarkFrame(const Machine& machine) {
   const std::vector<ActingEffect> acting = effects::acting_effects(machine);
   const auto write = [&](BedPoint point) {
     for (const ActingEffect& one : acting) {
@@ -363,12 +363,12 @@ Paper::Paper(const Machine& machine) {
   written_per_place_.col(1) = write({0.0, 1.0});
 }
 
-BedPoint Paper::written(BedPoint place) const {
+BedPoint MarkFrame::written(BedPoint place) const {
   const Eigen::Vector2d w = written_per_place_ * Eigen::Vector2d{place.x_mm, place.y_mm};
   return {w[0], w[1]};
 }
 
-BedPoint Paper::place(BedPoint written) const {
+BedPoint MarkFrame::place(BedPoint written) const {
   const Eigen::Vector2d p =
       written_per_place_.inverse() * Eigen::Vector2d{written.x_mm, written.y_mm};
   return {p[0], p[1]};

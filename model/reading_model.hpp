@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// From a machine with its effects to the lengths that a person would read off it: machine -> chain
-/// -> reading, and the paper on which the marks are written.
+/// -> reading, and the frame in which the marks are written.
 ///
 ///   reading = (L0 + chain effects) / (1 + e) + chain_zero + reading effects (1)
 ///
@@ -10,7 +10,8 @@
 /// repeatable part of a reading: what it would be without drift, skips and hysteresis, which depend
 /// on the visit and not on the place. readings() answers whole sessions with all of it.
 ///
-/// Points are true positions of the tool; Paper turns them into what is written beside the marks.
+/// Points are true positions of the tool; MarkFrame turns them into what is written beside the
+/// marks.
 ///
 /// \code
 ///   Machine machine;
@@ -98,12 +99,12 @@ struct VisitFailure {
 [[nodiscard]] tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
     const ReadingModel& model, std::span<const Visit> visits);
 
-/// The marks as they are written: the paper effects of a machine, in the catalogue's order. They
-/// are affine.
-class Paper {
+/// The frame in which the marks are written: the paper effects of a machine, in the catalogue's
+/// order. They are linear.
+class MarkFrame {
  public:
   /// \throws std::invalid_argument as ReadingModel.
-  explicit Paper(const Machine& machine);
+  explicit MarkFrame(const Machine& machine);
   /// What is written beside a mark that truly is at `place`.
   [[nodiscard]] BedPoint written(BedPoint place) const;
   /// Where the mark truly is that bears these numbers.

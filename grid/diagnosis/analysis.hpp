@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The steps from a session to a judgement: calibrate, linearise, contest, linearise anew about
-/// what was found, contest again.
+/// The steps from a session to a decision: calibrate, linearise, compare models, linearise anew
+/// about what was found, compare again.
 #pragma once
 
 #include <tl/expected.hpp>
 
+#include "grid/diagnosis/decision.hpp"
 #include "grid/diagnosis/estimate.hpp"
-#include "grid/diagnosis/judgement.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 struct Analysis {
-  State state;  ///< settings at which the rows are linear; no effect named is in it
+  State state;  ///< settings about which the system is linear; no effect named is in it
   Candidates candidates;
-  Rows rows;
-  Contest contest;
+  LinearisedSystem system;
+  ModelComparison comparison;
   NullDistribution null;
   double score = 0.0;  ///< of the strongest single effect
   double family_wise_p = 1.0;
-  Judgement judgement;
-  Estimate estimate;  ///< of the judgement's causes
+  Decision decision;
+  Estimate estimate;  ///< of the decision's causes
 };
 
-/// judge(), and silence where an unknown pattern is as strong as the cause it would be named
+/// decide(), abstaining where a model discrepancy is as strong as the cause it would be named
 /// beside.
-[[nodiscard]] Judgement decide(const Session& session,
-                               const Rows& rows,
-                               const Contest& contest,
-                               const std::vector<bool>& excluded,
-                               bool seen);
+[[nodiscard]] Decision decide_beside_discrepancy(const Session& session,
+                                                 const LinearisedSystem& system,
+                                                 const ModelComparison& comparison,
+                                                 const std::vector<bool>& excluded,
+                                                 bool seen);
 
 [[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
                                                                const DiagnosisOptions& options);

@@ -54,7 +54,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(
   }
   d.observations = session->distances ? Observations::distances : Observations::points;
   d.seed = options.seed;
-  d.verdict = analysis->judgement.verdict;
+  d.verdict = analysis->decision.verdict;
   d.noise_factor = std::sqrt(analysis->estimate.noise_square);
   d.family_wise_p = analysis->family_wise_p;
   d.causes = causes_found(*session, *analysis, options.order_assumed);
@@ -63,7 +63,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(
   d.not_testable = analysis->candidates.not_testable;
   d.bounds = bounds(*session, *analysis, d.not_testable);
   d.settings = settings_found(*session, *analysis);
-  d.bad_points = bad_points_found(*session, *analysis);
+  d.bad_points = outliers_found(*session, *analysis);
   d.separations = separations(*analysis);
   d.points = pictures(*session, *analysis);
   d.holes = hole_pictures(*session, *analysis);

@@ -81,7 +81,7 @@ struct Cause {
   bool order_assumed = false;
 };
 
-/// One line of the contest: an effect's id and side, or nothing, unknown, noise, bad_points.
+/// One line of the comparison: an effect's id and side, or nothing, unknown, noise, bad_points.
 struct Hypothesis {
   std::string effect;
   std::string side;
@@ -99,7 +99,7 @@ struct LeftOver {
   double p_value = 1.0;
 };
 
-struct BadPoint {
+struct Outlier {
   std::size_t index = 0;  ///< into the grid's points, or the holes' distances
   /// Where the tool would have to have been, less where the mark is.
   Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
@@ -313,7 +313,7 @@ struct Diagnosis {
   std::vector<Cause> causes;
   std::vector<Hypothesis> hypotheses;
   LeftOver left_over;
-  std::vector<BadPoint> bad_points;
+  std::vector<Outlier> bad_points;
   std::vector<NotTestable> not_testable;
   std::vector<Bound> bounds;
   std::vector<CalibratedSetting> settings;
@@ -340,7 +340,7 @@ struct Diagnosis {
   /// Empty where no cause is named or too few points would be left.
   std::optional<Stability> stability;
   std::optional<NormalPlot> normal_plot;
-  /// Another grid foretold; empty where none was asked for.
+  /// Another grid predicted; empty where none was asked for.
   std::optional<Transfer> transferred;
 };
 

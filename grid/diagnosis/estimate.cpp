@@ -45,30 +45,30 @@ Solution solve(const Unknowns& unknowns,
 }  // namespace
 
 Estimate estimate(const Session& session,
-                  const Rows& rows,
-                  const Space& space,
-                  const std::vector<int>& directions,
-                  int pattern) {
+                  const LinearisedSystem& system,
+                  const MarginalisedSystem& marginalised,
+                  const std::vector<int>& regressors,
+                  int discrepancy) {
   Estimate result;
-  result.directions = directions;
-  const auto settings = rows.setting.size();
-  result.coefficient = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions.size()));
+  result.regressors = regressors;
+  const auto settings = system.setting.size();
+  result.coefficient = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(regressors.size()));
   result.coefficient_sigma = result.coefficient;
-  Eigen::VectorXd data = rows.e;
-  for (std::size_t k = 0; k < directions.size(); ++k) {
-    if (rows.directions[static_cast<std::size_t>(directions[k])].fixed) {
+  Eigen::VectorXd data = system.e;
+  for (std::size_t k = 0; k < regressors.size(); ++k) {
+    if (system.regressors[static_cast<std::size_t>(regressors[k])].fixed) {
       result.coefficient(static_cast<Eigen::Index>(k)) = 1.0;
-      data -= rows.g.col(directions[k]);
+      data -= system.g.col(regressors[k]);
     } else {
       result.free.push_back(k);
     }
   }
   Eigen::LLT<Eigen::MatrixXd> noise;
-  Pattern shape;
-  if (pattern >= 0) {
-    shape = pattern_of(space, pattern);
-    Eigen::MatrixXd c = shape.sigma_mm * shape.sigma_mm *
-                        pattern_covariance(session, rows, space.kept, shape.shape);
+  Discrepancy process;
+  if (discrepancy >= 0) {
+    process = discrepancy_of(marginalised, discrepancy);
+    Eigen::MatrixXd c = process.sigma_mm * process.sigma_mm *
+                        discrepancy_covariance(session, system, marginalised.kept, process.kernel);
     c.diagonal().array() += 1.0;
     noise.compute(c);
   }
@@ -77,54 +77,56 @@ Estimate estimate(const Session& session,
   while (true) {
     const auto free = static_cast<Eigen::Index>(result.free.size());
     Unknowns unknowns{
-        Eigen::MatrixXd(static_cast<Eigen::Index>(space.kept.size()), settings + free),
+        Eigen::MatrixXd(static_cast<Eigen::Index>(marginalised.kept.size()), settings + free),
         Eigen::VectorXd::Zero(settings + free),
         Eigen::VectorXd(settings + free)};
-    unknowns.design.leftCols(settings) = rows.by_setting(space.kept, Eigen::all);
-    unknowns.mean.head(settings) = rows.expected_change;
-    unknowns.sigma.head(settings) = rows.sigma;
+    unknowns.design.leftCols(settings) = system.by_setting(marginalised.kept, Eigen::all);
+    unknowns.mean.head(settings) = system.expected_change;
+    unknowns.sigma.head(settings) = system.sigma;
     for (Eigen::Index k = 0; k < free; ++k) {
-      const int column = directions[result.free[static_cast<std::size_t>(k)]];
-      unknowns.design.col(settings + k) = rows.g(space.kept, column);
-      unknowns.sigma(settings + k) = kWideDelta / std::max(space.g.col(column).norm(), 1e-12);
+      const int column = regressors[result.free[static_cast<std::size_t>(k)]];
+      unknowns.design.col(settings + k) = system.g(marginalised.kept, column);
+      unknowns.sigma(settings + k) =
+          kWideDelta / std::max(marginalised.g.col(column).norm(), 1e-12);
     }
-    solution = solve(unknowns, data(space.kept), pattern >= 0 ? &noise : nullptr);
+    solution = solve(unknowns, data(marginalised.kept), discrepancy >= 0 ? &noise : nullptr);
     std::size_t outside = result.free.size();
     for (std::size_t k = 0; k < result.free.size(); ++k) {
-      const Direction& d = rows.directions[static_cast<std::size_t>(directions[result.free[k]])];
+      const Regressor& d = system.regressors[static_cast<std::size_t>(regressors[result.free[k]])];
       const double value = solution.value(settings + static_cast<Eigen::Index>(k));
       if (value < d.lowest || value > d.highest) outside = k;
     }
     if (outside == result.free.size()) break;
     const auto at = static_cast<Eigen::Index>(result.free[outside]);
-    const Direction& d =
-        rows.directions[static_cast<std::size_t>(directions[result.free[outside]])];
+    const Regressor& d =
+        system.regressors[static_cast<std::size_t>(regressors[result.free[outside]])];
     result.coefficient(at) = std::clamp(
         solution.value(settings + static_cast<Eigen::Index>(outside)), d.lowest, d.highest);
-    data -= rows.g.col(directions[result.free[outside]]) * result.coefficient(at);
+    data -= system.g.col(regressors[result.free[outside]]) * result.coefficient(at);
     result.free.erase(result.free.begin() + static_cast<std::ptrdiff_t>(outside));
   }
   result.setting_change = solution.value.head(settings);
-  Eigen::VectorXd left = data - rows.by_setting * result.setting_change;
+  Eigen::VectorXd left = data - system.by_setting * result.setting_change;
   for (std::size_t k = 0; k < result.free.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(result.free[k]);
     const Eigen::Index column = settings + static_cast<Eigen::Index>(k);
     result.coefficient(at) = solution.value(column);
-    left -= rows.g.col(directions[result.free[k]]) * result.coefficient(at);
+    left -= system.g.col(regressors[result.free[k]]) * result.coefficient(at);
   }
   result.left = left;
-  result.left_beside_pattern = left;
-  const Eigen::VectorXd kept = left(space.kept);
+  result.left_beside_discrepancy = left;
+  const Eigen::VectorXd kept = left(marginalised.kept);
   double quadratic = kept.squaredNorm();
-  if (pattern >= 0) {
-    result.pattern = shape;
-    result.pattern_weights = noise.solve(kept);
-    quadratic = kept.dot(result.pattern_weights);
-    result.left_beside_pattern -= pattern_in_rows(session, rows, space, result);
+  if (discrepancy >= 0) {
+    result.discrepancy = process;
+    result.discrepancy_weights = noise.solve(kept);
+    quadratic = kept.dot(result.discrepancy_weights);
+    result.left_beside_discrepancy -= discrepancy_in_rows(session, system, marginalised, result);
   }
   const Eigen::VectorXd off =
-      (result.setting_change - rows.expected_change).cwiseQuotient(rows.sigma);
-  const NoiseDensity density(session.noise_dof, static_cast<Eigen::Index>(space.kept.size()));
+      (result.setting_change - system.expected_change).cwiseQuotient(system.sigma);
+  const NoiseDensity density(session.noise_dof,
+                             static_cast<Eigen::Index>(marginalised.kept.size()));
   result.noise_square = density.noise_square(quadratic + off.squaredNorm());
   result.covariance = solution.covariance * result.noise_square;
   result.setting_covariance = result.covariance.topLeftCorner(settings, settings);
@@ -133,85 +135,91 @@ Estimate estimate(const Session& session,
     result.coefficient_sigma(static_cast<Eigen::Index>(result.free[k])) =
         std::sqrt(result.covariance(column, column));
   }
-  for (std::size_t k = 0; k < directions.size(); ++k) {
+  for (std::size_t k = 0; k < regressors.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
-    const bool is_fixed = rows.directions[static_cast<std::size_t>(directions[k])].fixed;
+    const bool is_fixed = system.regressors[static_cast<std::size_t>(regressors[k])].fixed;
     if (is_fixed || result.coefficient_sigma(at) > 0.0) continue;
-    const double length = std::max(space.g.col(directions[k]).norm(), 1e-12);
+    const double length = std::max(marginalised.g.col(regressors[k]).norm(), 1e-12);
     result.coefficient_sigma(at) = std::sqrt(result.noise_square) / length;
   }
   return result;
 }
 
-Eigen::Vector2d pattern_at(const Session& session,
-                           const Rows& rows,
-                           const Space& space,
-                           const Estimate& estimate,
-                           const PatternPlace& place) {
+Eigen::Vector2d discrepancy_at(const Session& session,
+                               const LinearisedSystem& system,
+                               const MarginalisedSystem& marginalised,
+                               const Estimate& estimate,
+                               const DiscrepancyPlace& place) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
-  const Eigen::Index size = rows.unit_rows;
-  for (Eigen::Index a = 0; a + size <= estimate.pattern_weights.size(); a += size) {
-    const Eigen::Index row = space.kept[static_cast<std::size_t>(a)];
+  const Eigen::Index size = system.unit_rows;
+  for (Eigen::Index a = 0; a + size <= estimate.discrepancy_weights.size(); a += size) {
+    const Eigen::Index row = marginalised.kept[static_cast<std::size_t>(a)];
     if (row >= session.observed_rows()) break;
-    const auto weights = estimate.pattern_weights.segment(a, size);
-    for (const SeenPlace& seen : rows.units[static_cast<std::size_t>(row / size)]) {
-      mm += pattern_block(estimate.pattern.shape, place, pattern_place(session, rows, seen.place)) *
-            seen.by_chain.topRows(size).transpose() * weights;
+    const auto weights = estimate.discrepancy_weights.segment(a, size);
+    for (const SeenPlace& seen : system.units[static_cast<std::size_t>(row / size)]) {
+      mm +=
+          discrepancy_block(
+              estimate.discrepancy.kernel, place, discrepancy_place(session, system, seen.place)) *
+          seen.by_chain.topRows(size).transpose() * weights;
     }
   }
-  return estimate.pattern.sigma_mm * estimate.pattern.sigma_mm * mm;
+  return estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm * mm;
 }
 
-Eigen::VectorXd pattern_in_rows(const Session& session,
-                                const Rows& rows,
-                                const Space& space,
-                                const Estimate& estimate) {
+Eigen::VectorXd discrepancy_in_rows(const Session& session,
+                                    const LinearisedSystem& system,
+                                    const MarginalisedSystem& marginalised,
+                                    const Estimate& estimate) {
   std::vector<Eigen::Vector2d> chains;
-  for (std::size_t i = 0; i < rows.points.size(); ++i) {
-    chains.push_back(pattern_at(session, rows, space, estimate, pattern_place(session, rows, i)));
+  for (std::size_t i = 0; i < system.points.size(); ++i) {
+    chains.push_back(discrepancy_at(
+        session, system, marginalised, estimate, discrepancy_place(session, system, i)));
   }
   Eigen::VectorXd all = Eigen::VectorXd::Zero(session.rows());
-  for (std::size_t u = 0; u < rows.units.size(); ++u) {
-    for (const SeenPlace& seen : rows.units[u]) {
-      all.segment(rows.unit_rows * static_cast<Eigen::Index>(u), rows.unit_rows) +=
-          (seen.by_chain * chains[seen.place]).head(rows.unit_rows);
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    for (const SeenPlace& seen : system.units[u]) {
+      all.segment(system.unit_rows * static_cast<Eigen::Index>(u), system.unit_rows) +=
+          (seen.by_chain * chains[seen.place]).head(system.unit_rows);
     }
   }
   return all;
 }
 
-Eigen::VectorXd left_of_machine(const Rows& rows,
+Eigen::VectorXd left_of_machine(const LinearisedSystem& system,
                                 const Estimate& estimate,
                                 const Eigen::VectorXd& left) {
-  if (rows.nuisances == 0) return left;
-  return left + nuisance_columns(rows) * estimate.setting_change.tail(rows.nuisances);
+  if (system.nuisances == 0) return left;
+  return left + nuisance_columns(system) * estimate.setting_change.tail(system.nuisances);
 }
 
-std::vector<Eigen::Vector2d> chain_residuals(const Rows& rows, const Eigen::VectorXd& whitened) {
+std::vector<Eigen::Vector2d> chain_residuals(const LinearisedSystem& system,
+                                             const Eigen::VectorXd& whitened) {
   std::vector<Eigen::Vector2d> result;
-  for (std::size_t i = 0; i < rows.points.size(); ++i) {
-    result.emplace_back(rows.points[i].whitening.inverse() *
+  for (std::size_t i = 0; i < system.points.size(); ++i) {
+    result.emplace_back(system.points[i].whitening.inverse() *
                         whitened.segment<2>(2 * static_cast<Eigen::Index>(i)));
   }
   return result;
 }
 
-Eigen::Vector2d error_of_unit(const Rows& rows, const Eigen::VectorXd& whitened, std::size_t unit) {
+Eigen::Vector2d error_of_unit(const LinearisedSystem& system,
+                              const Eigen::VectorXd& whitened,
+                              std::size_t unit) {
   const auto at = static_cast<Eigen::Index>(unit);
-  if (rows.unit_rows == 1) return {whitened(at) * rows.row_sigma_mm(at), 0.0};
-  const PointState& state = rows.points[unit];
+  if (system.unit_rows == 1) return {whitened(at) * system.row_sigma_mm(at), 0.0};
+  const PointState& state = system.points[unit];
   const Eigen::Vector2d chain = state.whitening.inverse() * whitened.segment<2>(2 * at);
   return tool_shift(state, chain);
 }
 
-double noise_of_unit_mm2(const Session& session, const Rows& rows, std::size_t unit) {
+double noise_of_unit_mm2(const Session& session, const LinearisedSystem& system, std::size_t unit) {
   const auto at = static_cast<Eigen::Index>(unit);
-  if (rows.unit_rows == 1) {
+  if (system.unit_rows == 1) {
     const Eigen::RowVectorXd nuisance =
-        nuisance_columns(rows).row(at) * rows.sigma.tail(rows.nuisances).asDiagonal();
-    return std::pow(rows.row_sigma_mm(at), 2) * (1.0 + nuisance.squaredNorm());
+        nuisance_columns(system).row(at) * system.sigma.tail(system.nuisances).asDiagonal();
+    return std::pow(system.row_sigma_mm(at), 2) * (1.0 + nuisance.squaredNorm());
   }
-  const Eigen::Matrix2d inverse = rows.points[unit].by_mark.inverse();
+  const Eigen::Matrix2d inverse = system.points[unit].by_mark.inverse();
   return 2.0 * std::pow(session.noise.position_mm, 2) +
          (inverse * inverse.transpose()).trace() * std::pow(session.noise.length_mm, 2);
 }

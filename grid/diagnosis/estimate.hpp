@@ -1,69 +1,72 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Settings, sizes of causes and, where there is one, the unknown pattern, for one model of the
-/// contest; and what is then left at every point, those that were held out included.
+/// Settings, sizes of causes and, where there is one, the model discrepancy, for one model of the
+/// comparison; and what is then left at every point, those that were held out included.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "grid/diagnosis/contest.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 struct Estimate {
-  std::vector<int> directions;
-  Eigen::VectorXd setting_change;  ///< from the state of the rows; the nuisances after them
+  std::vector<int> regressors;
+  Eigen::VectorXd setting_change;  ///< from the state of the system; the nuisances after them
   Eigen::MatrixXd setting_covariance;
-  Eigen::VectorXd coefficient;  ///< of each direction
+  Eigen::VectorXd coefficient;  ///< of each regressor
   /// 0 where the size is a whole number; at a bound what noise alone makes of it.
   Eigen::VectorXd coefficient_sigma;
-  double noise_square = 1.0;            ///< s^2
-  Eigen::VectorXd left;                 ///< whitened, all rows, the pattern not taken out
-  Eigen::VectorXd left_beside_pattern;  ///< the same with the pattern taken out
-  Pattern pattern;
-  Eigen::VectorXd pattern_weights;  ///< per kept row; empty without a pattern
+  double noise_square = 1.0;                ///< s^2
+  Eigen::VectorXd left;                     ///< whitened, all rows, the discrepancy not taken out
+  Eigen::VectorXd left_beside_discrepancy;  ///< the same with the discrepancy taken out
+  Discrepancy discrepancy;
+  Eigen::VectorXd discrepancy_weights;  ///< per kept row; empty without a discrepancy
   /// Covariance of setting_change and of the free coefficients, in that order.
   Eigen::MatrixXd covariance;
-  std::vector<std::size_t> free;  ///< positions in `directions`
+  std::vector<std::size_t> free;  ///< positions in `regressors`
 };
 
-/// `directions` and `pattern` as the model has them. A coefficient that would leave its bounds
+/// `regressors` and `discrepancy` as the model has them. A coefficient that would leave its bounds
 /// stays at the bound.
 [[nodiscard]] Estimate estimate(const Session& session,
-                                const Rows& rows,
-                                const Space& space,
-                                const std::vector<int>& directions,
-                                int pattern);
+                                const LinearisedSystem& system,
+                                const MarginalisedSystem& marginalised,
+                                const std::vector<int>& regressors,
+                                int discrepancy);
 
-/// What the unknown pattern adds to either chain at a place [mm]; zero where the estimate has none.
-[[nodiscard]] Eigen::Vector2d pattern_at(const Session& session,
-                                         const Rows& rows,
-                                         const Space& space,
-                                         const Estimate& estimate,
-                                         const PatternPlace& place);
+/// What the model discrepancy adds to either chain at a place [mm]; zero where the estimate has
+/// none.
+[[nodiscard]] Eigen::Vector2d discrepancy_at(const Session& session,
+                                             const LinearisedSystem& system,
+                                             const MarginalisedSystem& marginalised,
+                                             const Estimate& estimate,
+                                             const DiscrepancyPlace& place);
 
 /// The same in the whitened rows, all of them.
-[[nodiscard]] Eigen::VectorXd pattern_in_rows(const Session& session,
-                                              const Rows& rows,
-                                              const Space& space,
-                                              const Estimate& estimate);
+[[nodiscard]] Eigen::VectorXd discrepancy_in_rows(const Session& session,
+                                                  const LinearisedSystem& system,
+                                                  const MarginalisedSystem& marginalised,
+                                                  const Estimate& estimate);
 
 /// `left` with what the nuisances took put back: what the machine leaves. For points `left` itself.
-[[nodiscard]] Eigen::VectorXd left_of_machine(const Rows& rows,
+[[nodiscard]] Eigen::VectorXd left_of_machine(const LinearisedSystem& system,
                                               const Estimate& estimate,
                                               const Eigen::VectorXd& left);
 
 /// What a person would see of a unit's whitened residual, mm: a shift of the tool; of a distance
 /// how much longer it was read, and nothing.
-[[nodiscard]] Eigen::Vector2d error_of_unit(const Rows& rows,
+[[nodiscard]] Eigen::Vector2d error_of_unit(const LinearisedSystem& system,
                                             const Eigen::VectorXd& whitened,
                                             std::size_t unit);
 /// The mean square of that which noise as stated makes.
-[[nodiscard]] double noise_of_unit_mm2(const Session& session, const Rows& rows, std::size_t unit);
+[[nodiscard]] double noise_of_unit_mm2(const Session& session,
+                                       const LinearisedSystem& system,
+                                       std::size_t unit);
 
 /// Residuals at the points in the chains [mm].
-[[nodiscard]] std::vector<Eigen::Vector2d> chain_residuals(const Rows& rows,
+[[nodiscard]] std::vector<Eigen::Vector2d> chain_residuals(const LinearisedSystem& system,
                                                            const Eigen::VectorXd& whitened);
 /// A chain residual as a shift of the tool [mm]: where it truly was less where the model has it.
 [[nodiscard]] Eigen::Vector2d tool_shift(const PointState& point, const Eigen::Vector2d& chain_mm);

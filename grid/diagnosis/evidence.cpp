@@ -25,13 +25,13 @@ double log_mass(double mean, double sigma, double low, double high) {
   return log_normal_mass((low - mean) / sigma, (high - mean) / sigma);
 }
 
-/// L^-1 W K W' L^-T for a pattern of 1 mm.
-Eigen::MatrixXd reduced_pattern(const Rows& rows,
-                                const Session& session,
-                                const Space& space,
-                                const PatternShape& shape) {
-  Eigen::MatrixXd c = pattern_covariance(session, rows, space.kept, shape);
-  const auto lower = space.factor.triangularView<Eigen::Lower>();
+/// L^-1 W K W' L^-T for a discrepancy of 1 mm.
+Eigen::MatrixXd reduced_discrepancy(const LinearisedSystem& system,
+                                    const Session& session,
+                                    const MarginalisedSystem& marginalised,
+                                    const DiscrepancyKernel& kernel) {
+  Eigen::MatrixXd c = discrepancy_covariance(session, system, marginalised.kept, kernel);
+  const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
   c = lower.solve(c).eval();
   return lower.solve(c.transpose()).eval();
 }
@@ -77,145 +77,149 @@ double NoiseDensity::noise_square(double quadratic) const {
   return sum;
 }
 
-double log_price_of_bad(const Rows& rows) {
-  return std::log(kBadPointPrior) -
-         0.5 * static_cast<double>(rows.unit_rows) *
-             std::log(2.0 * std::numbers::pi * kBadPointSpread * kBadPointSpread);
+double log_price_of_outlier(const LinearisedSystem& system) {
+  return std::log(kOutlierPrior) -
+         0.5 * static_cast<double>(system.unit_rows) *
+             std::log(2.0 * std::numbers::pi * kOutlierSpread * kOutlierSpread);
 }
 
-Space make_space(const Rows& rows, const std::vector<bool>& bad, const Steps& steps) {
-  Space space;
-  space.bad = bad;
-  for (Eigen::Index row = 0; row < rows.e.size(); ++row) {
-    const auto unit = static_cast<std::size_t>(row / rows.unit_rows);
-    if (unit >= bad.size() || !bad[unit]) space.kept.push_back(row);
+MarginalisedSystem marginalise(const LinearisedSystem& system,
+                               const std::vector<bool>& outliers,
+                               const Steps& steps) {
+  MarginalisedSystem marginalised;
+  marginalised.outliers = outliers;
+  for (Eigen::Index row = 0; row < system.e.size(); ++row) {
+    const auto unit = static_cast<std::size_t>(row / system.unit_rows);
+    if (unit >= outliers.size() || !outliers[unit]) marginalised.kept.push_back(row);
   }
-  const auto set_aside = static_cast<double>(std::count(bad.begin(), bad.end(), true));
-  space.log_bad = set_aside * log_price_of_bad(rows);
-  const Eigen::MatrixXd a = rows.by_setting(space.kept, Eigen::all);
+  const auto set_aside = static_cast<double>(std::count(outliers.begin(), outliers.end(), true));
+  marginalised.log_outliers = set_aside * log_price_of_outlier(system);
+  const Eigen::MatrixXd a = system.by_setting(marginalised.kept, Eigen::all);
   Eigen::MatrixXd v = Eigen::MatrixXd::Identity(a.rows(), a.rows());
   if (steps.project_settings) {
-    const Eigen::MatrixXd scaled = a * rows.sigma.asDiagonal();
+    const Eigen::MatrixXd scaled = a * system.sigma.asDiagonal();
     v += scaled * scaled.transpose();
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(v);
-  space.factor = llt.matrixL();
-  space.log_det = 2.0 * space.factor.diagonal().array().log().sum();
-  const auto lower = space.factor.triangularView<Eigen::Lower>();
-  space.e = rows.e(space.kept);
-  if (steps.project_settings) space.e -= a * rows.expected_change;
-  lower.solveInPlace(space.e);
-  space.g = rows.g(space.kept, Eigen::all);
-  lower.solveInPlace(space.g);
-  return space;
+  marginalised.factor = llt.matrixL();
+  marginalised.log_det = 2.0 * marginalised.factor.diagonal().array().log().sum();
+  const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
+  marginalised.e = system.e(marginalised.kept);
+  if (steps.project_settings) marginalised.e -= a * system.expected_change;
+  lower.solveInPlace(marginalised.e);
+  marginalised.g = system.g(marginalised.kept, Eigen::all);
+  lower.solveInPlace(marginalised.g);
+  return marginalised;
 }
 
-Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const Rows& rows,
+Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const LinearisedSystem& system,
                                            const std::vector<Eigen::Index>& kept) {
-  if (rows.nuisances == 0) return {};
+  if (system.nuisances == 0) return {};
   const Eigen::MatrixXd scaled =
-      nuisance_columns(rows)(kept, Eigen::all) * rows.sigma.tail(rows.nuisances).asDiagonal();
+      nuisance_columns(system)(kept, Eigen::all) * system.sigma.tail(system.nuisances).asDiagonal();
   Eigen::MatrixXd covariance = scaled * scaled.transpose();
   covariance.diagonal().array() += 1.0;
   return Eigen::LLT<Eigen::MatrixXd>(covariance);
 }
 
-double square_in_noise(const Rows& rows,
+double square_in_noise(const LinearisedSystem& system,
                        const std::vector<Eigen::Index>& kept,
                        const Eigen::VectorXd& column) {
   Eigen::VectorXd own = column(kept);
-  if (rows.nuisances > 0) nuisance_noise(rows, kept).matrixL().solveInPlace(own);
+  if (system.nuisances > 0) nuisance_noise(system, kept).matrixL().solveInPlace(own);
   return own.squaredNorm();
 }
 
-double length_in_noise(const Rows& rows,
+double length_in_noise(const LinearisedSystem& system,
                        const std::vector<Eigen::Index>& kept,
                        const Eigen::VectorXd& column) {
-  return std::sqrt(square_in_noise(rows, kept, column));
+  return std::sqrt(square_in_noise(system, kept, column));
 }
 
-Eigen::VectorXd reduced(const Space& space, const Eigen::VectorXd& column) {
-  Eigen::VectorXd result = column(space.kept);
-  space.factor.triangularView<Eigen::Lower>().solveInPlace(result);
+Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::VectorXd& column) {
+  Eigen::VectorXd result = column(marginalised.kept);
+  marginalised.factor.triangularView<Eigen::Lower>().solveInPlace(result);
   return result;
 }
 
-Eigen::Index Metric::position(int column) const {
+Eigen::Index NormalEquations::position(int column) const {
   const auto found = std::lower_bound(columns.begin(), columns.end(), column);
   return static_cast<Eigen::Index>(found - columns.begin());
 }
 
-Metric plain_metric(const Space& space, std::vector<int> columns) {
-  Metric metric;
+NormalEquations normal_equations(const MarginalisedSystem& marginalised, std::vector<int> columns) {
+  NormalEquations equations;
   std::sort(columns.begin(), columns.end());
-  metric.columns = std::move(columns);
-  const Eigen::MatrixXd g = space.g(Eigen::all, metric.columns);
-  metric.ee = space.e.squaredNorm();
-  metric.ge = g.transpose() * space.e;
-  metric.gg = g.transpose() * g;
-  metric.log_det = space.log_det;
-  return metric;
+  equations.columns = std::move(columns);
+  const Eigen::MatrixXd g = marginalised.g(Eigen::all, equations.columns);
+  equations.ee = marginalised.e.squaredNorm();
+  equations.ge = g.transpose() * marginalised.e;
+  equations.gg = g.transpose() * g;
+  equations.log_det = marginalised.log_det;
+  return equations;
 }
 
-std::vector<Metric> pattern_metrics(const Rows& rows,
-                                    const Session& session,
-                                    Space& space,
-                                    const std::vector<int>& columns) {
+std::vector<NormalEquations> normal_equations_beside_discrepancies(
+    const LinearisedSystem& system,
+    const Session& session,
+    MarginalisedSystem& marginalised,
+    const std::vector<int>& columns) {
   std::vector<int> sorted = columns;
   std::sort(sorted.begin(), sorted.end());
-  std::vector<Metric> metrics;
-  space.pattern_trace.clear();
-  for (const PatternShape& shape : kPatternShapes) {
+  std::vector<NormalEquations> by_discrepancy;
+  marginalised.discrepancy_trace.clear();
+  for (const DiscrepancyKernel& kernel : kDiscrepancyKernels) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        reduced_pattern(rows, session, space, shape));
+        reduced_discrepancy(system, session, marginalised, kernel));
     const Eigen::ArrayXd values = eigen.eigenvalues().array().max(0.0);
-    space.pattern_trace.push_back(values.sum());
-    const Eigen::VectorXd e = eigen.eigenvectors().transpose() * space.e;
-    const Eigen::MatrixXd g = eigen.eigenvectors().transpose() * space.g(Eigen::all, sorted).eval();
-    for (const double delta : kPatternDeltas) {
+    marginalised.discrepancy_trace.push_back(values.sum());
+    const Eigen::VectorXd e = eigen.eigenvectors().transpose() * marginalised.e;
+    const Eigen::MatrixXd g =
+        eigen.eigenvectors().transpose() * marginalised.g(Eigen::all, sorted).eval();
+    for (const double delta : kDiscrepancyStrengths) {
       const Eigen::ArrayXd variance = 1.0 + values * (delta * delta / values.sum());
       const Eigen::VectorXd weight = variance.inverse();
-      Metric metric;
-      metric.columns = sorted;
-      metric.ee = e.cwiseProduct(weight).dot(e);
-      metric.ge = g.transpose() * weight.cwiseProduct(e);
-      metric.gg = g.transpose() * weight.asDiagonal() * g;
-      metric.log_det = space.log_det + variance.log().sum();
-      metrics.push_back(std::move(metric));
+      NormalEquations equations;
+      equations.columns = sorted;
+      equations.ee = e.cwiseProduct(weight).dot(e);
+      equations.ge = g.transpose() * weight.cwiseProduct(e);
+      equations.gg = g.transpose() * weight.asDiagonal() * g;
+      equations.log_det = marginalised.log_det + variance.log().sum();
+      by_discrepancy.push_back(std::move(equations));
     }
   }
-  return metrics;
+  return by_discrepancy;
 }
 
-Pattern pattern_of(const Space& space, int index) {
-  const auto deltas = static_cast<int>(std::size(kPatternDeltas));
-  const int shape = index / deltas;
-  const double trace = space.pattern_trace.at(static_cast<std::size_t>(shape));
-  return {kPatternShapes[shape], kPatternDeltas[index % deltas] / std::sqrt(trace)};
+Discrepancy discrepancy_of(const MarginalisedSystem& marginalised, int index) {
+  const auto deltas = static_cast<int>(std::size(kDiscrepancyStrengths));
+  const int kernel = index / deltas;
+  const double trace = marginalised.discrepancy_trace.at(static_cast<std::size_t>(kernel));
+  return {kDiscrepancyKernels[kernel], kDiscrepancyStrengths[index % deltas] / std::sqrt(trace)};
 }
 
 namespace {
 
 /// Set evidence for one sigma of delta.
-SetEvidence evidence_at(const Metric& metric,
-                        const std::vector<Direction>& directions,
+SetEvidence evidence_at(const NormalEquations& equations,
+                        const std::vector<Regressor>& regressors,
                         std::span<const Eigen::Index> set,
                         const NoiseDensity& noise,
                         double delta_sigma) {
   SetEvidence result;
   std::vector<Eigen::Index> free;
-  const auto direction = [&](Eigen::Index i) -> const Direction& {
-    return directions[static_cast<std::size_t>(metric.columns[static_cast<std::size_t>(i)])];
+  const auto regressor = [&](Eigen::Index i) -> const Regressor& {
+    return regressors[static_cast<std::size_t>(equations.columns[static_cast<std::size_t>(i)])];
   };
-  double q = metric.ee;
+  double q = equations.ee;
   for (const Eigen::Index i : set) {
-    if (!direction(i).fixed) {
+    if (!regressor(i).fixed) {
       free.push_back(i);
       continue;
     }
-    q -= 2.0 * metric.ge(i);
+    q -= 2.0 * equations.ge(i);
     for (const Eigen::Index j : set) {
-      if (direction(j).fixed) q += metric.gg(i, j);
+      if (regressor(j).fixed) q += equations.gg(i, j);
     }
   }
   const auto m = static_cast<Eigen::Index>(free.size());
@@ -224,15 +228,15 @@ SetEvidence evidence_at(const Metric& metric,
   Eigen::MatrixXd a(m, m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Eigen::Index at = free[static_cast<std::size_t>(i)];
-    length(i) = std::sqrt(metric.gg(at, at));
-    c(i) = metric.ge(at);
+    length(i) = std::sqrt(equations.gg(at, at));
+    c(i) = equations.ge(at);
     for (const Eigen::Index j : set) {
-      if (direction(j).fixed) c(i) -= metric.gg(at, j);
+      if (regressor(j).fixed) c(i) -= equations.gg(at, j);
     }
     c(i) /= length(i);
     for (Eigen::Index j = 0; j <= i; ++j) {
       a(i, j) = a(j, i) =
-          metric.gg(at, free[static_cast<std::size_t>(j)]) / (length(i) * length(j));
+          equations.gg(at, free[static_cast<std::size_t>(j)]) / (length(i) * length(j));
     }
     a(i, i) += 1.0 / (delta_sigma * delta_sigma);
   }
@@ -241,11 +245,11 @@ SetEvidence evidence_at(const Metric& metric,
   result.quadratic = std::max(q - c.dot(result.delta), 0.0);
   result.delta_square = llt.solve(Eigen::MatrixXd::Identity(m, m)).diagonal();
   const double half_log_det = Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
-  result.log_evidence = noise.log_density(result.quadratic) - 0.5 * metric.log_det - half_log_det -
-                        static_cast<double>(m) * std::log(delta_sigma);
+  result.log_evidence = noise.log_density(result.quadratic) - 0.5 * equations.log_det -
+                        half_log_det - static_cast<double>(m) * std::log(delta_sigma);
   const double s = std::sqrt(noise.noise_square(result.quadratic));
   for (Eigen::Index i = 0; i < m; ++i) {
-    const Direction& own = direction(free[static_cast<std::size_t>(i)]);
+    const Regressor& own = regressor(free[static_cast<std::size_t>(i)]);
     const double low = own.lowest * length(i);
     const double high = own.highest * length(i);
     // Further beyond what it may be than noise takes it, and not merely about null: the data ask
@@ -266,14 +270,14 @@ SetEvidence evidence_at(const Metric& metric,
 
 }  // namespace
 
-SetEvidence set_evidence(const Metric& metric,
-                         const std::vector<Direction>& directions,
+SetEvidence set_evidence(const NormalEquations& equations,
+                         const std::vector<Regressor>& regressors,
                          std::span<const Eigen::Index> set,
                          const NoiseDensity& noise) {
-  SetEvidence wide = evidence_at(metric, directions, set, noise, kWideDelta);
+  SetEvidence wide = evidence_at(equations, regressors, set, noise, kWideDelta);
   const bool all_fixed = wide.delta.size() == 0;
   if (all_fixed) return wide;
-  const SetEvidence usual = evidence_at(metric, directions, set, noise, kUsualDelta);
+  const SetEvidence usual = evidence_at(equations, regressors, set, noise, kUsualDelta);
   wide.log_evidence = log_sum(std::log(1.0 - kWideDeltaPrior) + usual.log_evidence,
                               std::log(kWideDeltaPrior) + wide.log_evidence);
   return wide;

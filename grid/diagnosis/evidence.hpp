@@ -4,7 +4,7 @@
 /// their sizes, the settings and the noise.
 ///
 /// Notation
-///   e, g_k   whitened rows (rows.hpp) with the points that are set aside taken out; N of them
+///   e, g_k   whitened rows (linearised_system.hpp), those of points set aside taken out; N of them
 ///   V        I + A diag(sigma^2) A': their covariance with the settings unknown but for what is
 ///            stated, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
 ///   delta_k  coefficient times |V^-1/2 g_k|: the strength of a cause. Beforehand N(0,
@@ -12,7 +12,7 @@
 ///            cut to what the parameter may be
 ///   s^2      the noise's square over the stated one: scaled inverse chi^2, dof as stated, about 1;
 ///            with a small weight about one of kLargerNoise squared
-///   K        covariance of the unknown pattern (pattern.hpp)
+///   K        covariance of the model discrepancy (discrepancy.hpp)
 ///
 /// With conjugate priors all integrals are closed but for the cut, which is the mass of the
 /// posterior inside the bounds over that of the prior (exact for one cause).
@@ -27,7 +27,7 @@
 #include <span>
 #include <vector>
 
-#include "grid/diagnosis/pattern.hpp"
+#include "grid/diagnosis/discrepancy.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -36,10 +36,10 @@ inline constexpr double kWideDelta = 60.0;
 inline constexpr double kWideDeltaPrior = 0.15;
 inline constexpr double kLargerNoise[] = {1.5, 2.0, 2.7};
 inline constexpr double kLargerNoisePrior = 0.06;  ///< shared by all of them
-/// A bad point's whitened reading is spread this wide, in sigmas.
-inline constexpr double kBadPointSpread = 40.0;
-/// Chance beforehand that a point is bad.
-inline constexpr double kBadPointPrior = 0.01;
+/// An outlier's whitened reading is spread this wide, in sigmas.
+inline constexpr double kOutlierSpread = 40.0;
+/// Chance beforehand that a point is an outlier.
+inline constexpr double kOutlierPrior = 0.01;
 /// The data's density as a function of their quadratic form, the noise averaged out.
 class NoiseDensity {
  public:
@@ -57,64 +57,72 @@ class NoiseDensity {
   double constant_;
 };
 
-/// The rows with the settings integrated out and some points set aside.
-struct Space {
-  std::vector<bool> bad;           ///< per unit
+/// The system with the settings integrated out and some points set aside.
+struct MarginalisedSystem {
+  std::vector<bool> outliers;      ///< per unit
   std::vector<Eigen::Index> kept;  ///< rows
   Eigen::MatrixXd factor;          ///< lower L of V = L L'
   Eigen::VectorXd e;               ///< L^-1
   Eigen::MatrixXd g;               ///< L^-1
   double log_det = 0.0;            ///< of V
-  double log_bad = 0.0;            ///< prior and density of the points set aside
-  /// Per shape: trace of its covariance in this space, for a pattern of 1 mm.
-  std::vector<double> pattern_trace;
+  double log_outliers = 0.0;       ///< prior and density of the points set aside
+  /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.
+  std::vector<double> discrepancy_trace;
 };
 /// Prior and density of one unit set aside.
-[[nodiscard]] double log_price_of_bad(const Rows& rows);
-[[nodiscard]] Space make_space(const Rows& rows, const std::vector<bool>& bad, const Steps& steps);
+[[nodiscard]] double log_price_of_outlier(const LinearisedSystem& system);
+[[nodiscard]] MarginalisedSystem marginalise(const LinearisedSystem& system,
+                                             const std::vector<bool>& outliers,
+                                             const Steps& steps);
 /// Square root of the kept rows' covariance with the nuisances unknown but for their sigmas: the
 /// noise as a person sees it. Empty where there are none.
-[[nodiscard]] Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const Rows& rows,
+[[nodiscard]] Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const LinearisedSystem& system,
                                                          const std::vector<Eigen::Index>& kept);
 /// Square, and length, of a column's kept rows in units of that noise.
-[[nodiscard]] double square_in_noise(const Rows& rows,
+[[nodiscard]] double square_in_noise(const LinearisedSystem& system,
                                      const std::vector<Eigen::Index>& kept,
                                      const Eigen::VectorXd& column);
-[[nodiscard]] double length_in_noise(const Rows& rows,
+[[nodiscard]] double length_in_noise(const LinearisedSystem& system,
                                      const std::vector<Eigen::Index>& kept,
                                      const Eigen::VectorXd& column);
 /// L^-1 of a column of all rows.
-[[nodiscard]] Eigen::VectorXd reduced(const Space& space, const Eigen::VectorXd& column);
+[[nodiscard]] Eigen::VectorXd reduced(const MarginalisedSystem& marginalised,
+                                      const Eigen::VectorXd& column);
 
 /// Inner products of the residual and of some columns.
-struct Metric {
-  std::vector<int> columns;  ///< directions, ascending
+struct NormalEquations {
+  std::vector<int> columns;  ///< regressors, ascending
   double ee = 0.0;
   Eigen::VectorXd ge;
   Eigen::MatrixXd gg;
-  double log_det = 0.0;  ///< of everything that is not noise's scale: V and the pattern
+  double log_det = 0.0;  ///< of everything that is not noise's scale: V and the discrepancy
   [[nodiscard]] Eigen::Index position(int column) const;
 };
-[[nodiscard]] Metric plain_metric(const Space& space, std::vector<int> columns);
+[[nodiscard]] NormalEquations normal_equations(const MarginalisedSystem& marginalised,
+                                               std::vector<int> columns);
 
-/// The unknown pattern beside some columns, at every shape and size; notes the traces in the space.
-[[nodiscard]] std::vector<Metric> pattern_metrics(const Rows& rows,
-                                                  const Session& session,
-                                                  Space& space,
-                                                  const std::vector<int>& columns);
-/// Shape and size of pattern number `index`, in a space whose traces are noted.
-[[nodiscard]] Pattern pattern_of(const Space& space, int index);
+/// The model discrepancy beside some columns, at every kernel and strength; notes the traces in the
+/// marginalised system.
+[[nodiscard]] std::vector<NormalEquations> normal_equations_beside_discrepancies(
+    const LinearisedSystem& system,
+    const Session& session,
+    MarginalisedSystem& marginalised,
+    const std::vector<int>& columns);
+/// Kernel and strength of discrepancy number `index`, in a marginalised system whose traces are
+/// noted.
+[[nodiscard]] Discrepancy discrepancy_of(const MarginalisedSystem& marginalised, int index);
 
-/// What a set of directions makes of the data.
+/// What a set of regressors makes of the data.
 struct SetEvidence {
   double log_evidence = 0.0;
   double quadratic = 0.0;        ///< what is left of e'e
   Eigen::VectorXd delta;         ///< of the free ones, in the order of the set
   Eigen::VectorXd delta_square;  ///< their variances, in units of s^2
 };
-/// `set` holds positions in the metric. Minus infinity where a cause would need what it cannot be.
-[[nodiscard]] SetEvidence set_evidence(const Metric& metric,
-                                       const std::vector<Direction>& directions,
+/// `set` holds positions in the normal equations. Minus infinity where a cause would need what it
+/// cannot be.
+[[nodiscard]] SetEvidence set_evidence(const NormalEquations& equations,
+                                       const std::vector<Regressor>& regressors,
                                        std::span<const Eigen::Index> set,
                                        const NoiseDensity& noise);
 

@@ -14,8 +14,8 @@ constexpr int kColumns = 25;  // 100 mm apart on a whole bed: waves of a sprocke
 constexpr int kRows = 13;
 
 bool hangs_on_visits(const Analysis& a) {
-  return std::any_of(a.judgement.directions.begin(), a.judgement.directions.end(), [&](int k) {
-    const Direction& d = a.rows.directions[static_cast<std::size_t>(k)];
+  return std::any_of(a.decision.regressors.begin(), a.decision.regressors.end(), [&](int k) {
+    const Regressor& d = a.system.regressors[static_cast<std::size_t>(k)];
     return !d.slip && model::effects::depends_on_visit(*d.cause.effect);
   });
 }
@@ -49,46 +49,47 @@ Session over_the_area(const Session& session, const Analysis& a) {
 
 }  // namespace
 
-Space without_slips(const Session& session,
-                    const Rows& rows,
-                    const Space& space,
-                    const std::vector<int>& directions,
-                    const Steps& steps) {
-  std::vector<bool> bad = space.bad;
-  for (const int k : directions) {
-    const Direction& d = rows.directions[static_cast<std::size_t>(k)];
+MarginalisedSystem without_slips(const Session& session,
+                                 const LinearisedSystem& system,
+                                 const MarginalisedSystem& marginalised,
+                                 const std::vector<int>& regressors,
+                                 const Steps& steps) {
+  std::vector<bool> outliers = marginalised.outliers;
+  for (const int k : regressors) {
+    const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
     if (!d.slip) continue;
     for (std::size_t i = 0; i < session.points.size(); ++i) {
-      if (session.points[i].order == static_cast<int>(d.values.back())) bad[i] = true;
+      if (session.points[i].order == static_cast<int>(d.values.back())) outliers[i] = true;
     }
   }
-  return bad == space.bad ? space : make_space(rows, bad, steps);
+  return outliers == marginalised.outliers ? marginalised : marginalise(system, outliers, steps);
 }
 
 namespace {
 
 /// Over the distances as they were read: what is between them has no place of its own.
 ExpectedGain gain_of_distances(const Session& session, const Analysis& a) {
-  const Space& space = a.contest.spaces[a.judgement.space];
-  const Estimate plain = estimate(session, a.rows, space, {}, -1);
-  const Estimate named = estimate(session, a.rows, space, a.judgement.directions, -1);
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
+  const Estimate plain = estimate(session, a.system, marginalised, {}, -1);
+  const Estimate named = estimate(session, a.system, marginalised, a.decision.regressors, -1);
   const Eigen::VectorXd moved =
-      left_of_machine(a.rows, plain, plain.left) - left_of_machine(a.rows, named, named.left);
-  const Eigen::Index settings = a.rows.by_setting.cols() - a.rows.nuisances;
+      left_of_machine(a.system, plain, plain.left) - left_of_machine(a.system, named, named.left);
+  const Eigen::Index settings = a.system.by_setting.cols() - a.system.nuisances;
   const auto free = static_cast<Eigen::Index>(named.free.size());
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(moved.size(), named.covariance.rows());
-  design.leftCols(settings) = a.rows.by_setting.leftCols(settings);
+  design.leftCols(settings) = a.system.by_setting.leftCols(settings);
   for (Eigen::Index k = 0; k < free; ++k) {
-    design.col(a.rows.by_setting.cols() + k) =
-        a.rows.g.col(named.directions[named.free[static_cast<std::size_t>(k)]]);
+    design.col(a.system.by_setting.cols() + k) =
+        a.system.g.col(named.regressors[named.free[static_cast<std::size_t>(k)]]);
   }
   double drop = 0.0;
   double doubt = 0.0;
   for (std::size_t i = 0; i < session.units(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const Eigen::RowVectorXd by_unknown = design.row(row);
-    drop += error_of_unit(a.rows, moved, i).squaredNorm();
-    doubt += std::pow(a.rows.row_sigma_mm(row), 2) *
+    drop += error_of_unit(a.system, moved, i).squaredNorm();
+    doubt += std::pow(a.system.row_sigma_mm(row), 2) *
              by_unknown.dot(named.covariance * by_unknown.transpose());
   }
   const auto count = static_cast<double>(session.units());
@@ -100,19 +101,20 @@ ExpectedGain gain_of_distances(const Session& session, const Analysis& a) {
 ExpectedGain expected_gain(const Session& session, const Analysis& a, const Steps& steps) {
   if (session.distances) return gain_of_distances(session, a);
   const Session area = hangs_on_visits(a) ? session : over_the_area(session, a);
-  const auto there = base_rows(area, a.state, steps);
+  const auto there = linearise(area, a.state, steps);
   if (!there || area.points.empty()) return {};
-  const std::vector<int>& causes = a.judgement.directions;
-  const Space& space = a.contest.spaces[a.judgement.space];
-  const Estimate plain =
-      estimate(session, a.rows, without_slips(session, a.rows, space, causes, steps), {}, -1);
-  const Estimate named = estimate(session, a.rows, space, causes, -1);
-  const Eigen::Index settings = a.rows.by_setting.cols();
+  const std::vector<int>& causes = a.decision.regressors;
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
+  const Estimate plain = estimate(
+      session, a.system, without_slips(session, a.system, marginalised, causes, steps), {}, -1);
+  const Estimate named = estimate(session, a.system, marginalised, causes, -1);
+  const Eigen::Index settings = a.system.by_setting.cols();
   Eigen::MatrixXd design(there->by_setting.rows(), named.covariance.rows());
   design.leftCols(settings) = there->by_setting;
   Eigen::VectorXd moved = there->by_setting * (plain.setting_change - named.setting_change);
   for (std::size_t k = 0; k < causes.size(); ++k) {
-    const Direction& d = a.rows.directions[static_cast<std::size_t>(causes[k])];
+    const Regressor& d = a.system.regressors[static_cast<std::size_t>(causes[k])];
     const auto g = d.slip ? std::nullopt : signature(area, a.state, *there, d.cause, d.values);
     const Eigen::VectorXd column = g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(moved.size()));
     moved -= column * named.coefficient(static_cast<Eigen::Index>(k));

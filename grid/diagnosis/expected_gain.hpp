@@ -22,12 +22,12 @@ struct ExpectedGain {
                                          const Analysis& analysis,
                                          const Steps& steps);
 
-/// The space of the judgement with the points set aside that causes at one visit alone account for:
-/// whoever calibrates without these causes still sees that the points are out.
-[[nodiscard]] Space without_slips(const Session& session,
-                                  const Rows& rows,
-                                  const Space& space,
-                                  const std::vector<int>& directions,
-                                  const Steps& steps);
+/// The marginalised system of the decision with the points set aside that causes at one visit alone
+/// account for: whoever calibrates without these causes still sees that the points are out.
+[[nodiscard]] MarginalisedSystem without_slips(const Session& session,
+                                               const LinearisedSystem& system,
+                                               const MarginalisedSystem& marginalised,
+                                               const std::vector<int>& regressors,
+                                               const Steps& steps);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -21,9 +21,9 @@ void extend(const Session& session, const Analysis& a, bool accept_class, Diagno
   std::vector<model::AppliedEffect> into_machine;
   std::vector<int> taken;
   for (const Cause& cause : used) {
-    const int column = best_direction(a, cause.cause);
+    const int column = best_regressor(a, cause.cause);
     // Links miscounted or skipped are none of the machine's: readings are mended whatever it gains.
-    if (worse && !direction(a, column).fixed) continue;
+    if (worse && !regressor(a, column).fixed) continue;
     model::AppliedEffect applied{std::string(cause.cause.effect->id),
                                  std::string(model::effects::name(cause.cause.side)),
                                  {}};
@@ -40,9 +40,10 @@ void extend(const Session& session, const Analysis& a, bool accept_class, Diagno
     taken.push_back(column);
   }
   // The settings that belong to what is taken, and to nothing else.
-  const Estimate fitted = taken.empty() ? estimate(session, a.rows, space_of(a), {}, -1)
-                                        : estimate_with(session, a, taken);
-  const Eigen::VectorXd values = a.rows.setting + fitted.setting_change;
+  const Estimate fitted = taken.empty()
+                              ? estimate(session, a.system, marginalised_system(a), {}, -1)
+                              : estimate_with(session, a, taken);
+  const Eigen::VectorXd values = a.system.setting + fitted.setting_change;
   diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine;
   for (model::AppliedEffect& applied : into_machine) {
     diagnosis.extended_machine.effects.push_back(std::move(applied));

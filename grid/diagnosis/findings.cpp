@@ -21,7 +21,7 @@ constexpr double kSettingOff = 3.0;    // sigmas: 1 in 370 for each setting
 
 /// Length of a column before the settings take their share.
 double raw_length(const Analysis& a, int column) {
-  return length_in_noise(a.rows, space_of(a).kept, a.rows.g.col(column));
+  return length_in_noise(a.system, marginalised_system(a).kept, a.system.g.col(column));
 }
 
 double circular(double difference, const EffectParameter& p) {
@@ -29,17 +29,17 @@ double circular(double difference, const EffectParameter& p) {
   return turns ? std::remainder(difference, 2.0 * std::numbers::pi) : difference;
 }
 
-/// How well the contest knows where a cause sets in.
+/// How well the data say where a cause sets in.
 double place_sigma(const Analysis& a, int column) {
-  const Direction& own = direction(a, column);
+  const Regressor& own = regressor(a, column);
   const EffectParameter& place = own.cause.effect->parameters.back();
   double weight = 0.0;
   double square = 0.0;
-  for (const Model& model : a.contest.models) {
-    for (const int k : model.directions) {
-      const Direction& other = direction(a, k);
+  for (const CandidateModel& model : a.comparison.models) {
+    for (const int k : model.regressors) {
+      const Regressor& other = regressor(a, k);
       if (!(other.cause == own.cause)) continue;
-      const double p = a.contest.probability(model);
+      const double p = a.comparison.probability(model);
       const double off = circular(other.values.back() - own.values.back(), place);
       weight += p;
       square += p * off * off;
@@ -52,7 +52,7 @@ std::vector<ParameterEstimate> parameters(const Analysis& a,
                                           int column,
                                           double coefficient,
                                           double sigma) {
-  const Direction& d = direction(a, column);
+  const Regressor& d = regressor(a, column);
   std::vector<ParameterEstimate> result;
   const auto& described = d.cause.effect->parameters;
   result.push_back({std::string(described.front().name),
@@ -65,45 +65,45 @@ std::vector<ParameterEstimate> parameters(const Analysis& a,
 }
 
 Eigen::Index position_of(const Estimate& e, int column) {
-  const auto found = std::find(e.directions.begin(), e.directions.end(), column);
-  return static_cast<Eigen::Index>(found - e.directions.begin());
+  const auto found = std::find(e.regressors.begin(), e.regressors.end(), column);
+  return static_cast<Eigen::Index>(found - e.regressors.begin());
 }
 
 double marginal(const Analysis& a, std::size_t index) {
-  for (const ClassProbability& one : a.judgement.marginal) {
+  for (const ClassProbability& one : a.decision.marginal) {
     if (one.index == index) return one.probability;
   }
   return 0.0;
 }
 
 Cause describe(const Session& session, const Analysis& a, std::size_t index, bool order_assumed) {
-  const CauseClass& members = a.judgement.classes[index];
+  const CauseClass& members = a.decision.classes[index];
   Cause cause;
   cause.cause = members.front();
   cause.probability = marginal(a, index);
   // Other named causes stay in the model; rivals of a set are each fitted alone.
   std::vector<int> others;
-  for (const int k : a.judgement.directions) {
-    const CauseId& acting = direction(a, k).cause;
-    const bool several = a.judgement.verdict == Verdict::several_causes;
+  for (const int k : a.decision.regressors) {
+    const CauseId& acting = regressor(a, k).cause;
+    const bool several = a.decision.verdict == Verdict::several_causes;
     if (several && std::find(members.begin(), members.end(), acting) == members.end()) {
       others.push_back(k);
     }
   }
   for (const CauseId& member : members) {
-    const int column = best_direction(a, member);
+    const int column = best_regressor(a, member);
     std::vector<int> set = others;
     set.push_back(column);
     const Estimate fitted = estimate_with(session, a, set);
     const Eigen::Index at = position_of(fitted, column);
     auto found = parameters(a, column, fitted.coefficient(at), fitted.coefficient_sigma(at));
     if (member == members.front()) {
-      const double length = space_of(a).g.col(column).norm();
+      const double length = marginalised_system(a).g.col(column).norm();
       cause.delta = std::abs(fitted.coefficient(at)) * length;
       cause.share_left = length / std::max(raw_length(a, column), 1e-12);
       cause.parameters = std::move(found);
       if (const Nearest other = nearest_other(a, column); other.column >= 0) {
-        cause.rival = direction(a, other.column).cause;
+        cause.rival = regressor(a, other.column).cause;
         cause.rival_rho = other.rho;
       }
     } else {
@@ -117,8 +117,8 @@ Cause describe(const Session& session, const Analysis& a, std::size_t index, boo
 
 std::vector<CauseId> listed_causes(const Analysis& a) {
   std::vector<CauseId> result;
-  for (const std::size_t index : a.judgement.listed) {
-    const CauseClass& members = a.judgement.classes[index];
+  for (const std::size_t index : a.decision.listed) {
+    const CauseClass& members = a.decision.classes[index];
     result.insert(result.end(), members.begin(), members.end());
   }
   return result;
@@ -128,7 +128,7 @@ std::vector<CauseId> listed_causes(const Analysis& a) {
 
 std::vector<Cause> causes_found(const Session& session, const Analysis& a, bool order_assumed) {
   std::vector<Cause> result;
-  for (const std::size_t index : a.judgement.listed) {
+  for (const std::size_t index : a.decision.listed) {
     result.push_back(describe(session, a, index, order_assumed));
   }
   return result;
@@ -136,16 +136,16 @@ std::vector<Cause> causes_found(const Session& session, const Analysis& a, bool 
 
 std::vector<Hypothesis> hypotheses(const Analysis& a) {
   std::vector<Hypothesis> result;
-  for (const ClassProbability& one : a.judgement.marginal) {
-    const CauseId& cause = a.judgement.classes[one.index].front();
+  for (const ClassProbability& one : a.decision.marginal) {
+    const CauseId& cause = a.decision.classes[one.index].front();
     result.push_back({std::string(cause.effect->id),
                       std::string(model::effects::name(cause.side)),
                       one.probability});
   }
-  result.push_back({"nothing", "", a.judgement.nothing});
-  result.push_back({"unknown", "", a.judgement.pattern});
-  result.push_back({"noise", "", a.judgement.noise});
-  result.push_back({"bad_points", "", a.judgement.bad_points});
+  result.push_back({"nothing", "", a.decision.nothing});
+  result.push_back({"unknown", "", a.decision.discrepancy});
+  result.push_back({"noise", "", a.decision.noise});
+  result.push_back({"bad_points", "", a.decision.outliers});
   std::stable_sort(result.begin(), result.end(), [](const Hypothesis& x, const Hypothesis& y) {
     return x.probability > y.probability;
   });
@@ -155,27 +155,28 @@ std::vector<Hypothesis> hypotheses(const Analysis& a) {
 std::vector<Term> terms(const Session& session,
                         const DiagnosisOptions& options,
                         const Analysis& a) {
-  const Space& space = space_of(a);
-  const SingleScore score(a.rows, space, options.steps.anchor_noise ? session.noise_dof : 1e-3);
-  const Eigen::VectorXd by_cause = score.by_cause(space.e);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const SingleScore score(
+      a.system, marginalised, options.steps.anchor_noise ? session.noise_dof : 1e-3);
+  const Eigen::VectorXd by_cause = score.by_cause(marginalised.e);
   std::vector<Term> result;
   for (std::size_t k = 0; k < score.causes().size(); ++k) {
     const CauseId& cause = score.causes()[k];
-    const int column = best_direction(a, cause);
+    const int column = best_regressor(a, cause);
     if (column < 0) continue;
-    const Estimate alone = estimate(session, a.rows, space, {column}, -1);
-    const double length = space.g.col(column).norm();
+    const Estimate alone = estimate(session, a.system, marginalised, {column}, -1);
+    const double length = marginalised.g.col(column).norm();
     Term term;
     term.cause = cause;
     term.parameter = cause.effect->parameters.front().name;
-    term.value = size_at(direction(a, column), alone.coefficient(0));
-    term.sigma = std::abs(size_slope(direction(a, column), alone.coefficient(0))) *
+    term.value = size_at(regressor(a, column), alone.coefficient(0));
+    term.sigma = std::abs(size_slope(regressor(a, column), alone.coefficient(0))) *
                  alone.coefficient_sigma(0);
     term.delta = std::abs(alone.coefficient(0)) * length;
     term.share_left = length / std::max(raw_length(a, column), 1e-12);
     term.p_value = a.null.p_value(by_cause(static_cast<Eigen::Index>(k)));
-    for (std::size_t c = 0; c < a.judgement.classes.size(); ++c) {
-      const auto& members = a.judgement.classes[c];
+    for (std::size_t c = 0; c < a.decision.classes.size(); ++c) {
+      const auto& members = a.decision.classes[c];
       if (std::find(members.begin(), members.end(), cause) != members.end())
         term.probability = marginal(a, c);
     }
@@ -191,29 +192,29 @@ std::vector<Bound> bounds(const Session& session,
                           const Analysis& a,
                           std::vector<NotTestable>& not_testable) {
   const std::vector<CauseId> listed = listed_causes(a);
-  const Space& space = space_of(a);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
   std::vector<Bound> result;
   for (const CauseId& cause : a.candidates.testable) {
     if (std::find(listed.begin(), listed.end(), cause) != listed.end()) continue;
-    const int column = best_direction(a, cause);
+    const int column = best_regressor(a, cause);
     const EffectParameter& size = cause.effect->parameters.front();
-    const double left = column < 0 ? 0.0 : space.g.col(column).norm();
+    const double left = column < 0 ? 0.0 : marginalised.g.col(column).norm();
     if (column < 0 || left < kAbsorbed * raw_length(a, column)) {
       not_testable.push_back({cause, "calibrating the settings takes up all that it would show"});
       continue;
     }
-    if (direction(a, column).fixed) {
+    if (regressor(a, column).fixed) {
       result.push_back({cause, std::string(size.name), 0.0});
       continue;
     }
-    std::vector<int> set = a.judgement.directions;
+    std::vector<int> set = a.decision.regressors;
     if (std::find(set.begin(), set.end(), column) == set.end()) set.push_back(column);
     const Estimate fitted = estimate_with(session, a, set);
     const Eigen::Index at = position_of(fitted, column);
     const double s = fitted.coefficient_sigma(at);
     const double most = std::max(std::abs(fitted.coefficient(at) + kQuantile95 * s),
                                  std::abs(fitted.coefficient(at) - kQuantile95 * s));
-    const double upper = std::abs(size_at(direction(a, column), most));
+    const double upper = std::abs(size_at(regressor(a, column), most));
     if (upper >= std::max(std::abs(size.lower), std::abs(size.upper))) {
       not_testable.push_back({cause,
                               fmt::format("any size that it may have could hide in these {}",
@@ -234,7 +235,7 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
     one.setting = session.settings[k];
     one.stated = session.stated_value(at);
     one.stated_sigma = session.stated_sigma(at);
-    one.calibrated = a.rows.setting(at) + a.estimate.setting_change(at);
+    one.calibrated = a.system.setting(at) + a.estimate.setting_change(at);
     one.sigma = std::sqrt(a.estimate.setting_covariance(at, at));
     // A posterior mean under the stated prior scatters by sqrt(prior - posterior).
     const double scatter = std::sqrt(std::max(
@@ -246,27 +247,28 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
   return result;
 }
 
-std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a) {
-  if (session.distances) return bad_distances_found(session, a);
-  const auto residuals = chain_residuals(a.rows, a.estimate.left_beside_pattern);
-  std::vector<bool> bad = space_of(a).bad;
-  // A link counted wrong is a bad point with a name.
-  for (const int k : a.judgement.directions) {
-    const Direction& d = direction(a, k);
+std::vector<Outlier> outliers_found(const Session& session, const Analysis& a) {
+  if (session.distances) return distance_outliers_found(session, a);
+  const auto residuals = chain_residuals(a.system, a.estimate.left_beside_discrepancy);
+  std::vector<bool> outliers = marginalised_system(a).outliers;
+  // A link counted wrong is an outlier with a name.
+  for (const int k : a.decision.regressors) {
+    const Regressor& d = regressor(a, k);
     if (!d.slip) continue;
     for (std::size_t i = 0; i < session.points.size(); ++i) {
-      if (session.points[i].order == static_cast<int>(d.values.back())) bad[i] = true;
+      if (session.points[i].order == static_cast<int>(d.values.back())) outliers[i] = true;
     }
   }
-  std::vector<BadPoint> result;
+  std::vector<Outlier> result;
   for (std::size_t i = 0; i < session.points.size(); ++i) {
-    if (!bad[i]) continue;
+    if (!outliers[i]) continue;
     const double s = std::sqrt(a.estimate.noise_square);
-    const Eigen::Vector2d whitened = a.rows.points[i].whitening * residuals[i];
-    result.push_back(
-        {session.points[i].index, tool_shift(a.rows.points[i], residuals[i]), whitened.norm() / s});
+    const Eigen::Vector2d whitened = a.system.points[i].whitening * residuals[i];
+    result.push_back({session.points[i].index,
+                      tool_shift(a.system.points[i], residuals[i]),
+                      whitened.norm() / s});
   }
-  std::sort(result.begin(), result.end(), [](const BadPoint& x, const BadPoint& y) {
+  std::sort(result.begin(), result.end(), [](const Outlier& x, const Outlier& y) {
     return x.index < y.index;
   });
   return result;
@@ -274,18 +276,18 @@ std::vector<BadPoint> bad_points_found(const Session& session, const Analysis& a
 
 std::vector<Separation> separations(const Analysis& a) {
   constexpr std::size_t kShown = 10;
-  const Space& space = space_of(a);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
   std::vector<std::size_t> shown;
-  for (const ClassProbability& one : a.judgement.marginal) {
+  for (const ClassProbability& one : a.decision.marginal) {
     if (shown.size() < kShown) shown.push_back(one.index);
   }
   std::vector<Separation> result;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const CauseId& x = a.judgement.classes[shown[j]].front();
-      const CauseId& y = a.judgement.classes[shown[i]].front();
-      const auto gx = space.g.col(best_direction(a, x));
-      const auto gy = space.g.col(best_direction(a, y));
+      const CauseId& x = a.decision.classes[shown[j]].front();
+      const CauseId& y = a.decision.classes[shown[i]].front();
+      const auto gx = marginalised.g.col(best_regressor(a, x));
+      const auto gy = marginalised.g.col(best_regressor(a, y));
       const double rho =
           std::min(1.0, std::abs(gx.dot(gy)) / std::max(gx.norm() * gy.norm(), 1e-12));
       // 1.645 sqrt(2 / (1 - rho)): 95 of 100 told apart; a class is never told apart.

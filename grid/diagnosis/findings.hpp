@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// An analysis in the words of the answer: causes with sizes, hypotheses, terms, bounds, settings,
-/// bad points, the extended machine and the pictures.
+/// outliers, the extended machine and the pictures.
 #pragma once
 
 #include "grid/diagnosis/analysis.hpp"
@@ -21,11 +21,10 @@ namespace chaintrue::grid::diagnosis {
                                         std::vector<NotTestable>& not_testable);
 [[nodiscard]] std::vector<CalibratedSetting> settings_found(const Session& session,
                                                             const Analysis& analysis);
-[[nodiscard]] std::vector<BadPoint> bad_points_found(const Session& session,
-                                                     const Analysis& analysis);
+[[nodiscard]] std::vector<Outlier> outliers_found(const Session& session, const Analysis& analysis);
 /// The same of distances; distance_findings.cpp.
-[[nodiscard]] std::vector<BadPoint> bad_distances_found(const Session& session,
-                                                        const Analysis& analysis);
+[[nodiscard]] std::vector<Outlier> distance_outliers_found(const Session& session,
+                                                           const Analysis& analysis);
 [[nodiscard]] std::vector<HolePicture> hole_pictures(const Session& session,
                                                      const Analysis& analysis);
 [[nodiscard]] std::vector<DistancePicture> distance_pictures(const Session& session,

@@ -24,7 +24,7 @@ struct Errors {
   /// With the causes that the fold itself names.
   std::vector<Eigen::Vector2d> extended, extended_and_surface;
   /// With the causes that all points name, their sizes fitted without the fold.
-  std::vector<Eigen::Vector2d> held_fast, held_fast_and_surface;
+  std::vector<Eigen::Vector2d> fixed_naming, fixed_naming_and_surface;
 };
 
 /// Held-out points of one fold.
@@ -42,76 +42,82 @@ class Folds {
   [[nodiscard]] Fold hold_out(const std::vector<std::size_t>& points) const {
     std::vector<bool> excluded(session_.units(), false);
     for (const std::size_t i : points) excluded[i] = true;
-    const ContestOptions contest_options{options_.steps, true, options_.told};
-    const Contest contest = hold_contest(session_, a_.rows, excluded, contest_options);
+    const ComparisonOptions compared{options_.steps, true, options_.told};
+    const ModelComparison comparison = compare_models(session_, a_.system, excluded, compared);
     // The same gate as for all points: the strongest score against what noise does.
-    const Space& first = contest.spaces[contest.best().space];
-    const SingleScore score(a_.rows, first, session_.noise_dof);
+    const MarginalisedSystem& first =
+        comparison.marginalised_systems[comparison.best().marginalised];
+    const SingleScore score(a_.system, first, session_.noise_dof);
     const bool seen = options_.told.has_value() ||
                       a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
-    const Judgement judged = decide(session_, a_.rows, contest, excluded, seen);
-    const Space& space = contest.spaces[judged.space];
+    const Decision decision =
+        decide_beside_discrepancy(session_, a_.system, comparison, excluded, seen);
+    const MarginalisedSystem& marginalised = comparison.marginalised_systems[decision.marginalised];
     Fold fold;
     for (const std::size_t i : points) {
-      if (!bad_in_all(i)) fold.points.push_back(i);
+      if (!outlier_in_all(i)) fold.points.push_back(i);
     }
-    for (const std::size_t index : judged.listed) fold.named.push_back(judged.classes[index]);
-    const Space plain =
-        without_slips(session_, a_.rows, space, a_.judgement.directions, options_.steps);
+    for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
+    const MarginalisedSystem plain =
+        without_slips(session_, a_.system, marginalised, a_.decision.regressors, options_.steps);
     fold.errors.calibrated = errors(fit(plain, {}), fold.points);
-    fold.errors.surface_only = beside_pattern(contest, judged.space, {}, fold.points);
-    fold.errors.extended = errors(fit(space, judged.directions), fold.points);
+    fold.errors.surface_only =
+        beside_discrepancy(comparison, decision.marginalised, {}, fold.points);
+    fold.errors.extended = errors(fit(marginalised, decision.regressors), fold.points);
     fold.errors.extended_and_surface =
-        beside_pattern(contest, judged.space, judged.directions, fold.points);
-    const std::vector<int>& all = a_.judgement.directions;
-    fold.errors.held_fast = errors(fit(space, all), fold.points);
-    fold.errors.held_fast_and_surface = beside_pattern(contest, judged.space, all, fold.points);
+        beside_discrepancy(comparison, decision.marginalised, decision.regressors, fold.points);
+    const std::vector<int>& all = a_.decision.regressors;
+    fold.errors.fixed_naming = errors(fit(marginalised, all), fold.points);
+    fold.errors.fixed_naming_and_surface =
+        beside_discrepancy(comparison, decision.marginalised, all, fold.points);
     return fold;
   }
 
  private:
-  [[nodiscard]] bool bad_in_all(std::size_t point) const {
-    if (a_.contest.spaces[a_.judgement.space].bad[point]) return true;
+  [[nodiscard]] bool outlier_in_all(std::size_t point) const {
+    if (a_.comparison.marginalised_systems[a_.decision.marginalised].outliers[point]) return true;
     // A reading wrong at its own visit alone says nothing of any other.
-    for (const int k : a_.judgement.directions) {
-      const Direction& d = a_.rows.directions[static_cast<std::size_t>(k)];
+    for (const int k : a_.decision.regressors) {
+      const Regressor& d = a_.system.regressors[static_cast<std::size_t>(k)];
       if (d.slip && session_.points[point].order == static_cast<int>(d.values.back())) return true;
     }
     return false;
   }
 
-  [[nodiscard]] Estimate fit(const Space& space,
-                             const std::vector<int>& directions,
-                             int pattern = -1) const {
-    return estimate(session_, a_.rows, space, directions, pattern);
+  [[nodiscard]] Estimate fit(const MarginalisedSystem& marginalised,
+                             const std::vector<int>& regressors,
+                             int discrepancy = -1) const {
+    return estimate(session_, a_.system, marginalised, regressors, discrepancy);
   }
 
-  [[nodiscard]] std::vector<Eigen::Vector2d> beside_pattern(
-      const Contest& contest,
-      std::size_t space,
-      const std::vector<int>& directions,
+  [[nodiscard]] std::vector<Eigen::Vector2d> beside_discrepancy(
+      const ModelComparison& comparison,
+      std::size_t marginalised,
+      const std::vector<int>& regressors,
       const std::vector<std::size_t>& points) const {
-    const int pattern = preferred_pattern(contest, space, directions);
-    return errors(fit(contest.spaces[space], directions, pattern), points);
+    const int discrepancy = preferred_discrepancy(comparison, marginalised, regressors);
+    return errors(fit(comparison.marginalised_systems[marginalised], regressors, discrepancy),
+                  points);
   }
 
-  /// The pattern that the points prefer beside these causes; none where they would rather have
+  /// The discrepancy that the points prefer beside these causes; none where they would rather have
   /// none.
-  static int preferred_pattern(const Contest& contest,
-                               std::size_t space,
-                               const std::vector<int>& directions) {
-    for (const Model& model : contest.models) {
-      if (model.directions == directions && model.space == space) return model.pattern;
+  static int preferred_discrepancy(const ModelComparison& comparison,
+                                   std::size_t marginalised,
+                                   const std::vector<int>& regressors) {
+    for (const CandidateModel& model : comparison.models) {
+      if (model.regressors == regressors && model.marginalised == marginalised)
+        return model.discrepancy;
     }
     return -1;
   }
 
-  /// What the model leaves, the pattern that it may have taken out.
+  /// What the model leaves, the discrepancy that it may have taken out.
   [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Estimate& model,
                                                     const std::vector<std::size_t>& points) const {
-    const Eigen::VectorXd left = left_of_machine(a_.rows, model, model.left_beside_pattern);
+    const Eigen::VectorXd left = left_of_machine(a_.system, model, model.left_beside_discrepancy);
     std::vector<Eigen::Vector2d> result;
-    for (const std::size_t i : points) result.push_back(error_of_unit(a_.rows, left, i));
+    for (const std::size_t i : points) result.push_back(error_of_unit(a_.system, left, i));
     return result;
   }
 
@@ -185,8 +191,8 @@ bool names_agree(const Fold& fold, const Analysis& a) {
     return ids;
   };
   std::vector<CauseId> whole;
-  for (const std::size_t index : a.judgement.listed)
-    whole.push_back(a.judgement.classes[index].front());
+  for (const std::size_t index : a.decision.listed)
+    whole.push_back(a.decision.classes[index].front());
   const std::vector<CauseId> here = leader(fold.named);
   if (whole.empty() || here.empty()) return whole.empty() && here.empty();
   return std::find(whole.begin(), whole.end(), here.front()) != whole.end();
@@ -198,7 +204,7 @@ double noise_floor(const Session& session,
                    const std::vector<std::size_t>& points) {
   double sum = 0.0;
   for (const std::size_t i : points) {
-    sum += noise_of_unit_mm2(session, a.rows, i);
+    sum += noise_of_unit_mm2(session, a.system, i);
   }
   return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(points.size()));
 }
@@ -212,7 +218,7 @@ Delivered delivered(const Session& session,
                     const Analysis& a,
                     const std::vector<std::size_t>& points) {
   Delivered result;
-  const auto stated = base_rows(session, stated_state(session), {});
+  const auto stated = linearise(session, stated_state(session), {});
   if (!stated) return result;
   constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
   const auto sheet = static_cast<Eigen::Index>(session.settings.size()) - kOfMachine;
@@ -221,7 +227,7 @@ Delivered delivered(const Session& session,
   const bool moves = sheet > 0 && (session.knows(model::Setting::sheet_x_mm) ||
                                    session.knows(model::Setting::sheet_y_mm));
   if (moves) {
-    const auto& kept = a.contest.spaces[a.judgement.space].kept;
+    const auto& kept = a.comparison.marginalised_systems[a.decision.marginalised].kept;
     const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);
     const Eigen::MatrixXd scaled = by_sheet(kept, Eigen::all) * sigma.asDiagonal();
     Eigen::MatrixXd normal = scaled.transpose() * scaled;
@@ -245,8 +251,8 @@ void append(const Errors& fold, Errors& all) {
   join(all.surface_only, fold.surface_only);
   join(all.extended, fold.extended);
   join(all.extended_and_surface, fold.extended_and_surface);
-  join(all.held_fast, fold.held_fast);
-  join(all.held_fast_and_surface, fold.held_fast_and_surface);
+  join(all.fixed_naming, fold.fixed_naming);
+  join(all.fixed_naming_and_surface, fold.fixed_naming_and_surface);
 }
 
 /// Which errors speak of the extension: an extension that does not help on points it has not seen
@@ -259,13 +265,13 @@ struct Extension {
 };
 
 Extension extension_of(const Analysis& a, const Errors& errors) {
-  if (!a.judgement.listed.empty() && rms(errors.extended) < rms(errors.calibrated)) {
+  if (!a.decision.listed.empty() && rms(errors.extended) < rms(errors.calibrated)) {
     return {&errors.extended, &errors.extended_and_surface, true, true};
   }
   // A block without which these points leave two names, the wrong one first, says little against
   // the name that all points give.
-  if (!a.judgement.listed.empty() && rms(errors.held_fast) < rms(errors.calibrated)) {
-    return {&errors.held_fast, &errors.held_fast_and_surface, true, false};
+  if (!a.decision.listed.empty() && rms(errors.fixed_naming) < rms(errors.calibrated)) {
+    return {&errors.fixed_naming, &errors.fixed_naming_and_surface, true, false};
   }
   return {&errors.calibrated, &errors.surface_only, false, true};
 }

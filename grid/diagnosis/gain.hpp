@@ -2,10 +2,10 @@
 /// \file
 /// What naming gains: held-out error of the tool with the whole naming repeated in every fold.
 ///
-/// Blocks of the bed are held out one after the other; in each fold the contest is held anew on the
-/// points that stay, whatever it names there is estimated there, and the held-out readings are
+/// Blocks of the bed are held out one after the other; in each fold the models are compared anew on
+/// the points that stay, whatever it names there is estimated there, and the held-out readings are
 /// compared with what it predicts. Settings and causes are never fitted to held-out points. The
-/// surface is the unknown pattern's expectation at the length and size that the fold's points
+/// surface is the model discrepancy's expectation at the length and size that the fold's points
 /// prefer.
 #pragma once
 

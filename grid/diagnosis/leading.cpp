@@ -6,27 +6,29 @@
 
 namespace chaintrue::grid::diagnosis {
 
-const Direction& direction(const Analysis& a, int k) {
-  return a.rows.directions[static_cast<std::size_t>(k)];
+const Regressor& regressor(const Analysis& a, int k) {
+  return a.system.regressors[static_cast<std::size_t>(k)];
 }
 
-const Space& space_of(const Analysis& a) { return a.contest.spaces[a.judgement.space]; }
+const MarginalisedSystem& marginalised_system(const Analysis& a) {
+  return a.comparison.marginalised_systems[a.decision.marginalised];
+}
 
-int best_direction(const Analysis& a, const CauseId& cause) {
-  for (const int k : a.judgement.directions) {
-    if (direction(a, k).cause == cause) return k;
+int best_regressor(const Analysis& a, const CauseId& cause) {
+  for (const int k : a.decision.regressors) {
+    if (regressor(a, k).cause == cause) return k;
   }
-  for (const Model& model : a.contest.models) {
-    if (model.directions.size() != 1) continue;
-    if (direction(a, model.directions.front()).cause == cause) return model.directions.front();
+  for (const CandidateModel& model : a.comparison.models) {
+    if (model.regressors.size() != 1) continue;
+    if (regressor(a, model.regressors.front()).cause == cause) return model.regressors.front();
   }
-  const Space& space = space_of(a);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
   int best = -1;
   double most = -1.0;
-  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
-    if (!(a.rows.directions[k].cause == cause)) continue;
-    const auto g = space.g.col(static_cast<Eigen::Index>(k));
-    const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(space.e)) / g.norm() : 0.0;
+  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+    if (!(a.system.regressors[k].cause == cause)) continue;
+    const auto g = marginalised.g.col(static_cast<Eigen::Index>(k));
+    const double score = g.squaredNorm() > 1e-12 ? std::abs(g.dot(marginalised.e)) / g.norm() : 0.0;
     if (score > most) {
       most = score;
       best = static_cast<int>(k);
@@ -36,7 +38,7 @@ int best_direction(const Analysis& a, const CauseId& cause) {
 }
 
 bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
-  for (const CauseClass& members : a.judgement.classes) {
+  for (const CauseClass& members : a.decision.classes) {
     const auto in = [&](const CauseId& c) {
       return std::find(members.begin(), members.end(), c) != members.end();
     };
@@ -46,20 +48,20 @@ bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
 }
 
 Nearest nearest_other(const Analysis& a, int column) {
-  const Space& space = space_of(a);
-  const auto own = space.g.col(column);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const auto own = marginalised.g.col(column);
   const auto excluded = [&](const CauseId& other) {
-    if (same_class(a, other, direction(a, column).cause)) return true;
-    if (a.judgement.verdict != Verdict::several_causes) return false;
-    return std::any_of(a.judgement.directions.begin(), a.judgement.directions.end(), [&](int k) {
-      return same_class(a, other, direction(a, k).cause);
+    if (same_class(a, other, regressor(a, column).cause)) return true;
+    if (a.decision.verdict != Verdict::several_causes) return false;
+    return std::any_of(a.decision.regressors.begin(), a.decision.regressors.end(), [&](int k) {
+      return same_class(a, other, regressor(a, k).cause);
     });
   };
   Nearest nearest;
-  for (std::size_t k = 0; k < a.rows.directions.size(); ++k) {
-    const auto g = space.g.col(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
+    const auto g = marginalised.g.col(static_cast<Eigen::Index>(k));
     const double length = g.norm() * own.norm();
-    if (!(length > 1e-12) || excluded(a.rows.directions[k].cause)) continue;
+    if (!(length > 1e-12) || excluded(a.system.regressors[k].cause)) continue;
     const double rho = std::abs(own.dot(g)) / length;
     if (rho > nearest.rho) nearest = {static_cast<int>(k), rho};
   }
@@ -67,28 +69,28 @@ Nearest nearest_other(const Analysis& a, int column) {
 }
 
 Shown shown(const Analysis& a) {
-  Shown result{a.judgement.directions, {}};
-  if (result.best.empty() && !a.judgement.marginal.empty()) {
+  Shown result{a.decision.regressors, {}};
+  if (result.best.empty() && !a.decision.marginal.empty()) {
     result.best = {
-        best_direction(a, a.judgement.classes[a.judgement.marginal.front().index].front())};
+        best_regressor(a, a.decision.classes[a.decision.marginal.front().index].front())};
   }
   if (result.best.empty()) return result;
   int first = result.best.front();
-  if (!a.judgement.listed.empty()) {
-    first = best_direction(a, a.judgement.classes[a.judgement.listed.front()].front());
+  if (!a.decision.listed.empty()) {
+    first = best_regressor(a, a.decision.classes[a.decision.listed.front()].front());
   }
   const Nearest other = nearest_other(a, first);
   if (other.column >= 0) result.rival = {other.column};
   return result;
 }
 
-Estimate estimate_with(const Session& session, const Analysis& a, std::vector<int> directions) {
-  std::sort(directions.begin(), directions.end());
+Estimate estimate_with(const Session& session, const Analysis& a, std::vector<int> regressors) {
+  std::sort(regressors.begin(), regressors.end());
   return estimate(session,
-                  a.rows,
-                  space_of(a),
-                  directions,
-                  a.judgement.pattern_left ? a.judgement.best_pattern : -1);
+                  a.system,
+                  marginalised_system(a),
+                  regressors,
+                  a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -9,15 +9,15 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Column k of the analysis' rows.
-[[nodiscard]] const Direction& direction(const Analysis& analysis, int k);
+/// Column k of the analysis' system.
+[[nodiscard]] const Regressor& regressor(const Analysis& analysis, int k);
 
-/// The space in which the judgement was made.
-[[nodiscard]] const Space& space_of(const Analysis& analysis);
+/// The marginalised system in which the decision was made.
+[[nodiscard]] const MarginalisedSystem& marginalised_system(const Analysis& analysis);
 
-/// The most probable column of a cause over the models of the contest, or that with its best
+/// The most probable column of a cause over the models of the comparison, or that with its best
 /// score; -1 where the cause has none.
-[[nodiscard]] int best_direction(const Analysis& analysis, const CauseId& cause);
+[[nodiscard]] int best_regressor(const Analysis& analysis, const CauseId& cause);
 
 /// Whether no points tell the two apart.
 [[nodiscard]] bool same_class(const Analysis& analysis, const CauseId& x, const CauseId& y);
@@ -38,7 +38,7 @@ struct Shown {
 };
 [[nodiscard]] Shown shown(const Analysis& analysis);
 
-/// Estimate with these columns, beside the pattern where the judgement holds one.
+/// Estimate with these columns, beside the discrepancy where the decision holds one.
 [[nodiscard]] Estimate estimate_with(const Session& session,
                                      const Analysis& analysis,
                                      std::vector<int> columns);

@@ -10,7 +10,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr double kSmooth_mm = 450.0;  // length over which a pattern is looked for
+constexpr double kSmooth_mm = 450.0;  // length over which a discrepancy is looked for
 constexpr int kDraws = 999;
 constexpr int kDegree = 4;
 /// Share of what is left that a coordinate must explain, beyond what its terms take by chance.
@@ -20,14 +20,15 @@ constexpr double kTimeOverPlace = 0.3;
 
 /// e'K e / e'e against draws of noise: is there more in common between neighbours than chance has?
 double p_of_structure(const Session& session,
-                      const Rows& rows,
+                      const LinearisedSystem& system,
                       const std::vector<Eigen::Index>& kept,
                       const Eigen::VectorXd& left,
                       std::uint64_t seed) {
   Eigen::VectorXd e = left(kept);
-  Eigen::MatrixXd k = pattern_covariance(session, rows, kept, {PatternKind::chains, kSmooth_mm});
-  if (rows.nuisances > 0) {
-    const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(rows, kept);
+  Eigen::MatrixXd k =
+      discrepancy_covariance(session, system, kept, {DiscrepancyKind::chains, kSmooth_mm});
+  if (system.nuisances > 0) {
+    const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(system, kept);
     noise.matrixL().solveInPlace(e);
     noise.matrixL().solveInPlace(k);
     k.transposeInPlace();
@@ -80,15 +81,15 @@ constexpr Coordinate kCoordinates[] = {
 /// Share of the square of what is left that a quartic along the coordinate takes in either chain,
 /// less what as many terms take of noise.
 double share_along(const Session& session,
-                   const Rows& rows,
-                   const std::vector<bool>& bad,
+                   const LinearisedSystem& system,
+                   const std::vector<bool>& outliers,
                    const std::vector<Eigen::Vector2d>& chain,
                    const Coordinate& coordinate) {
   std::vector<double> t;
   std::vector<std::size_t> used;
   for (std::size_t i = 0; i < session.points.size(); ++i) {
-    if (bad[i]) continue;
-    t.push_back(coordinate.value(session.points[i], rows.points[i]));
+    if (outliers[i]) continue;
+    t.push_back(coordinate.value(session.points[i], system.points[i]));
     used.push_back(i);
   }
   const auto [low, high] = std::minmax_element(t.begin(), t.end());
@@ -112,22 +113,24 @@ double share_along(const Session& session,
 }  // namespace
 
 LeftOver left_over(const Session& session, const Analysis& a, std::uint64_t seed) {
-  const Space& space = a.contest.spaces[a.judgement.space];
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
   LeftOver result;
-  const Eigen::VectorXd left = left_of_machine(a.rows, a.estimate, a.estimate.left);
-  result.p_value = p_of_structure(session, a.rows, space.kept, left, seed);
-  if (a.judgement.best_pattern >= 0) {
-    const Estimate beside =
-        estimate(session, a.rows, space, a.judgement.directions, a.judgement.best_pattern);
-    const Eigen::VectorXd pattern = beside.left - beside.left_beside_pattern;
-    result.delta = length_in_noise(a.rows, space.kept, pattern) / std::sqrt(beside.noise_square);
+  const Eigen::VectorXd left = left_of_machine(a.system, a.estimate, a.estimate.left);
+  result.p_value = p_of_structure(session, a.system, marginalised.kept, left, seed);
+  if (a.decision.best_discrepancy >= 0) {
+    const Estimate beside = estimate(
+        session, a.system, marginalised, a.decision.regressors, a.decision.best_discrepancy);
+    const Eigen::VectorXd discrepancy = beside.left - beside.left_beside_discrepancy;
+    result.delta =
+        length_in_noise(a.system, marginalised.kept, discrepancy) / std::sqrt(beside.noise_square);
   }
   // A distance has no place to follow, and a few holes draw no curve.
   if (result.p_value >= kFalseAlarm || session.distances) return result;
-  const auto chain = chain_residuals(a.rows, a.estimate.left);
+  const auto chain = chain_residuals(a.system, a.estimate.left);
   for (const Coordinate& coordinate : kCoordinates) {
     if (coordinate.name == std::string_view("order") && !session.ordered) continue;
-    const double share = share_along(session, a.rows, space.bad, chain, coordinate);
+    const double share = share_along(session, a.system, marginalised.outliers, chain, coordinate);
     // Where the bed was visited in order, time and place run together: place is the simpler guess.
     const double needed = coordinate.name == std::string_view("order")
                               ? result.share + kTimeOverPlace * (1.0 - result.share)

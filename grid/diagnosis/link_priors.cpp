@@ -22,21 +22,22 @@ double strength_density(double delta) {
 
 }  // namespace
 
-void share_out_links(const Space& space, Rows& rows) {
+void share_out_links(const MarginalisedSystem& marginalised, LinearisedSystem& system) {
   std::size_t first = 0;
-  while (first < rows.directions.size()) {
+  while (first < system.regressors.size()) {
     std::size_t last = first;
     double sum = 0.0;
     std::vector<double> weight;
-    for (; last < rows.directions.size(); ++last) {
-      const Direction& d = rows.directions[last];
-      if (!(d.cause == rows.directions[first].cause)) break;
-      weight.push_back(share_of_links(d.values.front()) *
-                       strength_density(space.g.col(static_cast<Eigen::Index>(last)).norm()));
+    for (; last < system.regressors.size(); ++last) {
+      const Regressor& d = system.regressors[last];
+      if (!(d.cause == system.regressors[first].cause)) break;
+      weight.push_back(
+          share_of_links(d.values.front()) *
+          strength_density(marginalised.g.col(static_cast<Eigen::Index>(last)).norm()));
       sum += weight.back();
     }
-    for (std::size_t k = first; k < last && rows.directions[first].fixed; ++k) {
-      Direction& d = rows.directions[k];
+    for (std::size_t k = first; k < last && system.regressors[first].fixed; ++k) {
+      Regressor& d = system.regressors[k];
       d.log_prior = std::log(weight[k - first] / sum) -
                     std::log(static_cast<double>(d.cause.effect->sides.size()));
       if (d.slip) d.log_prior += std::log(kSlipOddsOfVisit * d.visits);

@@ -10,7 +10,7 @@ namespace chaintrue::grid::diagnosis {
 /// Shares a cause's prior out among its visits and numbers of links, and gives slips at one visit
 /// their odds. A whole number leaves no size free whose prior could say how strong causes usually
 /// are, so the visits carry it: density of the strength at each, as for any other cause.
-/// `space` sets no point aside.
-void share_out_links(const Space& space, Rows& rows);
+/// `marginalised` sets no point aside.
+void share_out_links(const MarginalisedSystem& marginalised, LinearisedSystem& system);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -20,34 +20,34 @@ constexpr double kEnough = 0.97;
 constexpr double kPays = 0.002;  // a measurement that helps less is not worth the way
 
 struct Alternative {
-  std::vector<int> directions;
+  std::vector<int> regressors;
   double probability = 0.0;
   Eigen::VectorXd mean;    ///< of all candidate rows
   Eigen::MatrixXd spread;  ///< rows x unknowns: a square root of the covariance but for the noise
 };
 
-/// The sets of causes, as many as the verdict speaks of, that the contest leaves; each with its
+/// The sets of causes, as many as the verdict speaks of, that the comparison leaves; each with its
 /// best places. Members of one class count as one.
 std::vector<Alternative> leading(const Analysis& a) {
   const auto class_of = [&](const CauseId& cause) {
-    for (std::size_t k = 0; k < a.judgement.classes.size(); ++k) {
-      const CauseClass& members = a.judgement.classes[k];
+    for (std::size_t k = 0; k < a.decision.classes.size(); ++k) {
+      const CauseClass& members = a.decision.classes[k];
       if (std::find(members.begin(), members.end(), cause) != members.end()) return k;
     }
-    return a.judgement.classes.size();
+    return a.decision.classes.size();
   };
   std::map<std::vector<std::size_t>, Alternative> groups;
-  const std::size_t together = std::max<std::size_t>(a.judgement.directions.size(), 1);
-  for (const Model& model : a.contest.models) {
-    if (model.directions.size() != together) continue;
+  const std::size_t together = std::max<std::size_t>(a.decision.regressors.size(), 1);
+  for (const CandidateModel& model : a.comparison.models) {
+    if (model.regressors.size() != together) continue;
     std::vector<std::size_t> key;
-    for (const int k : model.directions) {
-      key.push_back(class_of(a.rows.directions[static_cast<std::size_t>(k)].cause));
+    for (const int k : model.regressors) {
+      key.push_back(class_of(a.system.regressors[static_cast<std::size_t>(k)].cause));
     }
     std::sort(key.begin(), key.end());
     Alternative& one = groups[key];
-    if (one.probability == 0.0) one.directions = model.directions;
-    one.probability += a.contest.probability(model);
+    if (one.probability == 0.0) one.regressors = model.regressors;
+    one.probability += a.comparison.probability(model);
   }
   std::vector<Alternative> result;
   double all = 0.0;
@@ -69,8 +69,8 @@ std::vector<Alternative> leading(const Analysis& a) {
 void add_link_reading(const Session& session,
                       const Analysis& a,
                       std::vector<NextMeasurement>& list) {
-  if (a.judgement.listed.empty() || list.size() >= kMostNextMeasurements) return;
-  const CauseClass& members = a.judgement.classes[a.judgement.listed.front()];
+  if (a.decision.listed.empty() || list.size() >= kMostNextMeasurements) return;
+  const CauseClass& members = a.decision.classes[a.decision.listed.front()];
   const bool pitch = std::any_of(members.begin(), members.end(), [](const CauseId& c) {
     return c.effect->elongation != nullptr;
   });
@@ -81,8 +81,8 @@ void add_link_reading(const Session& session,
   }
   NextMeasurement reading{
       MeasurementKind::reading, "link_pitch_mm", "left", std::nullopt, kLinkPitchSigmaMm};
-  for (const ClassProbability& one : a.judgement.marginal) {
-    if (one.index == a.judgement.listed.front()) reading.raises_probability_to = one.probability;
+  for (const ClassProbability& one : a.decision.marginal) {
+    if (one.index == a.decision.listed.front()) reading.raises_probability_to = one.probability;
   }
   if (!list.empty()) reading.raises_probability_to = list.back().raises_probability_to;
   list.push_back(std::move(reading));
@@ -92,23 +92,24 @@ void add_link_reading(const Session& session,
 void predict(const Session& session,
              const Analysis& a,
              const Session& next,
-             const Rows& rows,
+             const LinearisedSystem& system,
              Alternative& h) {
-  const Space& space = a.contest.spaces[a.judgement.space];
-  const Estimate fitted = estimate(session, a.rows, space, h.directions, -1);
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
+  const Estimate fitted = estimate(session, a.system, marginalised, h.regressors, -1);
   // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
-  const Eigen::Index to_come = rows.by_setting.cols() - settings;
-  h.mean = rows.by_setting.leftCols(settings) * fitted.setting_change;
+  const Eigen::Index to_come = system.by_setting.cols() - settings;
+  h.mean = system.by_setting.leftCols(settings) * fitted.setting_change;
   const auto free = static_cast<Eigen::Index>(fitted.free.size());
-  Eigen::MatrixXd design(rows.by_setting.rows(), settings + free);
-  design.leftCols(settings) = rows.by_setting.leftCols(settings);
+  Eigen::MatrixXd design(system.by_setting.rows(), settings + free);
+  design.leftCols(settings) = system.by_setting.leftCols(settings);
   Eigen::Index column = settings;
-  for (std::size_t k = 0; k < fitted.directions.size(); ++k) {
-    const Direction& d = a.rows.directions[static_cast<std::size_t>(fitted.directions[k])];
-    const auto g = signature(next, a.state, rows, d.cause, d.values);
+  for (std::size_t k = 0; k < fitted.regressors.size(); ++k) {
+    const Regressor& d = a.system.regressors[static_cast<std::size_t>(fitted.regressors[k])];
+    const auto g = signature(next, a.state, system, d.cause, d.values);
     const Eigen::VectorXd column_of =
-        g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(rows.by_setting.rows()));
+        g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(system.by_setting.rows()));
     h.mean += column_of * fitted.coefficient(static_cast<Eigen::Index>(k));
     if (std::find(fitted.free.begin(), fitted.free.end(), k) != fitted.free.end()) {
       design.col(column++) = column_of;
@@ -118,7 +119,7 @@ void predict(const Session& session,
   h.spread.resize(design.rows(), design.cols() + to_come);
   h.spread.leftCols(design.cols()) = design * Eigen::MatrixXd(llt.matrixL());
   h.spread.rightCols(to_come) =
-      rows.by_setting.rightCols(to_come) * rows.sigma.tail(to_come).asDiagonal();
+      system.by_setting.rightCols(to_come) * system.sigma.tail(to_come).asDiagonal();
 }
 
 /// D over these rows, for two alternatives.
@@ -168,18 +169,18 @@ Outlook outlook(const std::vector<Alternative>& alternatives,
 }  // namespace
 
 std::vector<NextMeasurement> next_measurements(const Session& session, const Analysis& a) {
-  if (a.judgement.listed.empty()) return {};
+  if (a.decision.listed.empty()) return {};
   std::vector<NextMeasurement> result;
   std::vector<Alternative> alternatives = leading(a);
   NextCandidates next =
       session.distances ? candidates_between_holes(session, a) : candidates_at_points(session, a);
-  const auto rows = base_rows(next.session, a.state, {});
-  if (!rows) return {};
-  for (Alternative& h : alternatives) predict(session, a, next.session, *rows, h);
+  const auto system = linearise(next.session, a.state, {});
+  if (!system) return {};
+  for (Alternative& h : alternatives) predict(session, a, next.session, *system, h);
   std::vector<Candidate>& options = next.all;
   std::vector<Eigen::Index> chosen;
   Outlook now = outlook(alternatives, chosen);
-  double reached = a.judgement.verdict == Verdict::named ? kEnough : now.named_alone;
+  double reached = a.decision.verdict == Verdict::named ? kEnough : now.named_alone;
   while (result.size() < kMostNextMeasurements && reached < kEnough) {
     std::size_t best = options.size();
     Outlook then = now;

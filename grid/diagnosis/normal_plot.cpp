@@ -14,25 +14,28 @@ namespace {
 constexpr int kDraws = 499;
 constexpr int kInside = 474;  // 95 % of them
 
-/// Rows of the space that are points' rows: readings of the machine are none of the plot's.
-Eigen::Index rows_of_points(const Session& session, const Space& space) {
-  const auto end = std::lower_bound(space.kept.begin(), space.kept.end(), session.observed_rows());
-  return static_cast<Eigen::Index>(end - space.kept.begin());
+/// Rows of the marginalised system that are points' rows: readings of the machine are none of the
+/// plot's.
+Eigen::Index rows_of_points(const Session& session, const MarginalisedSystem& marginalised) {
+  const auto end =
+      std::lower_bound(marginalised.kept.begin(), marginalised.kept.end(), session.observed_rows());
+  return static_cast<Eigen::Index>(end - marginalised.kept.begin());
 }
 
 /// What the fit of settings and causes leaves of noise, a column a draw.
 Eigen::MatrixXd left_of_noise(const Analysis& a, std::uint64_t seed) {
-  const Space& space = space_of(a);
-  const auto n = static_cast<Eigen::Index>(space.kept.size());
-  const Eigen::Index settings = a.rows.by_setting.cols();
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
+  const Eigen::Index settings = a.system.by_setting.cols();
   const auto causes = static_cast<Eigen::Index>(a.estimate.free.size());
   // In units of what each unknown may be beforehand.
   Eigen::MatrixXd design(n, settings + causes);
-  design.leftCols(settings) = a.rows.by_setting(space.kept, Eigen::all) * a.rows.sigma.asDiagonal();
+  design.leftCols(settings) =
+      a.system.by_setting(marginalised.kept, Eigen::all) * a.system.sigma.asDiagonal();
   for (Eigen::Index k = 0; k < causes; ++k) {
-    const int column = a.estimate.directions[a.estimate.free[static_cast<std::size_t>(k)]];
-    design.col(settings + k) =
-        a.rows.g(space.kept, column) * kWideDelta / std::max(space.g.col(column).norm(), 1e-12);
+    const int column = a.estimate.regressors[a.estimate.free[static_cast<std::size_t>(k)]];
+    design.col(settings + k) = a.system.g(marginalised.kept, column) * kWideDelta /
+                               std::max(marginalised.g.col(column).norm(), 1e-12);
   }
   Eigen::MatrixXd normal = design.transpose() * design;
   normal.diagonal().array() += 1.0;
@@ -89,13 +92,13 @@ std::optional<NormalPlot> normal_plot(const Session& session,
                                       std::uint64_t seed) {
   // Of distances the holes' own errors hide what is normal and what is not.
   if (session.distances) return std::nullopt;
-  const Space& space = space_of(a);
-  const Eigen::Index rows = rows_of_points(session, space);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const Eigen::Index rows = rows_of_points(session, marginalised);
   if (rows < 2 * static_cast<Eigen::Index>(kFewestPoints)) return std::nullopt;
   const Eigen::VectorXd& left =
-      a.judgement.pattern_left ? a.estimate.left_beside_pattern : a.estimate.left;
+      a.decision.discrepancy_left ? a.estimate.left_beside_discrepancy : a.estimate.left;
   NormalPlot plot;
-  plot.values = shape_of(Eigen::VectorXd(left(space.kept)).head(rows));
+  plot.values = shape_of(Eigen::VectorXd(left(marginalised.kept)).head(rows));
   const Eigen::MatrixXd noise = left_of_noise(a, seed);
   std::vector<std::vector<double>> curves;
   for (Eigen::Index draw = 0; draw < kDraws; ++draw) {

@@ -16,12 +16,14 @@ constexpr int kBlock = 250;  // draws at a time
 
 }  // namespace
 
-SingleScore::SingleScore(const Rows& rows, const Space& space, double noise_dof)
-    : space_(space), dof_(noise_dof) {
-  square_ = space.g.colwise().squaredNorm();
+SingleScore::SingleScore(const LinearisedSystem& system,
+                         const MarginalisedSystem& marginalised,
+                         double noise_dof)
+    : marginalised_(marginalised), dof_(noise_dof) {
+  square_ = marginalised.g.colwise().squaredNorm();
   constant_.resize(square_.size());
   for (Eigen::Index k = 0; k < square_.size(); ++k) {
-    const Direction& d = rows.directions[static_cast<std::size_t>(k)];
+    const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
     if (causes_.empty() || !(causes_.back() == d.cause)) causes_.push_back(d.cause);
     cause_of_.push_back(causes_.size() - 1);
     fixed_.push_back(d.fixed);
@@ -40,22 +42,22 @@ double SingleScore::score(Eigen::Index k, double square, double c, double ee, do
   return constant_(k) - 0.5 * (n + dof_) * std::log1p(-drop / (dof_ + ee));
 }
 
-double SingleScore::largest(const Metric& metric, Eigen::Index rows) const {
+double SingleScore::largest(const NormalEquations& equations, Eigen::Index rows) const {
   double result = kNoScore;
-  for (std::size_t i = 0; i < metric.columns.size(); ++i) {
+  for (std::size_t i = 0; i < equations.columns.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     result = std::max(result,
-                      score(metric.columns[i],
-                            metric.gg(at, at),
-                            metric.ge(at),
-                            metric.ee,
+                      score(equations.columns[i],
+                            equations.gg(at, at),
+                            equations.ge(at),
+                            equations.ee,
                             static_cast<double>(rows)));
   }
   return result;
 }
 
 Eigen::VectorXd SingleScore::by_cause(const Eigen::VectorXd& e) const {
-  const Eigen::VectorXd c = space_.g.transpose() * e;
+  const Eigen::VectorXd c = marginalised_.g.transpose() * e;
   const double ee = e.squaredNorm();
   const auto n = static_cast<double>(e.size());
   Eigen::VectorXd result =
@@ -68,7 +70,7 @@ Eigen::VectorXd SingleScore::by_cause(const Eigen::VectorXd& e) const {
 }
 
 Eigen::VectorXd SingleScore::largest(const Eigen::MatrixXd& e) const {
-  const Eigen::MatrixXd c = space_.g.transpose() * e;
+  const Eigen::MatrixXd c = marginalised_.g.transpose() * e;
   const auto n = static_cast<double>(e.rows());
   Eigen::VectorXd result = Eigen::VectorXd::Constant(e.cols(), kNoScore);
   for (Eigen::Index draw = 0; draw < e.cols(); ++draw) {

@@ -17,23 +17,26 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Per direction: log of prior times Bayes factor against nothing, Student form, in one inner
-/// product; a direction of the wrong sign has no score.
+/// Per regressor: log of prior times Bayes factor against nothing, Student form, in one inner
+/// product; a regressor of the wrong sign has no score.
 class SingleScore {
  public:
-  SingleScore(const Rows& rows, const Space& space, double noise_dof);
-  /// The largest over all directions of a cause, in the order of `causes()`; `e` like Space::e.
+  SingleScore(const LinearisedSystem& system,
+              const MarginalisedSystem& marginalised,
+              double noise_dof);
+  /// The largest over all regressors of a cause, in the order of `causes()`; `e` like
+  /// MarginalisedSystem::e.
   [[nodiscard]] Eigen::VectorXd by_cause(const Eigen::VectorXd& e) const;
   [[nodiscard]] const std::vector<CauseId>& causes() const { return causes_; }
-  /// The largest over the columns of a metric of so many rows.
-  [[nodiscard]] double largest(const Metric& metric, Eigen::Index rows) const;
+  /// The largest over the columns of normal equations of so many rows.
+  [[nodiscard]] double largest(const NormalEquations& equations, Eigen::Index rows) const;
   /// The largest of all, for each column of `e`.
   [[nodiscard]] Eigen::VectorXd largest(const Eigen::MatrixXd& e) const;
 
  private:
-  /// Of a direction with this square and inner product with the residual, in so many rows.
+  /// Of a regressor with this square and inner product with the residual, in so many rows.
   [[nodiscard]] double score(Eigen::Index k, double square, double c, double ee, double n) const;
-  const Space& space_;
+  const MarginalisedSystem& marginalised_;
   double dof_;
   std::vector<CauseId> causes_;
   std::vector<std::size_t> cause_of_;

@@ -10,25 +10,25 @@ namespace chaintrue::grid::diagnosis {
 
 std::vector<PointPicture> pictures(const Session& session, const Analysis& a) {
   if (session.distances) return {};
-  const Space& space = space_of(a);
-  const Estimate before = estimate(session, a.rows, space, {}, -1);
-  const auto chain_before = chain_residuals(a.rows, before.left);
-  const auto chain_after = chain_residuals(a.rows, a.estimate.left);
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const Estimate before = estimate(session, a.system, marginalised, {}, -1);
+  const auto chain_before = chain_residuals(a.system, before.left);
+  const auto chain_after = chain_residuals(a.system, a.estimate.left);
   const auto explained = [&](const std::vector<int>& set) {
-    const Estimate fitted = estimate(session, a.rows, space, set, -1);
-    return chain_residuals(a.rows, Eigen::VectorXd(before.left - fitted.left));
+    const Estimate fitted = estimate(session, a.system, marginalised, set, -1);
+    return chain_residuals(a.system, Eigen::VectorXd(before.left - fitted.left));
   };
   const Shown sets = shown(a);
   const auto by_best = explained(sets.best);
   const auto by_rival = explained(sets.rival);
   std::vector<PointPicture> result;
   for (std::size_t i = 0; i < session.points.size(); ++i) {
-    const PointState& state = a.rows.points[i];
+    const PointState& state = a.system.points[i];
     PointPicture p;
     p.index = session.points[i].index;
     p.mark = session.points[i].mark;
     if (session.ordered) p.order = session.points[i].order;
-    p.bad = space.bad[i];
+    p.bad = marginalised.outliers[i];
     p.chain_before_mm = chain_before[i];
     p.chain_after_mm = chain_after[i];
     p.before_mm = tool_shift(state, chain_before[i]);
@@ -48,7 +48,7 @@ std::vector<PointPicture> pictures(const Session& session, const Analysis& a) {
     p.tension_right_n = pose.chains.right.tension_at_sprocket_n;
     if (session.ordered) {
       const auto direction_of = [&](double now, double then) { return now < then ? -1 : 1; };
-      const auto& last = i > 0 ? a.rows.points[i - 1].reading.pose.lengths : pose.lengths;
+      const auto& last = i > 0 ? a.system.points[i - 1].reading.pose.lengths : pose.lengths;
       p.direction_left = i == 0 ? 1 : direction_of(pose.lengths.left_mm, last.left_mm);
       p.direction_right = i == 0 ? 1 : direction_of(pose.lengths.right_mm, last.right_mm);
     }

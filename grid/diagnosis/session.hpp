@@ -72,7 +72,7 @@ struct Session {
 inline constexpr std::size_t kFewestPoints = 8;
 /// Distances tell four of the six settings; two more for a cause, two to doubt it by.
 inline constexpr std::size_t kFewestDistances = 8;
-/// Of which so many must stay when bad ones are set aside.
+/// Of which so many must stay when outliers are set aside.
 inline constexpr std::size_t kFewestGoodDistances = 6;
 
 [[nodiscard]] tl::expected<Session, DiagnosisFailure> make_session(const MeasuredGrid& grid);

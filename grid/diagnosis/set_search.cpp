@@ -15,16 +15,16 @@ constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
 /// What is so far below the best does not count.
 constexpr double kNegligible = 16.0;
-/// Directions with a whole number that are kept for the search of pairs.
+/// Regressors with a whole number that are kept for the search of pairs.
 constexpr std::size_t kKeptFixed = 60;
 /// Pairs and triples from which larger sets are searched.
 constexpr std::size_t kBeam = 24;
-/// Sets that are also tried beside an unknown pattern.
-constexpr std::size_t kBesidePattern = 24;
+/// Sets that are also tried beside a model discrepancy.
+constexpr std::size_t kBesideDiscrepancy = 24;
 
-/// May two directions act together: one cause acts at one place, and an effect that acts on both
+/// May two regressors act together: one cause acts at one place, and an effect that acts on both
 /// chains alike not also on one of them.
-bool compatible(const Direction& a, const Direction& b) {
+bool compatible(const Regressor& a, const Regressor& b) {
   if (a.cause.effect != b.cause.effect) return true;
   using model::effects::EffectSide;
   const auto joint = [](EffectSide s) { return s == EffectSide::both || s == EffectSide::none; };
@@ -36,21 +36,21 @@ bool compatible(const Direction& a, const Direction& b) {
 class SetSearch::Search {
  public:
   Search(const Session& session,
-         const Rows& rows,
-         Space& space,
+         const LinearisedSystem& system,
+         MarginalisedSystem& marginalised,
          std::size_t number,
-         const ContestOptions& options)
+         const ComparisonOptions& options)
       : session_(session),
-        rows_(rows),
-        space_(space),
+        system_(system),
+        marginalised_(marginalised),
         number_(number),
         options_(options),
         noise_(options.steps.anchor_noise ? session.noise_dof : 1e-3,
-               static_cast<Eigen::Index>(space.kept.size())) {}
+               static_cast<Eigen::Index>(marginalised.kept.size())) {}
 
-  std::vector<Model> run() {
-    metric_ = plain_metric(space_, columns());
-    consider({}, -1, metric_, 0.0);
+  std::vector<CandidateModel> run() {
+    equations_ = normal_equations(marginalised_, columns());
+    consider({}, -1, equations_, 0.0);
     singles();
     if (!options_.told) {
       pairs();
@@ -59,26 +59,26 @@ class SetSearch::Search {
     return std::move(models_);
   }
 
-  /// The best sets once more, with a pattern that nobody knows beside them.
-  std::vector<Model> run_beside_patterns() {
+  /// The best sets once more, with a discrepancy that nobody knows beside them.
+  std::vector<CandidateModel> run_beside_discrepancies() {
     models_.clear();
-    beside_patterns();
+    beside_discrepancies();
     return std::move(models_);
   }
 
   [[nodiscard]] double best() const { return best_; }
 
  private:
-  /// Directions worth their place: those of no whole number, and of the others the best, alone or
-  /// once one of the leading directions has taken its share.
+  /// Regressors worth their place: those of no whole number, and of the others the best, alone or
+  /// once one of the leading regressors has taken its share.
   [[nodiscard]] std::vector<int> columns() const {
     std::vector<int> kept;
     std::vector<int> fixed;
-    const auto count = static_cast<int>(rows_.directions.size());
-    const Eigen::VectorXd c = space_.g.transpose() * space_.e;
-    const Eigen::VectorXd square = space_.g.colwise().squaredNorm();
+    const auto count = static_cast<int>(system_.regressors.size());
+    const Eigen::VectorXd c = marginalised_.g.transpose() * marginalised_.e;
+    const Eigen::VectorXd square = marginalised_.g.colwise().squaredNorm();
     for (int k = 0; k < count; ++k) {
-      const Direction& d = rows_.directions[static_cast<std::size_t>(k)];
+      const Regressor& d = system_.regressors[static_cast<std::size_t>(k)];
       if (options_.told && !(d.cause == *options_.told)) continue;
       if (!(square(k) > kLeastSquare)) continue;
       (d.fixed ? fixed : kept).push_back(k);
@@ -93,7 +93,7 @@ class SetSearch::Search {
     });
     leading.resize(std::min<std::size_t>(leading.size(), 8));
     const Eigen::MatrixXd cross =
-        space_.g(Eigen::all, fixed).transpose() * space_.g(Eigen::all, leading);
+        marginalised_.g(Eigen::all, fixed).transpose() * marginalised_.g(Eigen::all, leading);
     std::vector<std::pair<double, int>> gains;
     for (std::size_t f = 0; f < fixed.size(); ++f) {
       const int k = fixed[f];
@@ -110,22 +110,23 @@ class SetSearch::Search {
     return kept;
   }
 
-  /// Weighs a set (positions in the metric) and keeps it where it matters.
+  /// Weighs a set (positions in the normal equations) and keeps it where it matters.
   double consider(const std::vector<Eigen::Index>& set,
-                  int pattern,
-                  const Metric& metric,
-                  double log_pattern) {
+                  int discrepancy,
+                  const NormalEquations& equations,
+                  double log_discrepancy) {
     std::vector<int> chosen;
-    for (const Eigen::Index i : set) chosen.push_back(metric.columns[static_cast<std::size_t>(i)]);
-    const SetEvidence evidence = set_evidence(metric, rows_.directions, set, noise_);
+    for (const Eigen::Index i : set)
+      chosen.push_back(equations.columns[static_cast<std::size_t>(i)]);
+    const SetEvidence evidence = set_evidence(equations, system_.regressors, set, noise_);
     if (!std::isfinite(evidence.log_evidence)) return kMinusInfinity;
-    Model model;
-    model.directions = chosen;
-    std::sort(model.directions.begin(), model.directions.end());
-    model.pattern = pattern;
-    model.space = number_;
-    model.log_weight =
-        evidence.log_evidence + space_.log_bad + log_pattern + prior(chosen, pattern >= 0);
+    CandidateModel model;
+    model.regressors = chosen;
+    std::sort(model.regressors.begin(), model.regressors.end());
+    model.discrepancy = discrepancy;
+    model.marginalised = number_;
+    model.log_weight = evidence.log_evidence + marginalised_.log_outliers + log_discrepancy +
+                       prior(chosen, discrepancy >= 0);
     model.larger_noise = noise_.larger_share(evidence.quadratic);
     model.quadratic = evidence.quadratic;
     best_ = std::max(best_, model.log_weight);
@@ -133,32 +134,32 @@ class SetSearch::Search {
     return model.log_weight;
   }
 
-  [[nodiscard]] double prior(const std::vector<int>& set, bool pattern) const {
-    double value = log_prior(rows_.directions, set, pattern);
+  [[nodiscard]] double prior(const std::vector<int>& set, bool discrepancy) const {
+    double value = log_prior(system_.regressors, set, discrepancy);
     if (!options_.steps.average_location) {
-      for (const int k : set) value -= rows_.directions[static_cast<std::size_t>(k)].log_prior;
+      for (const int k : set) value -= system_.regressors[static_cast<std::size_t>(k)].log_prior;
     }
     return value;
   }
 
   void singles() {
-    for (std::size_t k = 0; k < metric_.columns.size(); ++k) {
+    for (std::size_t k = 0; k < equations_.columns.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(k);
-      const double weight = consider({at}, -1, metric_, 0.0);
+      const double weight = consider({at}, -1, equations_, 0.0);
       scored_.push_back({weight, {at}});
     }
   }
 
   /// Upper bound of a pair's weight but for what bounds and larger noise add.
   [[nodiscard]] double quick_weight(Eigen::Index i, Eigen::Index j) const {
-    const Direction& a = direction(i);
-    const Direction& b = direction(j);
-    const double aa = metric_.gg(i, i);
-    const double bb = metric_.gg(j, j);
-    double q = metric_.ee;
-    double ca = metric_.ge(i);
-    double cb = metric_.ge(j);
-    const double ab = metric_.gg(i, j);
+    const Regressor& a = regressor(i);
+    const Regressor& b = regressor(j);
+    const double aa = equations_.gg(i, i);
+    const double bb = equations_.gg(j, j);
+    double q = equations_.ee;
+    double ca = equations_.ge(i);
+    double cb = equations_.ge(j);
+    const double ab = equations_.gg(i, j);
     double occam = 0.0;
     constexpr double kPrecision = 1.0 / (kWideDelta * kWideDelta);
     if (a.fixed && b.fixed) {
@@ -179,18 +180,18 @@ class SetSearch::Search {
       q -= (one * (ca * ca + cb * cb) - 2.0 * rho * ca * cb) / det;
       occam = 2.0 * std::log(kUsualDelta) + 0.5 * std::log(det);
     }
-    const auto n = static_cast<double>(space_.kept.size());
+    const auto n = static_cast<double>(marginalised_.kept.size());
     return -0.5 * (n + session_.noise_dof) * std::log(session_.noise_dof + std::max(q, 0.0)) -
            occam + a.log_prior + b.log_prior;
   }
 
   void pairs() {
-    const auto count = static_cast<Eigen::Index>(metric_.columns.size());
+    const auto count = static_cast<Eigen::Index>(equations_.columns.size());
     std::vector<std::pair<double, std::pair<Eigen::Index, Eigen::Index>>> quick;
     double best = kMinusInfinity;
     for (Eigen::Index i = 0; i < count; ++i) {
       for (Eigen::Index j = 0; j < i; ++j) {
-        if (!compatible(direction(i), direction(j))) continue;
+        if (!compatible(regressor(i), regressor(j))) continue;
         const double weight = quick_weight(i, j);
         if (weight < best - kPairsWithin) continue;
         best = std::max(best, weight);
@@ -202,7 +203,7 @@ class SetSearch::Search {
     for (std::size_t k = 0; k < quick.size(); ++k) {
       if (quick[k].first < best - kPairsWithin || k > kMostPairs) break;
       const std::vector<Eigen::Index> set = {quick[k].second.first, quick[k].second.second};
-      scored_.push_back({consider(set, -1, metric_, 0.0), set});
+      scored_.push_back({consider(set, -1, equations_, 0.0), set});
     }
   }
 
@@ -221,21 +222,21 @@ class SetSearch::Search {
   }
 
   void extend(const std::vector<Eigen::Index>& parent, std::set<std::vector<Eigen::Index>>& seen) {
-    // What the parent leaves, and of each direction: a score for the cost of one inner product.
-    const Eigen::MatrixXd own = metric_.gg(parent, parent);
+    // What the parent leaves, and of each regressor: a score for the cost of one inner product.
+    const Eigen::MatrixXd own = equations_.gg(parent, parent);
     const Eigen::LDLT<Eigen::MatrixXd> ldlt(own);
     const Eigen::VectorXd left =
-        metric_.ge - metric_.gg(Eigen::all, parent) * ldlt.solve(metric_.ge(parent));
+        equations_.ge - equations_.gg(Eigen::all, parent) * ldlt.solve(equations_.ge(parent));
     std::vector<std::pair<double, Eigen::Index>> order;
     for (Eigen::Index i = 0; i < left.size(); ++i) {
       bool fits = true;
-      for (const Eigen::Index p : parent) fits = fits && compatible(direction(i), direction(p));
+      for (const Eigen::Index p : parent) fits = fits && compatible(regressor(i), regressor(p));
       if (!fits) continue;
-      const Eigen::VectorXd x = metric_.gg(parent, i);
-      const double square = metric_.gg(i, i) - x.dot(ldlt.solve(x));
-      if (!(square > 1e-6 * metric_.gg(i, i))) continue;
-      const double gain = direction(i).fixed ? 2.0 * left(i) - square : left(i) * left(i) / square;
-      order.emplace_back(-gain - 2.0 * direction(i).log_prior, i);
+      const Eigen::VectorXd x = equations_.gg(parent, i);
+      const double square = equations_.gg(i, i) - x.dot(ldlt.solve(x));
+      if (!(square > 1e-6 * equations_.gg(i, i))) continue;
+      const double gain = regressor(i).fixed ? 2.0 * left(i) - square : left(i) * left(i) / square;
+      order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);
     }
     std::sort(order.begin(), order.end());
     for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), kChildren); ++k) {
@@ -243,11 +244,11 @@ class SetSearch::Search {
       set.push_back(order[k].second);
       std::sort(set.begin(), set.end());
       if (!seen.insert(set).second) continue;
-      scored_.push_back({consider(set, -1, metric_, 0.0), set});
+      scored_.push_back({consider(set, -1, equations_, 0.0), set});
     }
   }
 
-  void beside_patterns() {
+  void beside_discrepancies() {
     std::stable_sort(scored_.begin(), scored_.end(), heavier);
     std::vector<std::vector<Eigen::Index>> sets = {{}};
     std::vector<int> used;
@@ -255,29 +256,30 @@ class SetSearch::Search {
     std::vector<CauseId> alone;
     for (const Scored& s : scored_) {
       const bool single = s.set.size() == 1;
-      const CauseId cause = direction(s.set.front()).cause;
+      const CauseId cause = regressor(s.set.front()).cause;
       // Every cause alone at its best places, and the best of the others.
       const auto times = std::count(alone.begin(), alone.end(), cause);
-      if (single ? times >= 2 : taken[s.set.size()] >= kBesidePattern / 2) continue;
+      if (single ? times >= 2 : taken[s.set.size()] >= kBesideDiscrepancy / 2) continue;
       if (single) alone.push_back(cause);
       ++taken[s.set.size()];
       sets.push_back(s.set);
       for (const Eigen::Index i : s.set) {
-        used.push_back(metric_.columns[static_cast<std::size_t>(i)]);
+        used.push_back(equations_.columns[static_cast<std::size_t>(i)]);
       }
     }
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    const std::vector<Metric> metrics = pattern_metrics(rows_, session_, space_, used);
-    for (int pattern = 0; pattern < kPatterns; ++pattern) {
-      const Metric& metric = metrics[static_cast<std::size_t>(pattern)];
-      const double share = log_share_of_pattern(pattern);
+    const std::vector<NormalEquations> by_discrepancy =
+        normal_equations_beside_discrepancies(system_, session_, marginalised_, used);
+    for (int discrepancy = 0; discrepancy < kDiscrepancies; ++discrepancy) {
+      const NormalEquations& equations = by_discrepancy[static_cast<std::size_t>(discrepancy)];
+      const double share = log_share_of_discrepancy(discrepancy);
       for (const auto& set : sets) {
         std::vector<Eigen::Index> there;
         for (const Eigen::Index i : set) {
-          there.push_back(metric.position(metric_.columns[static_cast<std::size_t>(i)]));
+          there.push_back(equations.position(equations_.columns[static_cast<std::size_t>(i)]));
         }
-        consider(there, pattern, metric, share);
+        consider(there, discrepancy, equations, share);
       }
     }
   }
@@ -288,8 +290,9 @@ class SetSearch::Search {
   };
   static bool heavier(const Scored& a, const Scored& b) { return a.weight > b.weight; }
 
-  [[nodiscard]] const Direction& direction(Eigen::Index i) const {
-    return rows_.directions[static_cast<std::size_t>(metric_.columns[static_cast<std::size_t>(i)])];
+  [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
+    return system_
+        .regressors[static_cast<std::size_t>(equations_.columns[static_cast<std::size_t>(i)])];
   }
 
   static constexpr double kLeastSquare = 1e-8;
@@ -299,28 +302,30 @@ class SetSearch::Search {
   static constexpr std::size_t kChildren = 24;
 
   const Session& session_;
-  const Rows& rows_;
-  Space& space_;
+  const LinearisedSystem& system_;
+  MarginalisedSystem& marginalised_;
   std::size_t number_;
-  const ContestOptions& options_;
+  const ComparisonOptions& options_;
   NoiseDensity noise_;
-  Metric metric_;
-  std::vector<Model> models_;
+  NormalEquations equations_;
+  std::vector<CandidateModel> models_;
   std::vector<Scored> scored_;
   double best_ = kMinusInfinity;
 };
 
 SetSearch::SetSearch(const Session& session,
-                     const Rows& rows,
-                     Space& space,
+                     const LinearisedSystem& system,
+                     MarginalisedSystem& marginalised,
                      std::size_t number,
-                     const ContestOptions& options)
-    : search_(std::make_unique<Search>(session, rows, space, number, options)) {}
+                     const ComparisonOptions& options)
+    : search_(std::make_unique<Search>(session, system, marginalised, number, options)) {}
 SetSearch::~SetSearch() = default;
 SetSearch::SetSearch(SetSearch&&) noexcept = default;
 SetSearch& SetSearch::operator=(SetSearch&&) noexcept = default;
-std::vector<Model> SetSearch::run() { return search_->run(); }
-std::vector<Model> SetSearch::run_beside_patterns() { return search_->run_beside_patterns(); }
+std::vector<CandidateModel> SetSearch::run() { return search_->run(); }
+std::vector<CandidateModel> SetSearch::run_beside_discrepancies() {
+  return search_->run_beside_discrepancies();
+}
 double SetSearch::best() const { return search_->best(); }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The sets of causes that matter in one space: one and two at a time all of them, three and four
-/// at a time grown from the best, and the leading ones once more beside an unknown pattern.
+/// The sets of causes that matter in one marginalised system: one and two at a time all of them,
+/// three and four at a time grown from the best, and the leading ones once more beside a model
+/// discrepancy.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "grid/diagnosis/contest.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 class SetSearch {
  public:
-  /// `number` is the space's in its contest; all references must outlive the search.
+  /// `number` is the marginalised system's in its comparison; all references must outlive the
+  /// search.
   SetSearch(const Session& session,
-            const Rows& rows,
-            Space& space,
+            const LinearisedSystem& system,
+            MarginalisedSystem& marginalised,
             std::size_t number,
-            const ContestOptions& options);
+            const ComparisonOptions& options);
   ~SetSearch();
   SetSearch(SetSearch&&) noexcept;
   SetSearch& operator=(SetSearch&&) noexcept;
 
-  [[nodiscard]] std::vector<Model> run();
+  [[nodiscard]] std::vector<CandidateModel> run();
   /// After run().
-  [[nodiscard]] std::vector<Model> run_beside_patterns();
+  [[nodiscard]] std::vector<CandidateModel> run_beside_discrepancies();
   /// Largest weight so far.
   [[nodiscard]] double best() const;
 

@@ -26,10 +26,10 @@ std::optional<std::size_t> made_by(const Session& session, const Stability& stab
 }
 
 bool may_be_refused(const Analysis& a) {
-  const Verdict verdict = a.judgement.verdict;
+  const Verdict verdict = a.decision.verdict;
   if (verdict != Verdict::named && verdict != Verdict::several_causes) return false;
-  return std::none_of(a.judgement.directions.begin(), a.judgement.directions.end(), [&](int k) {
-    return direction(a, k).fixed;
+  return std::none_of(a.decision.regressors.begin(), a.decision.regressors.end(), [&](int k) {
+    return regressor(a, k).fixed;
   });
 }
 
@@ -42,18 +42,18 @@ std::optional<std::string> refuse_name_of_one_reading(const Session& session,
   if (!stability || session.distances || options.told || !may_be_refused(a)) return std::nullopt;
   const auto point = made_by(session, *stability);
   if (!point) return std::nullopt;
-  const ClassProbability leader = a.judgement.marginal.front();
-  const CauseId cause = a.judgement.classes[leader.index].front();
+  const ClassProbability leader = a.decision.marginal.front();
+  const CauseId cause = a.decision.classes[leader.index].front();
   std::vector<bool> aside(session.units(), false);
   aside[*point] = true;
   const std::vector<bool> none(session.units(), false);
-  a.contest = hold_contest(session, a.rows, aside, {options.steps, true, options.told});
-  a.judgement = decide(session, a.rows, a.contest, none, false);
+  a.comparison = compare_models(session, a.system, aside, {options.steps, true, options.told});
+  a.decision = decide_beside_discrepancy(session, a.system, a.comparison, none, false);
   a.estimate = estimate(session,
-                        a.rows,
-                        space_of(a),
-                        a.judgement.directions,
-                        a.judgement.pattern_left ? a.judgement.best_pattern : -1);
+                        a.system,
+                        marginalised_system(a),
+                        a.decision.regressors,
+                        a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
   return fmt::format(
       "Point {} by itself would make a name of it ({}{}, {:.0f} %); without it nothing is named. A "
       "lasting cause shows in more than one point, so the point is set aside: measure it again, "

@@ -11,9 +11,9 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Where, without one reading, nothing would be named: judges `analysis` anew with that reading set
-/// aside and says so in a sentence. Nothing is done where the name stands, where a set is left, or
-/// where the cause is a slip or a skip, which may show in one reading alone.
+/// Where, without one reading, nothing would be named: decides `analysis` anew with that reading
+/// set aside and says so in a sentence. Nothing is done where the name stands, where a set is left,
+/// or where the cause is a slip or a skip, which may show in one reading alone.
 [[nodiscard]] std::optional<std::string> refuse_name_of_one_reading(
     const Session& session,
     const DiagnosisOptions& options,

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "grid/diagnosis/downdating.hpp"
 #include "grid/diagnosis/leading.hpp"
-#include "grid/diagnosis/reweighing.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -45,32 +45,32 @@ class Statement {
  public:
   explicit Statement(const Analysis& a) : a_(a) {}
 
-  [[nodiscard]] bool holds(const Model& model) const {
+  [[nodiscard]] bool holds(const CandidateModel& model) const {
     const auto acts = [&](std::size_t index) {
-      const CauseClass& members = a_.judgement.classes[index];
-      return std::any_of(model.directions.begin(), model.directions.end(), [&](int k) {
-        return std::find(members.begin(), members.end(), direction(a_, k).cause) != members.end();
+      const CauseClass& members = a_.decision.classes[index];
+      return std::any_of(model.regressors.begin(), model.regressors.end(), [&](int k) {
+        return std::find(members.begin(), members.end(), regressor(a_, k).cause) != members.end();
       });
     };
-    const auto& listed = a_.judgement.listed;
-    return a_.judgement.verdict == Verdict::named_set
+    const auto& listed = a_.decision.listed;
+    return a_.decision.verdict == Verdict::named_set
                ? std::any_of(listed.begin(), listed.end(), acts)
                : std::all_of(listed.begin(), listed.end(), acts);
   }
 
   /// Logarithm of its odds.
-  [[nodiscard]] double log_odds(const Contest& contest) const {
+  [[nodiscard]] double log_odds(const ModelComparison& comparison) const {
     double with = 0.0;
     double against = 0.0;
-    const double best = contest.best().log_weight;
+    const double best = comparison.best().log_weight;
     // Of what holds and of what does not the larger one first: neither may vanish beside the other.
     double best_with = -std::numeric_limits<double>::infinity();
     double best_against = best_with;
-    for (const Model& model : contest.models) {
+    for (const CandidateModel& model : comparison.models) {
       double& highest = holds(model) ? best_with : best_against;
       highest = std::max(highest, model.log_weight - best);
     }
-    for (const Model& model : contest.models) {
+    for (const CandidateModel& model : comparison.models) {
       const double weight = model.log_weight - best;
       if (holds(model)) {
         with += std::exp(weight - best_with);
@@ -109,7 +109,7 @@ std::vector<LeftOut> groups_to_leave_out(const Session& session) {
   return groups;
 }
 
-bool still_named(const Judgement& all, const Judgement& without) {
+bool still_named(const Decision& all, const Decision& without) {
   const auto is_listed = [&](std::size_t index) {
     const CauseClass& members = all.classes[index];
     return std::any_of(without.listed.begin(), without.listed.end(), [&](std::size_t other) {
@@ -132,21 +132,22 @@ std::optional<Stability> examine_stability(const Session& session,
                                            const Analysis& a,
                                            const DiagnosisOptions& options) {
   // So few distances that the gain's folds, hole by hole, tell the same.
-  if (a.judgement.listed.empty() || session.distances) return std::nullopt;
+  if (a.decision.listed.empty() || session.distances) return std::nullopt;
   const std::vector<LeftOut> groups = groups_to_leave_out(session);
   if (groups.empty()) return std::nullopt;
-  const Reweighing reweighing(session, a, options);
+  const Downdating downdating(session, a, options);
   const Statement statement(a);
-  const double all = statement.log_odds(reweighing.without({}).contest);
+  const double all = statement.log_odds(downdating.without({}).comparison);
   Stability result;
   result.probability = probability_of(all);
   for (const LeftOut& group : groups) {
-    const auto without = reweighing.without(group.points);
+    const auto without = downdating.without(group.points);
     std::vector<bool> excluded(session.points.size(), false);
     for (const std::size_t i : group.points) excluded[i] = true;
     const bool seen = without.seen || options.told.has_value();
-    const Judgement judged = judge(a.rows, without.contest, excluded, seen, a.judgement.classes);
-    const double log_odds = statement.log_odds(without.contest);
+    const Decision decision =
+        decide(a.system, without.comparison, excluded, seen, a.decision.classes);
+    const double log_odds = statement.log_odds(without.comparison);
     Removal removal;
     removal.what = group.what;
     if (group.what == Removal::What::point) {
@@ -154,11 +155,11 @@ std::optional<Stability> examine_stability(const Session& session,
     }
     removal.at_mm = group.at_mm;
     removal.points = group.points.size();
-    removal.verdict = judged.verdict;
-    for (const std::size_t index : judged.listed) {
-      removal.causes.push_back(judged.classes[index].front());
+    removal.verdict = decision.verdict;
+    for (const std::size_t index : decision.listed) {
+      removal.causes.push_back(decision.classes[index].front());
     }
-    removal.stands = still_named(a.judgement, judged);
+    removal.stands = still_named(a.decision, decision);
     removal.probability = probability_of(log_odds);
     removal.support = all - log_odds;
     result.removals.push_back(std::move(removal));

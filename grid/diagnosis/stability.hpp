@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Does the name hang on a few of the points? The contest judged again without each point, and
+/// Does the name hang on a few of the points? The comparison decided again without each point, and
 /// without each column and row of marks.
 ///
 /// A column is a run of marks whose x differ by less than kLineGap_mm from one to the next; there
@@ -31,7 +31,7 @@ struct LeftOut {
 [[nodiscard]] std::vector<LeftOut> groups_to_leave_out(const Session& session);
 
 /// Whether what is named of all points is named in `without` too.
-[[nodiscard]] bool still_named(const Judgement& all, const Judgement& without);
+[[nodiscard]] bool still_named(const Decision& all, const Decision& without);
 
 /// Empty where the analysis names nothing.
 [[nodiscard]] std::optional<Stability> examine_stability(const Session& session,

@@ -16,10 +16,10 @@ constexpr double kSlip = 6.0;  // sigmas: a point so far off does not place the 
 /// Residuals with the placement of the sheet, and nothing else, fitted: whitened rows of points.
 class Placed {
  public:
-  Placed(const Session& to, const Rows& rows) : to_(to), rows_(rows) {
+  Placed(const Session& to, const LinearisedSystem& system) : to_(to), system_(system) {
     const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
-    by_sheet_ = rows.by_setting.rightCols(rows.setting.size() - machine);
-    sigma_ = rows.sigma.tail(rows.sigma.size() - machine);
+    by_sheet_ = system.by_setting.rightCols(system.setting.size() - machine);
+    sigma_ = system.sigma.tail(system.sigma.size() - machine);
   }
 
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& left) const {
@@ -52,7 +52,7 @@ class Placed {
 
  private:
   const Session& to_;
-  const Rows& rows_;
+  const LinearisedSystem& system_;
   Eigen::MatrixXd by_sheet_;
   Eigen::VectorXd sigma_;
 };
@@ -62,25 +62,27 @@ Eigen::VectorXd left_of(const Session& from,
                         const Analysis& a,
                         const Estimate& model,
                         const Session& to,
-                        const Rows& rows) {
+                        const LinearisedSystem& system) {
   const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
-  const Space& space = a.contest.spaces[a.judgement.space];
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
   Eigen::VectorXd left =
-      rows.e - rows.by_setting.leftCols(machine) * model.setting_change.head(machine);
-  for (std::size_t k = 0; k < model.directions.size(); ++k) {
-    const Direction& d = a.rows.directions[static_cast<std::size_t>(model.directions[k])];
+      system.e - system.by_setting.leftCols(machine) * model.setting_change.head(machine);
+  for (std::size_t k = 0; k < model.regressors.size(); ++k) {
+    const Regressor& d = a.system.regressors[static_cast<std::size_t>(model.regressors[k])];
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
     // only where the order of the visits is known.
     if (d.cause.effect->misread != nullptr) continue;
     if (d.cause.effect->needs == model::effects::DataNeed::order && !to.ordered) continue;
-    const auto g = signature(to, a.state, rows, d.cause, d.values);
+    const auto g = signature(to, a.state, system, d.cause, d.values);
     if (g) left -= *g * model.coefficient(static_cast<Eigen::Index>(k));
   }
-  if (model.pattern_weights.size() > 0) {
+  if (model.discrepancy_weights.size() > 0) {
     for (std::size_t i = 0; i < to.points.size(); ++i) {
       left.segment<2>(2 * static_cast<Eigen::Index>(i)) -=
-          rows.points[i].whitening *
-          pattern_at(from, a.rows, space, model, {to.points[i].mark, rows.points[i].by_mark});
+          system.points[i].whitening *
+          discrepancy_at(
+              from, a.system, marginalised, model, {to.points[i].mark, system.points[i].by_mark});
     }
   }
   return left;
@@ -98,24 +100,24 @@ std::vector<std::size_t> block_numbers(const Session& session) {
 }
 
 HeldOut summary(const Session& to,
-                const Rows& rows,
+                const LinearisedSystem& system,
                 const Eigen::VectorXd& left,
                 std::uint64_t seed) {
-  const auto chain = chain_residuals(rows, left);
+  const auto chain = chain_residuals(system, left);
   std::vector<Eigen::Vector2d> tool;
   for (std::size_t i = 0; i < chain.size(); ++i)
-    tool.push_back(tool_shift(rows.points[i], chain[i]));
+    tool.push_back(tool_shift(system.points[i], chain[i]));
   return summarise(tool, block_numbers(to), seed);
 }
 
-double floor_of(const Session& to, const Rows& rows) {
+double floor_of(const Session& to, const LinearisedSystem& system) {
   double sum = 0.0;
-  for (const PointState& p : rows.points) {
+  for (const PointState& p : system.points) {
     const Eigen::Matrix2d inverse = p.by_mark.inverse();
     sum += 2.0 * std::pow(to.noise.position_mm, 2) +
            (inverse * inverse.transpose()).trace() * std::pow(to.noise.length_mm, 2);
   }
-  return std::sqrt(sum / static_cast<double>(rows.points.size()));
+  return std::sqrt(sum / static_cast<double>(system.points.size()));
 }
 
 }  // namespace
@@ -137,27 +139,29 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   options.seed = diagnosis.seed;
   const auto a = analyse(*first, options);
   if (!a) return tl::unexpected(a.error());
-  const auto rows = base_rows(*second, a->state, {});
-  const auto stated = base_rows(*second, stated_state(*second), {});
-  if (!rows || !stated) {
+  const auto system = linearise(*second, a->state, {});
+  const auto stated = linearise(*second, stated_state(*second), {});
+  if (!system || !stated) {
     return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::point_unreachable,
                                            "a point of the other grid cannot be reached"});
   }
-  const Space& space = a->contest.spaces[a->judgement.space];
-  const std::vector<int>& causes = a->judgement.directions;
-  const Placed place(*second, *rows);
-  const auto judged = [&](const std::vector<int>& directions, int pattern) {
-    const Estimate model = estimate(*first, a->rows, space, directions, pattern);
-    return summary(*second, *rows, place(left_of(*first, *a, model, *second, *rows)), options.seed);
+  const MarginalisedSystem& marginalised =
+      a->comparison.marginalised_systems[a->decision.marginalised];
+  const std::vector<int>& causes = a->decision.regressors;
+  const Placed place(*second, *system);
+  const auto predicted_by = [&](const std::vector<int>& regressors, int discrepancy) {
+    const Estimate model = estimate(*first, a->system, marginalised, regressors, discrepancy);
+    return summary(
+        *second, *system, place(left_of(*first, *a, model, *second, *system)), options.seed);
   };
   Transfer result;
   result.points = second->points.size();
   result.as_delivered =
       summary(*second, *stated, Placed(*second, *stated)(stated->e), options.seed);
-  result.calibrated = judged({}, -1);
-  result.extended = judged(causes, -1);
-  result.extended_and_surface = judged(causes, a->judgement.best_pattern);
-  result.noise_floor_mm = floor_of(*second, *rows);
+  result.calibrated = predicted_by({}, -1);
+  result.extended = predicted_by(causes, -1);
+  result.extended_and_surface = predicted_by(causes, a->decision.best_discrepancy);
+  result.noise_floor_mm = floor_of(*second, *system);
   return result;
 }
 

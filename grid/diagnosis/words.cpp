@@ -61,18 +61,18 @@ std::string assumed_words(const Diagnosis& d) {
   return assumed ? " This rests on an assumed visiting order." : "";
 }
 
-/// A bad distance by its ends and by how much it is off.
-std::string distance_words(const Diagnosis& d, const BadPoint& bad) {
+/// An outlier by its ends and by how much it is off.
+std::string distance_words(const Diagnosis& d, const Outlier& bad) {
   return fmt::format("{} (read {:.1f} mm too {})",
                      words_of_ends(d.distances.at(bad.index)),
                      std::abs(bad.off_mm),
                      bad.off_mm > 0.0 ? "long" : "short");
 }
 
-/// The bad ones by number, or by their ends.
+/// The outliers by number, or by their ends.
 std::vector<std::string> bad_ones(const Diagnosis& d) {
   std::vector<std::string> result;
-  for (const BadPoint& b : d.bad_points) {
+  for (const Outlier& b : d.bad_points) {
     result.push_back(d.observations == Observations::distances ? distance_words(d, b)
                                                                : fmt::format("{}", b.index + 1));
   }
@@ -184,7 +184,7 @@ std::string sentence(const Session& session, const Diagnosis& d) {
 void say_what_to_read_again(Diagnosis& d) {
   const std::vector<std::size_t> points = points_it_rests_on(d);
   if (points.size() != 1) return;
-  const bool is_bad = std::any_of(d.bad_points.begin(), d.bad_points.end(), [&](const BadPoint& b) {
+  const bool is_bad = std::any_of(d.bad_points.begin(), d.bad_points.end(), [&](const Outlier& b) {
     return b.index == points.front();
   });
   if (is_bad) return;

@@ -13,9 +13,9 @@
 namespace chaintrue::grid::files {
 namespace {
 
-using diagnosis::BadPoint;
 using diagnosis::Diagnosis;
 using diagnosis::Observations;
+using diagnosis::Outlier;
 using diagnosis::StatedTape;
 using diagnosis::Verdict;
 
@@ -76,7 +76,7 @@ const Record<Shift>& shift_record() {
 }
 
 /// The points' indices and, beside them, how far each is off: two lists of one length.
-void bad_point_keys(Record<Diagnosis>& record) {
+void outlier_keys(Record<Diagnosis>& record) {
   static const Value<std::vector<int>> indices = list(integer(0, kMostPoints));
   static const Value<std::vector<Shift>> shifts = list(object(shift_record()));
   record.custom(
@@ -91,7 +91,7 @@ void bad_point_keys(Record<Diagnosis>& record) {
       },
       [](const Diagnosis& object) {
         Json json = Json::array();
-        for (const BadPoint& bad : object.bad_points) json.push_back(bad.index);
+        for (const Outlier& bad : object.bad_points) json.push_back(bad.index);
         return std::optional<Json>(std::move(json));
       });
   record.custom(
@@ -112,7 +112,7 @@ void bad_point_keys(Record<Diagnosis>& record) {
       },
       [](const Diagnosis& object) {
         Json json = Json::array();
-        for (const BadPoint& bad : object.bad_points) {
+        for (const Outlier& bad : object.bad_points) {
           json.push_back(shift_record().write(
               object.observations == Observations::distances
                   ? Shift{{}, {}, bad.off_mm, bad.distance}
@@ -167,7 +167,7 @@ Record<Diagnosis> make_diagnosis_record() {
       .required("causes", &Diagnosis::causes, list(object(cause_record())))
       .required("hypotheses", &Diagnosis::hypotheses, list(object(hypothesis_record())))
       .required("left_over", &Diagnosis::left_over, object(left_over_record()));
-  bad_point_keys(record);
+  outlier_keys(record);
   record.required("not_testable", &Diagnosis::not_testable, list(object(not_testable_record())))
       .required("bounds", &Diagnosis::bounds, list(object(bound_record())))
       .required("settings", &Diagnosis::settings, list(object(calibrated_setting_record())))

@@ -220,10 +220,11 @@ ModelSurface HoleMarks::surface_of(const Eigen::VectorXd& unknowns,
     const Eigen::Index known = columns.settings + 2;
     kept.topLeftCorner(known, known) = covariance.topLeftCorner(known, known);
   }
-  // The covariance has no more dimensions than the machine; a hair of each scale makes a factor.
-  constexpr double kHair = 1e-12;
+  // The covariance has the rank of the machine's unknowns: jitter on the diagonal lets it be
+  // factorised.
+  constexpr double kJitter = 1e-12;
   Eigen::MatrixXd lifted = 0.5 * (kept + kept.transpose());
-  lifted.diagonal() *= 1.0 + kHair;
+  lifted.diagonal() *= 1.0 + kJitter;
   lifted.diagonal().array() += 1e-14;
   return {machine_at(unknowns),
           sheet_at(unknowns),

@@ -90,7 +90,7 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
     return !is_of_the_paper(effect) && !of_the_visit(effect);
   });
   if (!paper.effects.empty()) {
-    const model::Paper marks(paper);
+    const model::MarkFrame marks(paper);
     for (MeasuredPoint& point : corrected.grid.points) point.mark = marks.place(point.mark);
     corrected.notes.push_back(
         fmt::format("The marks were put where they truly are ({}).", names_of(paper)));

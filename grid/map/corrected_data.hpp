@@ -4,11 +4,11 @@
 /// truly are, readings without drift, skips, miscounts and hysteresis. A map over the bed is made
 /// from these and never holds such an effect.
 ///
-///   mark' = Paper^-1(mark)        reading' = reading - (reading with visit effects - without)
+///   mark' = MarkFrame^-1(mark)        reading' = reading - (reading with visit effects - without)
 ///
-/// The visit effects are those of the machine at mark', in the order of the visits. Hysteresis looks
-/// only at which way a chain moved, so that the few millimetres by which a stated machine is off
-/// matter between two marks of nearly the same length alone.
+/// The visit effects are those of the machine at mark', in the order of the visits. Hysteresis
+/// looks only at which way a chain moved, so that the few millimetres by which a stated machine is
+/// off matter between two marks of nearly the same length alone.
 #pragma once
 
 #include <string>

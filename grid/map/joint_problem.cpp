@@ -49,8 +49,8 @@ JointProblem::JointProblem(const JointFitInput& input)
     : input_(input),
       unknowns_(input.machine, input.sheet),
       basis_(basis_for(input.domain, marks_of(input.points), input.bending_order)),
-      seen_(basis_, input.bending_order, marks_of(input.points)),
-      columns_{unknowns_.size(), seen_.polynomials(), seen_.bends()} {}
+      observed_(basis_, input.bending_order, marks_of(input.points)),
+      columns_{unknowns_.size(), observed_.polynomials(), observed_.bends()} {}
 
 /// The two rows of the design at a point: d(corrected lengths)/d(unknowns).
 Eigen::MatrixXd JointProblem::design_of(Eigen::Index point,
@@ -63,8 +63,8 @@ Eigen::MatrixXd JointProblem::design_of(Eigen::Index point,
     rows(row, columns_.scale(side)) =
         side == model::Side::left ? lengths.left_mm : lengths.right_mm;
     rows.row(row).segment(columns_.polynomial(side), columns_.polynomials) =
-        seen_.polynomial_rows().row(point);
-    rows.row(row).segment(columns_.bend(side), columns_.bends) = seen_.bend_rows().row(point);
+        observed_.polynomial_rows().row(point);
+    rows.row(row).segment(columns_.bend(side), columns_.bends) = observed_.bend_rows().row(point);
   }
   return rows;
 }
@@ -149,8 +149,8 @@ void JointProblem::add_surface_prior(interp::PenalisedProblem& problem,
   // Where the splines' own penalty would weigh as much as the data.
   for (std::size_t i = 0; i < white_.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    penalty.balance += weights[at] * seen_.squares()[at] * white_[i].whitening.squaredNorm() /
-                       (2.0 * seen_.penalty_trace());
+    penalty.balance += weights[at] * observed_.squares()[at] * white_[i].whitening.squaredNorm() /
+                       (2.0 * observed_.penalty_trace());
   }
   problem.penalties = {std::move(penalty)};
 }
@@ -169,9 +169,10 @@ interp::PenalisedProblem JointProblem::weighted(const Eigen::VectorXd& weights) 
 
 Eigen::VectorXd JointProblem::spline_coefficients(const interp::PenalisedFit& fit,
                                                   model::Side side) const {
-  return seen_.polynomial_coefficients() *
+  return observed_.polynomial_coefficients() *
              fit.coefficients.segment(columns_.polynomial(side), columns_.polynomials) +
-         seen_.bend_coefficients() * fit.coefficients.segment(columns_.bend(side), columns_.bends);
+         observed_.bend_coefficients() *
+             fit.coefficients.segment(columns_.bend(side), columns_.bends);
 }
 
 /// Of the splines' own coefficients: what the points see, and what keeps its prior.
@@ -183,16 +184,16 @@ Eigen::MatrixXd JointProblem::covariance(const interp::PenalisedFit& fit,
   for (const model::Side side : model::kSides) {
     to_splines.block(
         columns.spline(side), columns_.polynomial(side), columns.basis, columns_.polynomials) =
-        seen_.polynomial_coefficients();
+        observed_.polynomial_coefficients();
     to_splines.block(columns.spline(side), columns_.bend(side), columns.basis, columns_.bends) =
-        seen_.bend_coefficients();
+        observed_.bend_coefficients();
   }
   Eigen::MatrixXd result = to_splines * fit.corrected_covariance * to_splines.transpose();
-  const Eigen::MatrixXd unseen =
-      fit.inverse_lambda[0] * seen_.unseen_coefficients() * seen_.unseen_coefficients().transpose();
+  const Eigen::MatrixXd null_space = fit.inverse_lambda[0] * observed_.null_space_coefficients() *
+                                     observed_.null_space_coefficients().transpose();
   for (const model::Side side : model::kSides) {
     result.block(columns.spline(side), columns.spline(side), columns.basis, columns.basis) +=
-        unseen;
+        null_space;
   }
   return result;
 }

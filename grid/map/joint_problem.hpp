@@ -11,14 +11,14 @@
 
 #include "grid/map/fit_unknowns.hpp"
 #include "grid/map/joint_fit.hpp"
-#include "grid/map/seen_splines.hpp"
+#include "grid/map/observed_subspace.hpp"
 
 namespace chaintrue::grid {
 
 /// One point, linearised and whitened: rows of the design and the response, and the way back to
 /// millimetres.
 struct WhitePoint {
-  Eigen::MatrixXd design;                                   // 2 x SeenColumns::total()
+  Eigen::MatrixXd design;                                   // 2 x ObservedColumns::total()
   Eigen::Vector2d response;                                 // whitened, for all unknowns
   Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  // W with W C W' = I
 };
@@ -30,8 +30,8 @@ struct WhiteReading {
 };
 
 /// The unknowns while fitting, in this order: settings, both chains' scales, polynomials, and bends
-/// as the points see them (seen_splines.hpp).
-struct SeenColumns {
+/// as the points observe them (observed_subspace.hpp).
+struct ObservedColumns {
   Eigen::Index settings = 0;
   Eigen::Index polynomials = 0;  ///< of one surface
   Eigen::Index bends = 0;        ///< of one surface
@@ -62,7 +62,7 @@ class JointProblem {
 
   [[nodiscard]] const FitUnknowns& unknowns() const { return unknowns_; }
   [[nodiscard]] const interp::BsplineBasis& basis() const { return basis_; }
-  [[nodiscard]] const SeenColumns& columns() const { return columns_; }
+  [[nodiscard]] const ObservedColumns& columns() const { return columns_; }
   /// In the order of the points.
   [[nodiscard]] const std::vector<WhitePoint>& white() const { return white_; }
   /// Of the splines themselves, as a fit of the problem has them.
@@ -82,8 +82,8 @@ class JointProblem {
   const JointFitInput& input_;
   FitUnknowns unknowns_;
   interp::BsplineBasis basis_;
-  SeenSplines seen_;
-  SeenColumns columns_;
+  ObservedSubspace observed_;
+  ObservedColumns columns_;
   std::vector<WhitePoint> white_;
   std::vector<WhiteReading> extra_;
 };

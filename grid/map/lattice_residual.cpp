@@ -19,9 +19,9 @@ constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
 /// Share of the readings that the effective parameters make up where restricted maximum likelihood
 /// finds no noise.
 constexpr double kMetClosely = 0.95;
-/// One line with a node left out foretells it up to 1.6 times as badly as a surface does, without
+/// One line with a node left out predicts it up to 1.6 times as badly as a surface does, without
 /// noise, and 3.4 to 6 times with noise, which the lines' ends amplify.
-constexpr double kStillForetells = 2.0;
+constexpr double kStillPredicts = 2.0;
 /// Halving the spacing divides the error of a cubic by 16 inside, by some 8 in the cells at the
 /// ends.
 constexpr double kHalvedSpacing = 8.0;
@@ -83,7 +83,7 @@ model::PerSide<Eigen::MatrixXd> left_by_machine(const JointFit& fit, const Place
 
 /// What the longer line says of a node that is left out, NaN where it cannot be filled: what the
 /// surface's own error between the nodes is measured by.
-double foretold(const Places& places, Eigen::MatrixXd values, Eigen::Index ix, Eigen::Index iy) {
+double predicted(const Places& places, Eigen::MatrixXd values, Eigen::Index ix, Eigen::Index iy) {
   values(ix, iy) = kEmpty;
   const auto filled = interp::fill_missing(places.x_nodes_mm, places.y_nodes_mm, values);
   if (!filled) return kEmpty;
@@ -128,23 +128,23 @@ std::optional<LatticeFit> fit_lattice(const JointFit& fit) {
   if (!places) return std::nullopt;
   const model::PerSide<Eigen::MatrixXd> values = left_by_machine(fit, *places);
   LatticeFit lattice;
-  std::vector<Eigen::Vector2d> foretold_here;
-  std::vector<Eigen::Vector2d> foretold_there;
+  std::vector<Eigen::Vector2d> errors_here;
+  std::vector<Eigen::Vector2d> errors_there;
   for (std::size_t i = 0; i < fit.points.size(); ++i) {
     const auto [ix, iy] = places->of_point[i];
     Eigen::Vector2d residual = fit.points[i].left_out_residual_mm;
     if (!fit.points[i].bad) {
-      foretold_there.push_back(residual);
-      residual = {values.left(ix, iy) - foretold(*places, values.left, ix, iy),
-                  values.right(ix, iy) - foretold(*places, values.right, ix, iy)};
+      errors_there.push_back(residual);
+      residual = {values.left(ix, iy) - predicted(*places, values.left, ix, iy),
+                  values.right(ix, iy) - predicted(*places, values.right, ix, iy)};
       if (!residual.allFinite()) return std::nullopt;
-      foretold_here.push_back(residual);
+      errors_here.push_back(residual);
     }
     lattice.left_out_residual_mm.push_back(residual);
   }
   const bool noisy =
-      fit.effective_parameters < kMetClosely * 2.0 * static_cast<double>(foretold_here.size());
-  if (noisy || rms(foretold_here) > kStillForetells * rms(foretold_there)) return std::nullopt;
+      fit.effective_parameters < kMetClosely * 2.0 * static_cast<double>(errors_here.size());
+  if (noisy || rms(errors_here) > kStillPredicts * rms(errors_there)) return std::nullopt;
 
   lattice.residual.x_nodes_mm = places->x_nodes_mm;
   lattice.residual.y_nodes_mm = places->y_nodes_mm;
@@ -155,10 +155,10 @@ std::optional<LatticeFit> fit_lattice(const JointFit& fit) {
     lattice.residual.values_mm[side] = filled->values;
     for (const interp::FilledNode& node : filled->filled) {
       double& doubt = lattice.residual.doubt_mm(node.ix, node.iy);
-      doubt = std::max({doubt, node.doubt, rms(foretold_here)});
+      doubt = std::max({doubt, node.doubt, rms(errors_here)});
     }
   }
-  lattice.residual.interpolation_sigma_mm = rms(foretold_here) / kHalvedSpacing;
+  lattice.residual.interpolation_sigma_mm = rms(errors_here) / kHalvedSpacing;
   return lattice;
 }
 

@@ -32,7 +32,7 @@ struct LatticeResidual {
   model::PerSide<Eigen::MatrixXd> values_mm;  ///< (ix, iy)
   /// One sigma of a node's value beyond the readings' noise: zero where it was measured.
   Eigen::MatrixXd doubt_mm;
-  /// One sigma between the nodes, from what lines foretell of a node left out of them.
+  /// One sigma between the nodes, from what lines predict of a node left out of them.
   double interpolation_sigma_mm = 0.0;
 };
 
@@ -61,14 +61,14 @@ class LatticeSplines {
 
 struct LatticeFit {
   LatticeResidual residual;
-  /// Measured minus foretold by the lines through the point, in the order of the fit's points.
+  /// Measured minus predicted by the lines through the point, in the order of the fit's points.
   std::vector<Eigen::Vector2d> left_out_residual_mm;
 };
 
 /// Through what `fit` leaves with its penalised surface taken away. Nothing where the points do not
 /// stand alone on the nodes of a lattice of at least 4 x 4 lines with at most a tenth of the nodes
 /// empty, where the readings bear noise (the fit then has clearly fewer effective parameters than
-/// readings), or where the lines foretell left-out points far worse.
+/// readings), or where the lines predict left-out points far worse.
 [[nodiscard]] std::optional<LatticeFit> fit_lattice(const JointFit& fit);
 
 }  // namespace chaintrue::grid

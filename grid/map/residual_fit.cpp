@@ -83,10 +83,11 @@ Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vecto
   return mark_jacobian.inverse() * chain_mm;
 }
 
-/// Lays the sheet under the machine as stated by weighted least squares on its good points.
-model::SheetPlacement lay_sheet(const JointFitInput& input,
-                                const JointFit& fit,
-                                const model::ReadingModel& stated) {
+/// Fits the placement of the sheet under the machine as stated, by weighted least squares on its
+/// good points.
+model::SheetPlacement fit_sheet_placement(const JointFitInput& input,
+                                          const JointFit& fit,
+                                          const model::ReadingModel& stated) {
   const std::vector<model::Setting> settings(model::kSheetSettings.begin(),
                                              model::kSheetSettings.end());
   model::SheetPlacement sheet;
@@ -127,7 +128,7 @@ std::vector<MapPoint> map_points(const JointFitInput& input,
                                  const MeasuredGrid& grid) {
   const model::ReadingModel stated(*grid.machine);
   const model::SheetPlacement laid =
-      grid.sheet ? lay_sheet(input, fit, stated) : model::SheetPlacement{};
+      grid.sheet ? fit_sheet_placement(input, fit, stated) : model::SheetPlacement{};
   std::vector<MapPoint> points;
   for (const FittedPoint& fitted : fit.points) {
     MapPoint point;
@@ -224,11 +225,12 @@ std::vector<std::string> notes_of(const MapContents& map) {
   return notes;
 }
 
-/// C = F F'; rounding may leave C a hair indefinite, so that a Cholesky factor need not exist.
+/// C = F F'; rounding may leave C not quite semidefinite, so jitter on the diagonal lets it be
+/// factorised.
 Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance) {
-  constexpr double kHair = 1e-12;
+  constexpr double kJitter = 1e-12;
   Eigen::MatrixXd lifted = 0.5 * (covariance + covariance.transpose());
-  lifted.diagonal() *= 1.0 + kHair;
+  lifted.diagonal() *= 1.0 + kJitter;
   lifted.diagonal().array() += 1e-18;
   return lifted.llt().matrixL();
 }
@@ -269,7 +271,7 @@ MapContents contents_of(const MeasuredGrid& grid,
 }
 
 /// Readings with all their digits, as a simulator or a very good measurement gives them, bear a
-/// smoother surface than noisy ones. It is taken where it foretells left-out points a fifth better;
+/// smoother surface than noisy ones. It is taken where it predicts left-out points a fifth better;
 /// then `input` says so.
 void prefer_smoother(JointFitInput& input, JointFit& joint) {
   constexpr double kClearlyBetter = 0.8;

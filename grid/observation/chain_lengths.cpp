@@ -35,10 +35,10 @@ ChainLengthReadings::ChainLengthReadings(std::vector<Place> places,
 }
 
 tl::expected<Eigen::VectorXd, Unreachable> ChainLengthReadings::predicted(const View& view) const {
-  const model::Paper paper(view.model.machine());
+  const model::MarkFrame frame(view.model.machine());
   std::vector<model::Visit> visits;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    visits.push_back({view.sheet.to_bed(paper.place(places_[i].mark)),
+    visits.push_back({view.sheet.to_bed(frame.place(places_[i].mark)),
                       ordered_ ? places_[i].order : static_cast<int>(i)});
   }
   const auto lengths = model::readings(view.model, visits);
@@ -58,13 +58,13 @@ tl::expected<Eigen::VectorXd, Unreachable> ChainLengthReadings::predicted(const 
 
 tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
     const View& view, const std::vector<model::Setting>& settings) const {
-  const model::Paper paper(view.model.machine());
+  const model::MarkFrame frame(view.model.machine());
   Linearisation line;
   line.predicted.resize(rows());
   line.by_setting.resize(rows(), static_cast<Eigen::Index>(settings.size()));
   line.by_nuisance.resize(rows(), 0);
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const model::BedPoint place = paper.place(places_[i].mark);
+    const model::BedPoint place = frame.place(places_[i].mark);
     const auto reading = view.model.at(view.sheet.to_bed(place));
     if (!reading) return tl::unexpected(Unreachable{i, reading.error()});
     PlaceState state{

@@ -240,10 +240,10 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
     answer.lengths[i].left_mm += spec.unmodelled_mm * added.left_mm;
     answer.lengths[i].right_mm += spec.unmodelled_mm * added.right_mm;
   }
-  const model::Paper paper(answer.machine);
+  const model::MarkFrame mark_frame(answer.machine);
   std::vector<BedPoint> written;
   for (const BedPoint& place : answer.places)
-    written.push_back(paper.written(answer.sheet.to_mark(place)));
+    written.push_back(mark_frame.written(answer.sheet.to_mark(place)));
 
   session.grid.machine = stated;
   session.grid.noise = stated_noise(spec);
@@ -264,7 +264,7 @@ PlacesRead read_places(const Machine& stated,
   PlacesRead result;
   const Machine machine = with_effects(stated, hidden);
   const model::ReadingModel reading_model(machine, model);
-  const model::Paper paper(machine);
+  const model::MarkFrame mark_frame(machine);
   std::vector<Visit> reached;
   for (std::size_t i = 0; i < visits.size(); ++i) {
     const auto reading = reading_model.at(visits[i].position);
@@ -278,7 +278,7 @@ PlacesRead read_places(const Machine& stated,
   result.grid.machine = stated;
   for (std::size_t i = 0; i < reached.size(); ++i) {
     result.grid.points.push_back(
-        {paper.written(reached[i].position), lengths->at(i), std::nullopt, reached[i].order});
+        {mark_frame.written(reached[i].position), lengths->at(i), std::nullopt, reached[i].order});
   }
   return result;
 }

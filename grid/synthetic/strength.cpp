@@ -101,8 +101,8 @@ SessionSignature signature(const Machine& stated,
   Machine true_machine = stated;
   true_machine.effects.insert(true_machine.effects.end(), effects.begin(), effects.end());
   const model::ReadingModel plain(stated);
-  const model::Paper paper(true_machine);
-  const model::Paper stated_paper(stated);
+  const model::MarkFrame mark_frame(true_machine);
+  const model::MarkFrame stated_mark_frame(stated);
   const std::vector<model::ChainLengths> before = lengths_of(stated, visits);
   const std::vector<model::ChainLengths> after = lengths_of(true_machine, visits);
   SessionSignature result;
@@ -112,8 +112,8 @@ SessionSignature signature(const Machine& stated,
       throw std::invalid_argument(
           fmt::format("signature: visit {}: {}", i, explain(reading.error())));
     }
-    const model::BedPoint written = paper.written(visits[i].position);
-    const model::BedPoint usual = stated_paper.written(visits[i].position);
+    const model::BedPoint written = mark_frame.written(visits[i].position);
+    const model::BedPoint usual = stated_mark_frame.written(visits[i].position);
     const Eigen::Vector2d moved{written.x_mm - usual.x_mm, written.y_mm - usual.y_mm};
     const Eigen::Vector2d gained{after[i].left_mm - before[i].left_mm,
                                  after[i].right_mm - before[i].right_mm};

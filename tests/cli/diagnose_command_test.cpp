@@ -176,7 +176,7 @@ TEST_F(DiagnoseCommand, BadInputExitsWithThreeAndWritesNothing) {
   EXPECT_EQ(run("diagnose -o d.json").code, 2);
 }
 
-TEST_F(DiagnoseCommand, TellsHowWellItForetellsAnotherGrid) {
+TEST_F(DiagnoseCommand, TellsHowWellItPredictsAnotherGrid) {
   simulate("--effect beam_flex:-:flexibility_mm_per_n=0.02");
   ASSERT_EQ(run("simulate --machine " + machine_ +
                 " --grid 6x4 --length-noise-mm 0.2 --position-noise-mm 0.3 --seed 6 -o other.json "

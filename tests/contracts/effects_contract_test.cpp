@@ -66,10 +66,10 @@ Machine machine_with(const std::vector<AppliedEffect>& effects) {
 std::vector<double> seen(const Machine& machine, const std::vector<Visit>& visits) {
   const auto lengths = readings(ReadingModel(machine), visits);
   EXPECT_TRUE(lengths.has_value()) << "visit " << (lengths ? 0 : lengths.error().index);
-  const Paper paper(machine);
+  const MarkFrame mark_frame(machine);
   std::vector<double> numbers;
   for (std::size_t i = 0; lengths && i < visits.size(); ++i) {
-    const BedPoint mark = paper.written(visits[i].position);
+    const BedPoint mark = mark_frame.written(visits[i].position);
     numbers.insert(numbers.end(),
                    {mark.x_mm, mark.y_mm, (*lengths)[i].left_mm, (*lengths)[i].right_mm});
   }

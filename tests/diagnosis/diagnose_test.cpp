@@ -166,7 +166,7 @@ TEST(Diagnose, ClassesComeFromTheSignatures) {
   const CauseId pitch{model::effects::find_effect("chain_pitch_error"),
                       model::effects::EffectSide::both};
   const CauseId tape{model::effects::find_effect("tape_scale"), model::effects::EffectSide::both};
-  for (const CauseClass& members : analysis->judgement.classes) {
+  for (const CauseClass& members : analysis->decision.classes) {
     const bool has = std::find(members.begin(), members.end(), pitch) != members.end();
     if (!has) {
       EXPECT_EQ(members.size(), 1u) << members.front().effect->id;

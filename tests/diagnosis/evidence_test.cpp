@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The closed forms of the contest against brute force: numerical integrals over settings, sizes and
-// noise, densities that integrate to one, and the score's distribution under noise alone.
+// The closed forms of the comparison against brute force: numerical integrals over settings, sizes
+// and noise, densities that integrate to one, and the score's distribution under noise alone.
 #include "grid/diagnosis/evidence.hpp"
 
 #include <gtest/gtest.h>
@@ -22,26 +22,26 @@ namespace {
 constexpr double kDof = 12.0;
 
 /// Six rows, one setting, one cause: small enough for an integral over everything.
-Rows small_rows(double lowest) {
-  Rows rows;
-  rows.e.resize(6);
-  rows.e << 1.2, -0.4, 2.1, 0.3, -1.7, 0.9;
-  rows.by_setting.resize(6, 1);
-  rows.by_setting.col(0) << 0.5, 0.4, 0.6, 0.5, 0.3, 0.2;
-  rows.g.resize(6, 1);
-  rows.g.col(0) << 1.0, -0.5, 1.5, 0.2, -1.0, 0.7;
-  rows.points.resize(3);
-  rows.setting = Eigen::VectorXd::Zero(1);
-  rows.expected_change = Eigen::VectorXd::Constant(1, 0.4);
-  rows.sigma = Eigen::VectorXd::Constant(1, 2.0);
-  Direction direction;
-  direction.cause = {model::effects::find_effect("chain_stretch"),
+LinearisedSystem small_system(double lowest) {
+  LinearisedSystem system;
+  system.e.resize(6);
+  system.e << 1.2, -0.4, 2.1, 0.3, -1.7, 0.9;
+  system.by_setting.resize(6, 1);
+  system.by_setting.col(0) << 0.5, 0.4, 0.6, 0.5, 0.3, 0.2;
+  system.g.resize(6, 1);
+  system.g.col(0) << 1.0, -0.5, 1.5, 0.2, -1.0, 0.7;
+  system.points.resize(3);
+  system.setting = Eigen::VectorXd::Zero(1);
+  system.expected_change = Eigen::VectorXd::Constant(1, 0.4);
+  system.sigma = Eigen::VectorXd::Constant(1, 2.0);
+  Regressor regressor;
+  regressor.cause = {model::effects::find_effect("chain_stretch"),
                      model::effects::EffectSide::none};
-  direction.values = {1.0};
-  direction.lowest = lowest;
-  direction.highest = 100.0;
-  rows.directions = {direction};
-  return rows;
+  regressor.values = {1.0};
+  regressor.lowest = lowest;
+  regressor.highest = 100.0;
+  system.regressors = {regressor};
+  return system;
 }
 
 double log_normal_density(double x, double mean, double sigma) {
@@ -51,9 +51,12 @@ double log_normal_density(double x, double mean, double sigma) {
 
 /// p(e) with setting, size and noise integrated on a raster. Priors scale with the noise, as the
 /// conjugate form has it.
-double brute_force_at(
-    const Rows& rows, const Space& space, double lowest, bool with_cause, double delta_sigma) {
-  const double size_sigma = delta_sigma / space.g.col(0).norm();
+double brute_force_at(const LinearisedSystem& system,
+                      const MarginalisedSystem& marginalised,
+                      double lowest,
+                      bool with_cause,
+                      double delta_sigma) {
+  const double size_sigma = delta_sigma / marginalised.g.col(0).norm();
   double total = 0.0;
   const double step_u = 0.05;
   for (double u = -3.0; u <= 3.0; u += step_u) {  // u = log of the noise's square
@@ -74,7 +77,7 @@ double brute_force_at(
     const int steps = 120;
     for (int i = 0; i < steps; ++i) {
       const double z = -6.0 + 12.0 * (i + 0.5) / steps;
-      const double theta = rows.expected_change(0) + rows.sigma(0) * s * z;
+      const double theta = system.expected_change(0) + system.sigma(0) * s * z;
       const double weight_theta = std::exp(log_normal_density(z, 0.0, 1.0)) * 12.0 / steps;
       const int sizes = with_cause ? 5 * steps : 1;
       for (int k = 0; k < sizes; ++k) {
@@ -86,7 +89,8 @@ double brute_force_at(
           if (beta < lowest) continue;
           weight *= std::exp(log_normal_density(y, 0.0, 1.0)) * 12.0 / sizes;
         }
-        const Eigen::VectorXd left = rows.e - rows.by_setting.col(0) * theta - rows.g.col(0) * beta;
+        const Eigen::VectorXd left =
+            system.e - system.by_setting.col(0) * theta - system.g.col(0) * beta;
         inner += weight * std::exp(-0.5 * left.squaredNorm() / square) *
                  std::pow(2.0 * std::numbers::pi * square, -3.0);
       }
@@ -98,33 +102,39 @@ double brute_force_at(
   return total;
 }
 
-double brute_force(const Rows& rows, const Space& space, double lowest, bool with_cause) {
+double brute_force(const LinearisedSystem& system,
+                   const MarginalisedSystem& marginalised,
+                   double lowest,
+                   bool with_cause) {
   return std::log((1.0 - kWideDeltaPrior) *
-                      brute_force_at(rows, space, lowest, with_cause, kUsualDelta) +
-                  kWideDeltaPrior * brute_force_at(rows, space, lowest, with_cause, kWideDelta));
+                      brute_force_at(system, marginalised, lowest, with_cause, kUsualDelta) +
+                  kWideDeltaPrior *
+                      brute_force_at(system, marginalised, lowest, with_cause, kWideDelta));
 }
 
 TEST(Evidence, OfNothingEqualsTheIntegral) {
-  const Rows rows = small_rows(-100.0);
-  const Space space = make_space(rows, {false, false, false}, {});
-  const Metric metric = plain_metric(space, {0});
+  const LinearisedSystem system = small_system(-100.0);
+  const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
+  const NormalEquations equations = normal_equations(marginalised, {0});
   const NoiseDensity noise(kDof, 6);
-  const double closed = set_evidence(metric, rows.directions, {}, noise).log_evidence;
-  EXPECT_NEAR(closed, brute_force(rows, space, -100.0, false), 2e-4)  // raster of 120 by 120
+  const double closed = set_evidence(equations, system.regressors, {}, noise).log_evidence;
+  EXPECT_NEAR(
+      closed, brute_force(system, marginalised, -100.0, false), 2e-4)  // raster of 120 by 120
       << "settings integrated in closed form";
 }
 
 TEST(Evidence, OfACauseEqualsTheIntegral) {
   for (const double lowest : {-100.0, 0.0}) {
-    const Rows rows = small_rows(lowest);
-    const Space space = make_space(rows, {false, false, false}, {});
-    const Metric metric = plain_metric(space, {0});
+    const LinearisedSystem system = small_system(lowest);
+    const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
+    const NormalEquations equations = normal_equations(marginalised, {0});
     const NoiseDensity noise(kDof, 6);
     const std::array<Eigen::Index, 1> set = {0};
-    const double closed = set_evidence(metric, rows.directions, set, noise).log_evidence;
+    const double closed = set_evidence(equations, system.regressors, set, noise).log_evidence;
     // Where the size is cut at zero the closed form takes the noise at its mean for the cut alone.
     const double tolerance = lowest == 0.0 ? 0.02 : 2e-3;
-    EXPECT_NEAR(closed, brute_force(rows, space, lowest, true), tolerance) << "from " << lowest;
+    EXPECT_NEAR(closed, brute_force(system, marginalised, lowest, true), tolerance)
+        << "from " << lowest;
   }
 }
 
@@ -156,22 +166,23 @@ TEST(Evidence, MassOfTheNormalAddsUp) {
 }
 
 TEST(Evidence, QuadraticIsThatOfGeneralisedLeastSquares) {
-  const Rows rows = small_rows(-100.0);
-  const Space space = make_space(rows, {false, true, false}, {});
+  const LinearisedSystem system = small_system(-100.0);
+  const MarginalisedSystem marginalised = marginalise(system, {false, true, false}, {});
   const std::vector<Eigen::Index> kept = {0, 1, 4, 5};
-  ASSERT_EQ(space.kept, kept);
-  const Eigen::VectorXd a = rows.by_setting(kept, 0);
+  ASSERT_EQ(marginalised.kept, kept);
+  const Eigen::VectorXd a = system.by_setting(kept, 0);
   const Eigen::MatrixXd v = Eigen::MatrixXd::Identity(4, 4) + 4.0 * a * a.transpose();
-  const Eigen::VectorXd r = rows.e(kept) - 0.4 * a;
-  EXPECT_NEAR(space.e.squaredNorm(), r.dot(v.inverse() * r), 1e-12);  // rounding
-  EXPECT_NEAR(space.log_det, std::log(v.determinant()), 1e-12);       // rounding
-  EXPECT_NEAR(space.g.col(0).dot(space.e), rows.g.col(0)(kept).dot(v.inverse() * r), 1e-12);
+  const Eigen::VectorXd r = system.e(kept) - 0.4 * a;
+  EXPECT_NEAR(marginalised.e.squaredNorm(), r.dot(v.inverse() * r), 1e-12);  // rounding
+  EXPECT_NEAR(marginalised.log_det, std::log(v.determinant()), 1e-12);       // rounding
+  EXPECT_NEAR(
+      marginalised.g.col(0).dot(marginalised.e), system.g.col(0)(kept).dot(v.inverse() * r), 1e-12);
 }
 
 TEST(NullDistribution, HoldsItsSize) {
-  const Rows rows = small_rows(0.0);
-  const Space space = make_space(rows, {false, false, false}, {});
-  const SingleScore score(rows, space, kDof);
+  const LinearisedSystem system = small_system(0.0);
+  const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
+  const SingleScore score(system, marginalised, kDof);
   const NullDistribution null = draw_null(score, 6, 4000, 1);
   synthetic::Random random(20261121);
   SCOPED_TRACE("seed 20261121");

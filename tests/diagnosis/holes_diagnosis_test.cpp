@@ -113,7 +113,8 @@ TEST(HolesDiagnosisBadInput, AHoleOutOfReach) {
   expect_refused(set, DiagnosisFailure::Reason::point_unreachable, "hole A at (0.0, 5000.0)");
 }
 
-// The unknowns of the rows reproduce the covariance that a set of distances has as one observation.
+// The unknowns of the system reproduce the covariance that a set of distances has as one
+// observation.
 TEST(HolesDiagnosis, RowsAreTheObservation) {
   MeasuredHoles set = holes({}, 3);
   set.distances.push_back({.from = 0, .edge = SheetEdge::left, .distance_mm = 50.0});
@@ -121,43 +122,43 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
   const auto session = make_session(set);
   ASSERT_TRUE(session);
   const State state = stated_state(*session);
-  const auto rows = base_rows(*session, state, {});
-  ASSERT_TRUE(rows);
+  const auto system = linearise(*session, state, {});
+  ASSERT_TRUE(system);
   const auto line = session->distances->linearise(
       {model::ReadingModel(state.machine), state.sheet}, session->settings);
   ASSERT_TRUE(line);
-  const auto tape = rows->row_sigma_mm.asDiagonal();
+  const auto tape = system->row_sigma_mm.asDiagonal();
   const Eigen::MatrixXd nuisance =
-      tape * nuisance_columns(*rows) * rows->sigma.tail(rows->nuisances).asDiagonal();
+      tape * nuisance_columns(*system) * system->sigma.tail(system->nuisances).asDiagonal();
   Eigen::MatrixXd covariance = nuisance * nuisance.transpose();
-  covariance.diagonal() += rows->row_sigma_mm.cwiseAbs2();
+  covariance.diagonal() += system->row_sigma_mm.cwiseAbs2();
   // Two ways to the same sums of some forty products each.
   EXPECT_LT((covariance - observation::marginal_covariance(*line, session->distances->nuisance_sigma())).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((tape * rows->e - (session->distances->measured() - line->predicted)).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((tape * system->e - (session->distances->measured() - line->predicted)).cwiseAbs().maxCoeff(), 1e-9);
   const auto settings = static_cast<Eigen::Index>(session->settings.size());
   EXPECT_LT(
-      (tape * rows->by_setting.leftCols(settings) - line->by_setting).cwiseAbs().maxCoeff(),
+      (tape * system->by_setting.leftCols(settings) - line->by_setting).cwiseAbs().maxCoeff(),
       1e-9 * line->by_setting.cwiseAbs().maxCoeff());
 }
 
-// A setting's column foretells what moving the setting does: the whole path by differences.
+// A setting's column predicts what moving the setting does: the whole path by differences.
 TEST(HolesDiagnosis, ColumnsAreDerivativesOfTheWholePath) {
   const MeasuredHoles set = holes({}, 3);
   const auto session = make_session(set);
   const State state = stated_state(*session);
-  const auto rows = base_rows(*session, state, {});
+  const auto system = linearise(*session, state, {});
   constexpr double kStepMm = 0.01;
   for (Eigen::Index k = 0; k < 6; ++k) {
     SCOPED_TRACE(model::name(session->settings[static_cast<std::size_t>(k)]));
-    Eigen::VectorXd up = rows->setting;
+    Eigen::VectorXd up = system->setting;
     up(k) += kStepMm;
-    Eigen::VectorXd down = rows->setting;
+    Eigen::VectorXd down = system->setting;
     down(k) -= kStepMm;
-    const auto above = base_rows(*session, with_settings(*session, state, up), {});
-    const auto below = base_rows(*session, with_settings(*session, state, down), {});
+    const auto above = linearise(*session, with_settings(*session, state, up), {});
+    const auto below = linearise(*session, with_settings(*session, state, down), {});
     const Eigen::VectorXd slope = (below->e - above->e) / (2.0 * kStepMm);
     // Poses are found to 1e-9 mm, divided by the step and the tape's half millimetre.
-    EXPECT_LT((slope - rows->by_setting.col(k)).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT((slope - system->by_setting.col(k)).cwiseAbs().maxCoeff(), 1e-6);
   }
 }
 
@@ -166,15 +167,15 @@ TEST(HolesDiagnosis, ColumnsAreDerivativesOfTheWholePath) {
 TEST(HolesDiagnosis, AdditionsToTheChainsMoveDistancesAsThePathDoes) {
   const auto session = make_session(holes({}, 3));
   const State state = stated_state(*session);
-  const auto rows = base_rows(*session, state, {});
+  const auto system = linearise(*session, state, {});
   const model::effects::Effect& pitch = *model::effects::find_effect("chain_pitch_error");
   constexpr double kElongation = 1e-5;
-  const auto path =
-      signature(*session, state, *rows, {&pitch, model::effects::EffectSide::left}, {kElongation});
+  const auto path = signature(
+      *session, state, *system, {&pitch, model::effects::EffectSide::left}, {kElongation});
   ASSERT_TRUE(path);
   Eigen::VectorXd linear = Eigen::VectorXd::Zero(session->rows());
-  for (std::size_t u = 0; u < rows->units.size(); ++u) {
-    for (const SeenPlace& seen : rows->units[u]) {
+  for (std::size_t u = 0; u < system->units.size(); ++u) {
+    for (const SeenPlace& seen : system->units[u]) {
       const double added = -kElongation * session->points[seen.place].lengths.left_mm;
       linear(static_cast<Eigen::Index>(u)) += seen.by_chain(0, 0) * added;
     }
@@ -279,7 +280,7 @@ TEST(HolesDiagnosis, ADistanceThatIsOffIsNamedWithItsAmount) {
     const std::size_t k = seed % set.distances.size();
     set.distances[k].distance_mm -= 12.0;
     const Diagnosis found = diagnosed(set);
-    for (const BadPoint& bad : found.bad_points) {
+    for (const Outlier& bad : found.bad_points) {
       if (bad.index != k) {
         ++others;
         continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A real machine, scanned twice a day apart: the names stand whatever line is left out, one scan
-// foretells the other, and an effect planted on the real residuals is found. The scans stay in
+// predicts the other, and an effect planted on the real residuals is found. The scans stay in
 // ../shared/data; of the larger one every second mark is enough here. With CHAINTRUE_LONG set in
 // the environment every line is left out in turn. What all points say is in docs/diagnosis.md.
 #include <fmt/format.h>
@@ -105,7 +105,7 @@ TEST_F(RealScans, NamesStandWithoutAnyLine) {
   }
 }
 
-TEST_F(RealScans, OneScanForetellsTheOther) {
+TEST_F(RealScans, OneScanPredictsTheOther) {
   // The later scan, of the upper half, and the earlier one's marks there.
   const MeasuredGrid first = scan(kUpper);
   MeasuredGrid second = scan(kFull);
@@ -114,7 +114,7 @@ TEST_F(RealScans, OneScanForetellsTheOther) {
   const auto told = transfer(first, d, second);
   ASSERT_TRUE(told);
   fmt::print(
-      "foretold: {:.2f} mm as stated, {:.2f} calibrated, {:.2f} with the causes, {:.2f} with "
+      "predicted: {:.2f} mm as stated, {:.2f} calibrated, {:.2f} with the causes, {:.2f} with "
       "the surface\n",
       told->as_delivered.rms_mm,
       told->calibrated.rms_mm,

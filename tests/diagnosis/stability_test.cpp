@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a name hangs on a few points: the short way against contests held anew, a name that
+// Whether a name hangs on a few points: the short way against comparisons made anew, a name that
 // stands, and one that rests on a single point.
 #include "grid/diagnosis/stability.hpp"
 
@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/diagnosis/downdating.hpp"
 #include "grid/diagnosis/leading.hpp"
 #include "grid/diagnosis/normal_plot.hpp"
-#include "grid/diagnosis/reweighing.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "tests/diagnosis/sessions.hpp"
 
@@ -32,18 +32,18 @@ std::size_t count(const Stability& stability, Removal::What what) {
                                                 [&](const Removal& r) { return r.what == what; }));
 }
 
-double probability_that_all_act(const Analysis& a, const Contest& contest) {
+double probability_that_all_act(const Analysis& a, const ModelComparison& comparison) {
   double p = 0.0;
-  for (const Model& model : contest.models) {
+  for (const CandidateModel& model : comparison.models) {
     const bool all =
-        std::all_of(a.judgement.listed.begin(), a.judgement.listed.end(), [&](std::size_t index) {
-          const CauseClass& members = a.judgement.classes[index];
-          return std::any_of(model.directions.begin(), model.directions.end(), [&](int k) {
-            return std::find(members.begin(), members.end(), direction(a, k).cause) !=
+        std::all_of(a.decision.listed.begin(), a.decision.listed.end(), [&](std::size_t index) {
+          const CauseClass& members = a.decision.classes[index];
+          return std::any_of(model.regressors.begin(), model.regressors.end(), [&](int k) {
+            return std::find(members.begin(), members.end(), regressor(a, k).cause) !=
                    members.end();
           });
         });
-    if (all) p += contest.probability(model);
+    if (all) p += comparison.probability(model);
   }
   return p;
 }
@@ -78,25 +78,25 @@ TEST(LeavingOut, MarksThatLieAnywhereHaveNoColumns) {
   }
 }
 
-// Nothing left out: the contest itself, but for what the followed models leave aside.
-TEST(Reweighing, OfAllPointsIsTheContest) {
+// Nothing left out: the comparison itself, but for what the followed models leave aside.
+TEST(Downdating, OfAllPointsIsTheComparison) {
   const auto session = make_session(session_of({kLongLeft}, 3));
   const auto a = analyse(*session, verdict_alone());
   ASSERT_TRUE(a);
-  ASSERT_FALSE(a->judgement.listed.empty());
-  const Reweighing reweighing(*session, *a, verdict_alone());
-  const auto all = reweighing.without({});
+  ASSERT_FALSE(a->decision.listed.empty());
+  const Downdating downdating(*session, *a, verdict_alone());
+  const auto all = downdating.without({});
   EXPECT_TRUE(all.seen);
-  EXPECT_EQ(all.contest.best().directions, a->contest.best().directions);
+  EXPECT_EQ(all.comparison.best().regressors, a->comparison.best().regressors);
   // Two factorisations of one matrix.
-  EXPECT_NEAR(all.contest.best().log_weight, a->contest.best().log_weight, 1e-6);
-  EXPECT_NEAR(probability_that_all_act(*a, all.contest),
-              probability_that_all_act(*a, a->contest),
-              0.01);  // what patterns of less than a hundredth hold
+  EXPECT_NEAR(all.comparison.best().log_weight, a->comparison.best().log_weight, 1e-6);
+  EXPECT_NEAR(probability_that_all_act(*a, all.comparison),
+              probability_that_all_act(*a, a->comparison),
+              0.01);  // what discrepancies of less than a hundredth hold
 }
 
-// The short way against the long one: a contest of its own without each point and line.
-TEST(Reweighing, SaysWhatAContestHeldAnewSays) {
+// The short way against the long one: a comparison of its own without each point and line.
+TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
   const model::AppliedEffect wave{
       "sprocket_eccentricity", "left", {{"amplitude_mm", 0.6}, {"phase_rad", 1.0}}};
   for (const auto& [hidden, seed] : {std::pair(wave, 1), std::pair(kLongLeft, 2)}) {
@@ -104,7 +104,7 @@ TEST(Reweighing, SaysWhatAContestHeldAnewSays) {
     const auto session = make_session(session_of({hidden}, static_cast<std::uint64_t>(seed)));
     const auto a = analyse(*session, verdict_alone());
     ASSERT_TRUE(a);
-    ASSERT_EQ(a->judgement.verdict, Verdict::named);
+    ASSERT_EQ(a->decision.verdict, Verdict::named);
     const auto stability = examine_stability(*session, *a, verdict_alone());
     ASSERT_TRUE(stability);
     const auto groups = groups_to_leave_out(*session);
@@ -112,13 +112,13 @@ TEST(Reweighing, SaysWhatAContestHeldAnewSays) {
     for (std::size_t k = 0; k < groups.size(); k += 3) {
       std::vector<bool> excluded(session->points.size(), false);
       for (const std::size_t i : groups[k].points) excluded[i] = true;
-      const Contest contest =
-          hold_contest(*session, a->rows, excluded, {verdict_alone().steps, true, std::nullopt});
-      const Judgement judged = judge(a->rows, contest, excluded, true, a->judgement.classes);
-      EXPECT_EQ(stability->removals[k].stands, still_named(a->judgement, judged)) << "group " << k;
-      // What the models of all points leave aside: sets of bad points and patterns that only show
-      // once these points are gone.
-      EXPECT_NEAR(stability->removals[k].probability, probability_that_all_act(*a, contest), 0.1)
+      const ModelComparison comparison = compare_models(
+          *session, a->system, excluded, {verdict_alone().steps, true, std::nullopt});
+      const Decision decision = decide(a->system, comparison, excluded, true, a->decision.classes);
+      EXPECT_EQ(stability->removals[k].stands, still_named(a->decision, decision)) << "group " << k;
+      // What the models of all points leave aside: sets of outliers and discrepancies that only
+      // show once these points are gone.
+      EXPECT_NEAR(stability->removals[k].probability, probability_that_all_act(*a, comparison), 0.1)
           << "group " << k;
     }
   }

@@ -111,7 +111,7 @@ TEST(ProblemsOfEffects, AreABrokenPreconditionOfTheReadingModel) {
   Machine machine;
   machine.effects = {{"chain_rust", "", {}}};
   EXPECT_THROW(ReadingModel{machine}, std::invalid_argument);
-  EXPECT_THROW(Paper{machine}, std::invalid_argument);
+  EXPECT_THROW(MarkFrame{machine}, std::invalid_argument);
 }
 
 }  // namespace

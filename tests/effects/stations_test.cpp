@@ -75,30 +75,30 @@ TEST(Catalogue, HasTheSixteenEffectsInTheOrderInWhichTheyAct) {
                           "link_miscount"));
 }
 
-TEST(Paper, ScalesAndSkewsWhatIsWritten) {
-  const Paper x_long(machine_with({{"tape_scale", "x", {{"scale", 0.001}}}}));
+TEST(MarkFrame, ScalesAndSkewsWhatIsWritten) {
+  const MarkFrame x_long(machine_with({{"tape_scale", "x", {{"scale", 0.001}}}}));
   EXPECT_NEAR(x_long.written({1000.0, 500.0}).x_mm, 1001.0, kRounding_mm);
   EXPECT_NEAR(x_long.written({1000.0, 500.0}).y_mm, 500.0, kRounding_mm);
-  const Paper y_short(machine_with({{"tape_scale", "y", {{"scale", -0.001}}}}));
+  const MarkFrame y_short(machine_with({{"tape_scale", "y", {{"scale", -0.001}}}}));
   EXPECT_NEAR(y_short.written({1000.0, 500.0}).x_mm, 1000.0, kRounding_mm);
   EXPECT_NEAR(y_short.written({1000.0, 500.0}).y_mm, 499.5, kRounding_mm);
-  const Paper skewed(machine_with({{"axes_skew", "", {{"angle_rad", 0.002}}}}));
+  const MarkFrame skewed(machine_with({{"axes_skew", "", {{"angle_rad", 0.002}}}}));
   EXPECT_NEAR(skewed.written({1000.0, 500.0}).x_mm, 1001.0, kRounding_mm);
   EXPECT_NEAR(skewed.written({1000.0, 500.0}).y_mm, 500.0, kRounding_mm);
 }
 
-TEST(Paper, ScalesBeforeItSkews) {
-  const Paper paper(machine_with(
+TEST(MarkFrame, ScalesBeforeItSkews) {
+  const MarkFrame mark_frame(machine_with(
       {{"axes_skew", "", {{"angle_rad", 0.01}}}, {"tape_scale", "both", {{"scale", 0.02}}}}));
-  const BedPoint written = paper.written({1000.0, 500.0});
+  const BedPoint written = mark_frame.written({1000.0, 500.0});
   EXPECT_NEAR(written.x_mm, 1000.0 * 1.02 + 500.0 * 1.02 * 0.01, kRounding_mm);
   EXPECT_NEAR(written.y_mm, 500.0 * 1.02, kRounding_mm);
-  const BedPoint back = paper.place(written);
+  const BedPoint back = mark_frame.place(written);
   EXPECT_NEAR(back.x_mm, 1000.0, kRounding_mm);
   EXPECT_NEAR(back.y_mm, 500.0, kRounding_mm);
 }
 
-TEST(Paper, LeavesTheReadingsAlone) {
+TEST(MarkFrame, LeavesTheReadingsAlone) {
   const auto plain = read(Machine{}, visits_of(kPlaces));
   const auto taped =
       read(machine_with({{"tape_scale", "both", {{"scale", 0.01}}}}), visits_of(kPlaces));

@@ -139,16 +139,16 @@ TEST(Readings, EffectsTogetherAreTheSameNumberTwice) {
   }
 }
 
-TEST(Paper, IsTheSameMarkTwiceAndTurnsBack) {
+TEST(MarkFrame, IsTheSameMarkTwiceAndTurnsBack) {
   for (const Where where : {Where::x, Where::y, Where::both}) {
     const std::vector<Hidden> effects{{Cause::tape_scale, where, 0.002, 0.0},
                                       {Cause::axes_skew, Where::nowhere, -0.003, 0.0}};
     model::Machine machine;
     for (const Hidden& h : effects) machine.effects.push_back(applied(h));
-    const model::Paper paper(machine);
+    const model::MarkFrame mark_frame(machine);
     for (const Vec2 p : {Vec2{1100.0, -500.0}, Vec2{-300.0, 600.0}}) {
       const Vec2 ours = written(p, effects);
-      const auto theirs = paper.written({p.x, p.y});
+      const auto theirs = mark_frame.written({p.x, p.y});
       EXPECT_NEAR(ours.x, theirs.x_mm, 1e-10);  // rounding of 1e3 mm
       EXPECT_NEAR(ours.y, theirs.y_mm, 1e-10);
       const Vec2 back = place_of(ours, effects);

@@ -86,7 +86,7 @@ double tape_sigma_mm(double step_mm) { return std::sqrt((step_mm * step_mm + 0.2
 /// How well it is known how the tape was held: 101 mm were taken off in sets a and b, 40 mm in the
 /// others; half a millimetre is a hook's play, or a hole's edge taken for its middle.
 constexpr double kHookSigmaMm = 0.5;
-/// A hole's own error, with which these readings foretell each other best (below).
+/// A hole's own error, with which these readings predict each other best (below).
 constexpr double kHoleSigmaMm = 0.7;
 
 /// M5 and M9 are no holes, but feet of a plumb line on a string: left out.
@@ -131,9 +131,9 @@ void add(Pool& pool, const HolesFit& fit) {
   }
 }
 
-/// How well a fit foretells readings that it has not seen: the logarithm of their density, one in
+/// How well a fit predicts readings that it has not seen: the logarithm of their density, one in
 /// fifty of which is a slip of some 5 mm.
-double foretold(const HolesFit& fit) {
+double log_predictive_density(const HolesFit& fit) {
   constexpr double kSlips = 0.02;
   constexpr double kSlipMm = 5.0;
   const auto density = [](double off_mm, double sigma_mm) {
@@ -218,7 +218,7 @@ TEST_F(RealSets, DistancesArePredictedLeftOut) {
   EXPECT_EQ(together.good, 64) << "all of them fit";
 }
 
-TEST_F(RealSets, HoleSigmaIsWhatTheReadingsForetellEachOtherWithBest) {
+TEST_F(RealSets, HoleSigmaIsWhatTheReadingsPredictEachOtherWithBest) {
   double best = -1e9;
   double best_mm = 0.0;
   for (const double hole_sigma_mm : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
@@ -228,8 +228,8 @@ TEST_F(RealSets, HoleSigmaIsWhatTheReadingsForetellEachOtherWithBest) {
     Pool pool;
     add(pool, *first);
     add(pool, *second);
-    const double sum = foretold(*first) + foretold(*second);
-    fmt::print("hole sigma {:.1f}: foretold {:.2f}, all {:.3f}, those that fit {:.3f} ({})\n",
+    const double sum = log_predictive_density(*first) + log_predictive_density(*second);
+    fmt::print("hole sigma {:.1f}: log density {:.2f}, all {:.3f}, those that fit {:.3f} ({})\n",
                hole_sigma_mm,
                sum,
                pool.all_mm(),

@@ -134,24 +134,26 @@ TEST_P(RemlLikelihood, DerivativesAgreeWithDifferences) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(ArrowAndDense, RemlLikelihood, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(BorderedAndDense, RemlLikelihood, testing::Bool());
 
-TEST(Reml, ArrowAndDenseAgree) {
+TEST(Reml, BorderedAndDenseAgree) {
   const Joint joint = joint_problem(40, false);
-  ASSERT_TRUE(reml::is_arrow(joint.problem));
+  ASSERT_TRUE(reml::is_bordered(joint.problem));
   Joint reordered = joint;
   // A coupling of 1e-300 changes nothing but forces the dense way.
   reordered.problem.gram(0, joint.problem.penalties[1].first_column) = 1e-300;
-  ASSERT_FALSE(reml::is_arrow(reordered.problem));
-  const auto arrow = fit_penalised(joint.problem).value();
+  ASSERT_FALSE(reml::is_bordered(reordered.problem));
+  const auto bordered = fit_penalised(joint.problem).value();
   const auto dense = fit_penalised(reordered.problem).value();
   // The optimum is found to a gradient of 1e-7 in V.
-  EXPECT_LT((arrow.lambda.array().log() - dense.lambda.array().log()).cwiseAbs().maxCoeff(), 1e-5);
-  EXPECT_NEAR(arrow.minus_two_log_reml, dense.minus_two_log_reml, 1e-8);
-  EXPECT_LT((arrow.coefficients - dense.coefficients).cwiseAbs().maxCoeff(), 1e-5);
-  EXPECT_LT((arrow.covariance - dense.covariance).cwiseAbs().maxCoeff(), 1e-5);
-  EXPECT_LT((arrow.corrected_covariance - dense.corrected_covariance).cwiseAbs().maxCoeff(), 1e-4);
-  EXPECT_NEAR(arrow.edf, dense.edf, 1e-5);
+  EXPECT_LT((bordered.lambda.array().log() - dense.lambda.array().log()).cwiseAbs().maxCoeff(),
+            1e-5);
+  EXPECT_NEAR(bordered.minus_two_log_reml, dense.minus_two_log_reml, 1e-8);
+  EXPECT_LT((bordered.coefficients - dense.coefficients).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_LT((bordered.covariance - dense.covariance).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_LT((bordered.corrected_covariance - dense.corrected_covariance).cwiseAbs().maxCoeff(),
+            1e-4);
+  EXPECT_NEAR(bordered.edf, dense.edf, 1e-5);
 }
 
 TEST(Reml, FindsTheMinimumAGridFinds) {

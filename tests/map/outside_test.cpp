@@ -60,13 +60,13 @@ TEST_P(OutsideTheMap, EveryWayIsContinuousItsSlopesTrueAndItsSigmaNoSmaller) {
       const auto next = map.query({x + kStepMm, 120.0});
       if (!here || !next) continue;
       ++answered;
-      // The slope at either end foretells the step to the trapezoidal rule's error, some 1e-6 mm;
+      // The slope at either end predicts the step to the trapezoidal rule's error, some 1e-6 mm;
       // a jump, or a slope that belongs elsewhere, shows. Only clamp has a kink, at the hull: half
       // a step of the slope, the bump's 1 / 400 and a tenth.
-      const double foretold =
+      const double predicted =
           0.5 * kStepMm * (here->mark_jacobian(0, 0) + next->mark_jacobian(0, 0));
       const double kink = way == Outside::clamp ? 0.5 * kStepMm * 1.1 / 400.0 : 0.0;
-      ASSERT_NEAR(next->lengths.left_mm - here->lengths.left_mm, foretold, kink + 2e-5) << x;
+      ASSERT_NEAR(next->lengths.left_mm - here->lengths.left_mm, predicted, kink + 2e-5) << x;
       const auto as_it_is = own.query({x, 120.0});
       ASSERT_GE(here->sigma.left_mm, as_it_is->sigma.left_mm * (1.0 - 1e-12)) << x;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A whole diagnosis: contest, held-out gain with the naming repeated in each fold, next
+// A whole diagnosis: comparison, held-out gain with the naming repeated in each fold, next
 // measurements.
 #include <benchmark/benchmark.h>
 

@@ -31,10 +31,11 @@ class Distances final : public Observed {
     return session.distances->measured();
   }
 
-  [[nodiscard]] tl::expected<void, model::VisitFailure> linearise(const Session& session,
-                                                                  const State& state,
-                                                                  const Steps& steps,
-                                                                  Rows& rows) const override {
+  [[nodiscard]] tl::expected<void, model::VisitFailure> linearise(
+      const Session& session,
+      const State& state,
+      const Steps& steps,
+      LinearisedSystem& system) const override {
     const MeasuredHoles& set = session.distances->set();
     const model::ReadingModel model(state.machine);
     const auto places = session.distances->placed({model, state.sheet});
@@ -48,26 +49,26 @@ class Distances final : public Observed {
     for (std::size_t i = 0; i < places->size(); ++i) {
       const auto at = 2 * static_cast<Eigen::Index>(i);
       for (Eigen::Index k = 0; k < settings; ++k) {
-        rows.by_setting.col(k).head(count) +=
+        system.by_setting.col(k).head(count) +=
             by_mark.middleCols<2>(at) *
             observation::TapeDistances::mark_by_setting(
                 {model, state.sheet}, (*places)[i], session.settings[static_cast<std::size_t>(k)]);
       }
-      rows.points.push_back(
+      system.points.push_back(
           {(*places)[i].reading, (*places)[i].by_mark, Eigen::Matrix2d::Identity()});
     }
     const Eigen::MatrixXd by_hook = hook_columns(session);
-    rows.by_setting.block(0, settings, count, 2) = observation::tape_factor(state.machine) * geometry.by_size;
-    rows.by_setting.block(0, settings + 2, count, by_hook.cols()) = by_hook;
-    rows.by_setting.block(0, settings + 2 + by_hook.cols(), count, by_mark.cols()) = by_mark;
-    set_sigmas(set, steps, rows);
-    for (Eigen::Index k = 0; k < count; ++k) rows.units.push_back(unit_of(rows, by_mark, k));
+    system.by_setting.block(0, settings, count, 2) = observation::tape_factor(state.machine) * geometry.by_size;
+    system.by_setting.block(0, settings + 2, count, by_hook.cols()) = by_hook;
+    system.by_setting.block(0, settings + 2 + by_hook.cols(), count, by_mark.cols()) = by_mark;
+    set_sigmas(set, steps, system);
+    for (Eigen::Index k = 0; k < count; ++k) system.units.push_back(unit_of(system, by_mark, k));
     return {};
   }
 
-  void whiten(const Rows& rows, Eigen::VectorXd& mm) const override {
-    const Eigen::Index count = rows.row_sigma_mm.size();
-    mm.head(count) = mm.head(count).cwiseQuotient(rows.row_sigma_mm).eval();
+  void whiten(const LinearisedSystem& system, Eigen::VectorXd& mm) const override {
+    const Eigen::Index count = system.row_sigma_mm.size();
+    mm.head(count) = mm.head(count).cwiseQuotient(system.row_sigma_mm).eval();
   }
 
   [[nodiscard]] std::string untestable(const Session& /*session*/, CauseId cause) const override {
@@ -95,25 +96,27 @@ class Distances final : public Observed {
     return columns;
   }
 
-  static void set_sigmas(const MeasuredHoles& set, const Steps& steps, Rows& rows) {
+  static void set_sigmas(const MeasuredHoles& set, const Steps& steps, LinearisedSystem& system) {
     const auto count = static_cast<Eigen::Index>(set.distances.size());
-    rows.row_sigma_mm.resize(count);
+    system.row_sigma_mm.resize(count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      rows.row_sigma_mm(k) = sigma_of(set, set.distances[static_cast<std::size_t>(k)]);
+      system.row_sigma_mm(k) = sigma_of(set, set.distances[static_cast<std::size_t>(k)]);
     }
     if (!steps.whiten) {
-      rows.row_sigma_mm.setConstant(
-          std::sqrt(rows.row_sigma_mm.squaredNorm() / static_cast<double>(count)));
+      system.row_sigma_mm.setConstant(
+          std::sqrt(system.row_sigma_mm.squaredNorm() / static_cast<double>(count)));
     }
   }
 
-  static Unit unit_of(const Rows& rows, const Eigen::MatrixXd& by_mark, Eigen::Index row) {
+  static Unit unit_of(const LinearisedSystem& system,
+                      const Eigen::MatrixXd& by_mark,
+                      Eigen::Index row) {
     Unit unit;
-    for (std::size_t i = 0; i < rows.points.size(); ++i) {
+    for (std::size_t i = 0; i < system.points.size(); ++i) {
       const Eigen::RowVector2d own = by_mark.block<1, 2>(row, 2 * static_cast<Eigen::Index>(i));
       if (own.isZero(0.0)) continue;
       SeenPlace seen{i, Eigen::Matrix2d::Zero()};
-      seen.by_chain.row(0) = -own * rows.points[i].by_mark.inverse() / rows.row_sigma_mm(row);
+      seen.by_chain.row(0) = -own * system.points[i].by_mark.inverse() / system.row_sigma_mm(row);
       unit.push_back(seen);
     }
     return unit;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A way of measuring, as the rows need it: what a machine would give to be read, how that moves
-/// with the settings and with the chains, and which causes it can never show. One object a way;
-/// both are stateless and thread safe. Private to grid/diagnosis.
+/// A way of measuring, as the linearised system needs it: what a machine would give to be read, how
+/// that moves with the settings and with the chains, and which causes it can never show. One object
+/// a way; both are stateless and thread safe. Private to grid/diagnosis.
 ///
 ///   points     chain lengths read with the tool at a mark
 ///   distances  a tape between holes, which lie where the lengths paid out put the tool:
@@ -14,7 +14,7 @@
 #include <string>
 #include <tl/expected.hpp>
 
-#include "grid/diagnosis/rows.hpp"
+#include "grid/diagnosis/linearised_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -26,12 +26,13 @@ class Observed {
       const Session& session, const State& state, const model::Machine& machine) const = 0;
   [[nodiscard]] virtual Eigen::VectorXd measured(const Session& session) const = 0;
   /// Sets points, units, sigmas and, in mm, the observed rows of by_setting.
-  [[nodiscard]] virtual tl::expected<void, model::VisitFailure> linearise(const Session& session,
-                                                                          const State& state,
-                                                                          const Steps& steps,
-                                                                          Rows& rows) const = 0;
+  [[nodiscard]] virtual tl::expected<void, model::VisitFailure> linearise(
+      const Session& session,
+      const State& state,
+      const Steps& steps,
+      LinearisedSystem& system) const = 0;
   /// From mm to units of noise, the observed rows.
-  virtual void whiten(const Rows& rows, Eigen::VectorXd& mm) const = 0;
+  virtual void whiten(const LinearisedSystem& system, Eigen::VectorXd& mm) const = 0;
   /// Why nothing of the kind can show this cause; empty where it can.
   [[nodiscard]] virtual std::string untestable(const Session& session, CauseId cause) const = 0;
 };
@@ -40,7 +41,7 @@ class Observed {
 /// stay.
 [[nodiscard]] Eigen::VectorXd added(const Session& session,
                                     const State& state,
-                                    const Rows& rows,
+                                    const LinearisedSystem& system,
                                     CauseId cause,
                                     const std::vector<double>& values);
 

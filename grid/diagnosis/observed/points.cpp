@@ -11,19 +11,19 @@ namespace {
 std::vector<model::Visit> visits_of(const Session& session,
                                     const State& state,
                                     const model::Machine& machine) {
-  const model::Paper paper(machine);
+  const model::MarkFrame mark_frame(machine);
   std::vector<model::Visit> visits;
   for (std::size_t i = 0; i < session.points.size(); ++i) {
-    visits.push_back({state.sheet.to_bed(paper.place(session.points[i].mark)),
+    visits.push_back({state.sheet.to_bed(mark_frame.place(session.points[i].mark)),
                       session.ordered ? session.points[i].order : static_cast<int>(i)});
   }
   return visits;
 }
 
 /// One whitening for all, of the mean variance of a row.
-void whiten_alike(const Eigen::Matrix2d& summed, Rows& rows) {
-  const double mean = 0.5 * summed.trace() / static_cast<double>(rows.points.size());
-  for (PointState& point : rows.points) {
+void whiten_alike(const Eigen::Matrix2d& summed, LinearisedSystem& system) {
+  const double mean = 0.5 * summed.trace() / static_cast<double>(system.points.size());
+  for (PointState& point : system.points) {
     point.whitening = Eigen::Matrix2d::Identity() / std::sqrt(mean);
   }
 }
@@ -54,15 +54,16 @@ class Points final : public Observed {
     return all;
   }
 
-  [[nodiscard]] tl::expected<void, model::VisitFailure> linearise(const Session& session,
-                                                                  const State& state,
-                                                                  const Steps& steps,
-                                                                  Rows& rows) const override {
+  [[nodiscard]] tl::expected<void, model::VisitFailure> linearise(
+      const Session& session,
+      const State& state,
+      const Steps& steps,
+      LinearisedSystem& system) const override {
     const model::ReadingModel model(state.machine);
-    const model::Paper paper(state.machine);
+    const model::MarkFrame mark_frame(state.machine);
     Eigen::Matrix2d summed = Eigen::Matrix2d::Zero();
     for (std::size_t i = 0; i < session.points.size(); ++i) {
-      const model::BedPoint place = paper.place(session.points[i].mark);
+      const model::BedPoint place = mark_frame.place(session.points[i].mark);
       const auto reading = model.at(state.sheet.to_bed(place));
       if (!reading) return tl::unexpected(model::VisitFailure{i, reading.error()});
       PointState seen{*reading, reading->position_jacobian * state.sheet.rotation(), {}};
@@ -75,25 +76,25 @@ class Points final : public Observed {
           reading->position_jacobian * state.sheet.sensitivity(place);
       const auto row = 2 * static_cast<Eigen::Index>(i);
       constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
-      for (Eigen::Index k = 0; k < rows.setting.size(); ++k) {
-        rows.by_setting.block<2, 1>(row, k) =
+      for (Eigen::Index k = 0; k < system.setting.size(); ++k) {
+        system.by_setting.block<2, 1>(row, k) =
             k < kOfMachine
                 ? model.sensitivity(*reading, session.settings[static_cast<std::size_t>(k)])
                 : Eigen::Vector2d(by_sheet.col(k - kOfMachine));
       }
-      rows.points.push_back(std::move(seen));
+      system.points.push_back(std::move(seen));
     }
-    if (!steps.whiten) whiten_alike(summed, rows);
-    for (std::size_t i = 0; i < rows.points.size(); ++i) {
-      rows.units.push_back({{i, rows.points[i].whitening}});
+    if (!steps.whiten) whiten_alike(summed, system);
+    for (std::size_t i = 0; i < system.points.size(); ++i) {
+      system.units.push_back({{i, system.points[i].whitening}});
     }
     return {};
   }
 
-  void whiten(const Rows& rows, Eigen::VectorXd& mm) const override {
-    for (std::size_t i = 0; i < rows.points.size(); ++i) {
+  void whiten(const LinearisedSystem& system, Eigen::VectorXd& mm) const override {
+    for (std::size_t i = 0; i < system.points.size(); ++i) {
       auto pair = mm.segment<2>(2 * static_cast<Eigen::Index>(i));
-      pair = (rows.points[i].whitening * pair).eval();
+      pair = (system.points[i].whitening * pair).eval();
     }
   }
 

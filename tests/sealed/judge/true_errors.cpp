@@ -113,11 +113,11 @@ model::Machine extended(const grid::diagnosis::Diagnosis& found, bool same_visit
 
 std::optional<std::vector<Lengths>> predicted_by(const model::Machine& machine,
                                                  const Fresh& fresh) {
-  const model::Paper paper(machine);
+  const model::MarkFrame mark_frame(machine);
   std::vector<model::Visit> visits;
   for (std::size_t i = 0; i < fresh.marks.size(); ++i) {
     const model::BedPoint mark{fresh.marks[i].x, fresh.marks[i].y};
-    visits.push_back({paper.place(mark), fresh.numbers[i]});
+    visits.push_back({mark_frame.place(mark), fresh.numbers[i]});
   }
   const auto read = model::readings(model::ReadingModel(machine), visits);
   if (!read) return std::nullopt;

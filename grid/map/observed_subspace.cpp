@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/map/seen_splines.hpp"
+#include "grid/map/observed_subspace.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -23,9 +23,9 @@ Eigen::MatrixXd bending_root(const Eigen::MatrixXd& penalty, const Eigen::Matrix
 
 }  // namespace
 
-SeenSplines::SeenSplines(const interp::BsplineBasis& basis,
-                         int bending_order,
-                         const std::vector<model::BedPoint>& marks)
+ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
+                                   int bending_order,
+                                   const std::vector<model::BedPoint>& marks)
     : polynomials_(basis.polynomial_coefficients(bending_order - 1)) {
   const auto points = static_cast<Eigen::Index>(marks.size());
   const Eigen::Index size = basis.size();
@@ -46,7 +46,7 @@ SeenSplines::SeenSplines(const interp::BsplineBasis& basis,
   }
   if (points >= size) {
     bends_ = root;
-    unseen_.resize(size, 0);
+    null_space_.resize(size, 0);
     return;
   }
   // The rows are T' Q': the columns of Q are what the points see, the rest of the space what they
@@ -54,7 +54,7 @@ SeenSplines::SeenSplines(const interp::BsplineBasis& basis,
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(bend_rows_.transpose());
   const Eigen::MatrixXd turned = root * qr.householderQ();
   bends_ = turned.leftCols(points);
-  unseen_ = turned.rightCols(size - points);
+  null_space_ = turned.rightCols(size - points);
   bend_rows_ =
       Eigen::MatrixXd(qr.matrixQR().topRows(points).triangularView<Eigen::Upper>()).transpose();
 }

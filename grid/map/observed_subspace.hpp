@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a set of points sees of a penalised spline surface: as many combinations of its
-/// coefficients as there are points, however fine the splines are.
+/// The part of a penalised spline surface that a set of points observes: as many combinations of
+/// its coefficients as there are points, however fine the splines are.
 ///
 ///   s(q) = phi(q)' c,   c = F a + B u + B2 u2 (1) u, u2 ~ N(0, I / lambda) (2)
 ///
@@ -25,11 +25,11 @@
 namespace chaintrue::grid {
 
 /// Immutable, thread safe.
-class SeenSplines {
+class ObservedSubspace {
  public:
-  SeenSplines(const interp::BsplineBasis& basis,
-              int bending_order,
-              const std::vector<model::BedPoint>& marks);
+  ObservedSubspace(const interp::BsplineBasis& basis,
+                   int bending_order,
+                   const std::vector<model::BedPoint>& marks);
 
   [[nodiscard]] Eigen::Index polynomials() const { return polynomials_.cols(); }
   [[nodiscard]] Eigen::Index bends() const { return bends_.cols(); }
@@ -39,8 +39,8 @@ class SeenSplines {
   /// F and B.
   [[nodiscard]] const Eigen::MatrixXd& polynomial_coefficients() const { return polynomials_; }
   [[nodiscard]] const Eigen::MatrixXd& bend_coefficients() const { return bends_; }
-  /// B2; no columns where the points see everything.
-  [[nodiscard]] const Eigen::MatrixXd& unseen_coefficients() const { return unseen_; }
+  /// B2, a basis of the null space; no columns where the points observe everything.
+  [[nodiscard]] const Eigen::MatrixXd& null_space_coefficients() const { return null_space_; }
   /// Trace of P.
   [[nodiscard]] double penalty_trace() const { return penalty_trace_; }
   /// Sum over the splines of phi(q)^2, a mark each.
@@ -49,7 +49,7 @@ class SeenSplines {
  private:
   Eigen::MatrixXd polynomials_;
   Eigen::MatrixXd bends_;
-  Eigen::MatrixXd unseen_;
+  Eigen::MatrixXd null_space_;
   Eigen::MatrixXd polynomial_rows_;
   Eigen::MatrixXd bend_rows_;
   Eigen::VectorXd squares_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/rows.hpp"
+#include "grid/diagnosis/linearised_system.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -44,8 +44,10 @@ std::optional<Eigen::VectorXd> predicted(const Session& session,
   return all;
 }
 
-Eigen::VectorXd whitened(const Session& session, const Rows& rows, Eigen::VectorXd mm) {
-  observed_of(session).whiten(rows, mm);
+Eigen::VectorXd whitened(const Session& session,
+                         const LinearisedSystem& system,
+                         Eigen::VectorXd mm) {
+  observed_of(session).whiten(system, mm);
   for (std::size_t k = 0; k < session.readings.size(); ++k) {
     mm(session.observed_rows() + static_cast<Eigen::Index>(k)) /= session.readings[k].sigma;
   }
@@ -67,7 +69,7 @@ bool is_slip(const Effect& effect) {
          effect.misread({1, 1.0}, std::vector<double>{1.0, 0.0}) == 0.0;
 }
 
-std::vector<double> places(const Session& session, const Rows& rows, CauseId cause) {
+std::vector<double> places(const Session& session, const LinearisedSystem& system, CauseId cause) {
   const EffectParameter& place = *place_parameter(*cause.effect);
   std::vector<double> result;
   if (place.integer) {
@@ -82,7 +84,7 @@ std::vector<double> places(const Session& session, const Rows& rows, CauseId cau
     return result;
   }
   std::vector<double> angles;
-  for (const PointState& point : rows.points) {
+  for (const PointState& point : system.points) {
     const auto side = cause.side == EffectSide::left ? model::Side::left : model::Side::right;
     angles.push_back(point.reading.pose.chains[side].angle_rad);
   }
@@ -112,30 +114,30 @@ double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby) 
 }
 
 /// Goes on through zero as a straight line, where an odd effect changes its sign.
-bool is_odd(const Direction& direction) { return direction.power < 1.5; }
+bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
 
-void limit(Direction& direction) {
-  const EffectParameter& size = size_parameter(*direction.cause.effect);
-  const double at = direction.values.front();
+void limit(Regressor& regressor) {
+  const EffectParameter& size = size_parameter(*regressor.cause.effect);
+  const double at = regressor.values.front();
   const auto coefficient = [&](double bound) {
     const double ratio = bound / at;
-    return ratio < 0.0 ? -std::pow(-ratio, direction.power) : std::pow(ratio, direction.power);
+    return ratio < 0.0 ? -std::pow(-ratio, regressor.power) : std::pow(ratio, regressor.power);
   };
   const double a = coefficient(size.lower);
   const double b = coefficient(size.upper);
-  direction.lowest = std::min(a, b);
-  direction.highest = std::max(a, b);
+  regressor.lowest = std::min(a, b);
+  regressor.highest = std::max(a, b);
 }
 
 struct Column {
-  Direction direction;
+  Regressor regressor;
   Eigen::VectorXd g;
 };
 
 class Builder {
  public:
-  Builder(const Session& session, const State& state, const Rows& rows)
-      : session_(session), state_(state), rows_(rows) {}
+  Builder(const Session& session, const State& state, const LinearisedSystem& system)
+      : session_(session), state_(state), system_(system) {}
 
   void add(CauseId cause, const std::vector<Refinement>& refinements) {
     std::vector<double> values = model::effects::nominal_values(*cause.effect);
@@ -150,7 +152,7 @@ class Builder {
     } else if (place_parameter(*cause.effect) == nullptr) {
       add_one(cause, values, std::log(share_of_side(cause)));
     } else {
-      const std::vector<double> where = places(session_, rows_, cause);
+      const std::vector<double> where = places(session_, system_, cause);
       const double share = std::log(share_of_side(cause) / static_cast<double>(where.size()));
       for (const double place : where) {
         values.back() = place;
@@ -170,46 +172,46 @@ class Builder {
   }
 
   void add_one(CauseId cause, const std::vector<double>& values, double log_prior) {
-    auto g = signature(session_, state_, rows_, cause, values);
+    auto g = signature(session_, state_, system_, cause, values);
     if (!g || !(g->norm() > 0.0)) return;
     std::vector<double> smaller = values;
     smaller.front() *= refined_ ? kNearby : 0.5;
-    const auto half = signature(session_, state_, rows_, cause, smaller);
+    const auto half = signature(session_, state_, system_, cause, smaller);
     if (!half) return;
-    Direction direction;
-    direction.cause = cause;
-    direction.values = values;
-    direction.power = refined_ ? power_about(*g, *half) : power_of(*g, *half);
-    direction.log_prior = log_prior;
-    direction.refined = refined_;
-    limit(direction);
-    columns_.push_back({std::move(direction), std::move(*g)});
+    Regressor regressor;
+    regressor.cause = cause;
+    regressor.values = values;
+    regressor.power = refined_ ? power_about(*g, *half) : power_of(*g, *half);
+    regressor.log_prior = log_prior;
+    regressor.refined = refined_;
+    limit(regressor);
+    columns_.push_back({std::move(regressor), std::move(*g)});
   }
 
   void add_links(CauseId cause, std::vector<double> values) {
-    const std::vector<double> where = places(session_, rows_, cause);
+    const std::vector<double> where = places(session_, system_, cause);
     for (const double place : where) {
       values.back() = place;
       for (int links = -kMostLinks; links <= kMostLinks; ++links) {
         if (links == 0) continue;
         values.front() = links;
-        auto g = signature(session_, state_, rows_, cause, values);
+        auto g = signature(session_, state_, system_, cause, values);
         if (!g || !(g->norm() > 0.0)) continue;
-        Direction direction;
-        direction.cause = cause;
-        direction.values = values;
-        direction.fixed = true;
-        direction.slip = is_slip(*cause.effect);
-        direction.lowest = direction.highest = 1.0;
-        direction.visits = static_cast<double>(where.size());
-        columns_.push_back({std::move(direction), std::move(*g)});
+        Regressor regressor;
+        regressor.cause = cause;
+        regressor.values = values;
+        regressor.fixed = true;
+        regressor.slip = is_slip(*cause.effect);
+        regressor.lowest = regressor.highest = 1.0;
+        regressor.visits = static_cast<double>(where.size());
+        columns_.push_back({std::move(regressor), std::move(*g)});
       }
     }
   }
 
   const Session& session_;
   const State& state_;
-  const Rows& rows_;
+  const LinearisedSystem& system_;
   std::vector<Column> columns_;
   bool refined_ = false;
 };
@@ -243,13 +245,13 @@ namespace {
 void add_readings(const Session& session,
                   const State& state,
                   const Eigen::VectorXd& predicted_mm,
-                  Rows& rows) {
+                  LinearisedSystem& system) {
   for (std::size_t k = 0; k < session.readings.size(); ++k) {
     const Eigen::Index row = session.observed_rows() + static_cast<Eigen::Index>(k);
-    for (Eigen::Index s = 0; s < rows.setting.size(); ++s) {
-      Eigen::VectorXd moved = rows.setting;
+    for (Eigen::Index s = 0; s < system.setting.size(); ++s) {
+      Eigen::VectorXd moved = system.setting;
       moved(s) += 1.0;  // these readings are linear in the settings
-      rows.by_setting(row, s) =
+      system.by_setting(row, s) =
           predicted_reading(with_settings(session, state, moved).machine, session.readings[k]) -
           predicted_mm(row);
     }
@@ -267,76 +269,76 @@ Eigen::VectorXd measured(const Session& session) {
 
 }  // namespace
 
-tl::expected<Rows, model::VisitFailure> base_rows(const Session& session,
-                                                  const State& state,
-                                                  const Steps& steps) {
-  Rows rows;
-  rows.setting = setting_values(session, state);
-  rows.expected_change = session.stated_value - rows.setting;
-  rows.sigma = session.stated_sigma;
-  rows.unit_rows = session.unit_rows();
-  rows.nuisances = session.nuisances();
-  rows.by_setting = Eigen::MatrixXd::Zero(session.rows(), rows.setting.size());
-  if (auto done = observed_of(session).linearise(session, state, steps, rows); !done) {
+tl::expected<LinearisedSystem, model::VisitFailure> linearise(const Session& session,
+                                                              const State& state,
+                                                              const Steps& steps) {
+  LinearisedSystem system;
+  system.setting = setting_values(session, state);
+  system.expected_change = session.stated_value - system.setting;
+  system.sigma = session.stated_sigma;
+  system.unit_rows = session.unit_rows();
+  system.nuisances = session.nuisances();
+  system.by_setting = Eigen::MatrixXd::Zero(session.rows(), system.setting.size());
+  if (auto done = observed_of(session).linearise(session, state, steps, system); !done) {
     return tl::unexpected(done.error());
   }
   const auto all = predicted(session, state, state.machine);
   if (!all) return tl::unexpected(model::VisitFailure{0, model::PoseFailure::not_converged});
-  add_readings(session, state, *all, rows);
-  rows.e = whitened(session, rows, measured(session) - *all);
-  for (Eigen::Index k = 0; k < rows.setting.size(); ++k) {
-    rows.by_setting.col(k) = whitened(session, rows, rows.by_setting.col(k));
+  add_readings(session, state, *all, system);
+  system.e = whitened(session, system, measured(session) - *all);
+  for (Eigen::Index k = 0; k < system.setting.size(); ++k) {
+    system.by_setting.col(k) = whitened(session, system, system.by_setting.col(k));
   }
-  return rows;
+  return system;
 }
 
 std::optional<Eigen::VectorXd> signature(const Session& session,
                                          const State& state,
-                                         const Rows& rows,
+                                         const LinearisedSystem& system,
                                          CauseId cause,
                                          const std::vector<double>& values) {
   if (cause.effect->add != nullptr || cause.effect->misread != nullptr) {
-    return added(session, state, rows, cause, values);
+    return added(session, state, system, cause, values);
   }
   const model::Machine machine = with_effect(state.machine, cause, values);
   if (!model::effects::problems_of_effects(machine).empty()) return std::nullopt;
   const auto with = predicted(session, state, machine);
   const auto without = predicted(session, state, state.machine);
   if (!with || !without) return std::nullopt;
-  return whitened(session, rows, *with - *without);
+  return whitened(session, system, *with - *without);
 }
 
-void add_directions(const Session& session,
+void add_regressors(const Session& session,
                     const State& state,
                     const std::vector<CauseId>& causes,
                     const std::vector<Refinement>& refinements,
-                    Rows& rows) {
-  Builder builder(session, state, rows);
+                    LinearisedSystem& system) {
+  Builder builder(session, state, system);
   for (const CauseId& cause : causes) builder.add(cause, refinements);
   const auto count = static_cast<Eigen::Index>(builder.columns().size());
-  rows.g.resize(session.rows(), count);
+  system.g.resize(session.rows(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     Column& column = builder.columns()[static_cast<std::size_t>(k)];
-    rows.g.col(k) = column.g;
-    rows.directions.push_back(std::move(column.direction));
+    system.g.col(k) = column.g;
+    system.regressors.push_back(std::move(column.regressor));
   }
 }
 
-bool renew_directions(const Session& session,
+bool renew_regressors(const Session& session,
                       const State& state,
-                      const std::vector<Direction>& directions,
-                      Rows& rows) {
-  rows.directions = directions;
-  rows.g.resize(session.rows(), static_cast<Eigen::Index>(directions.size()));
-  for (std::size_t k = 0; k < directions.size(); ++k) {
-    Direction& d = rows.directions[k];
-    const auto g = signature(session, state, rows, d.cause, d.values);
+                      const std::vector<Regressor>& regressors,
+                      LinearisedSystem& system) {
+  system.regressors = regressors;
+  system.g.resize(session.rows(), static_cast<Eigen::Index>(regressors.size()));
+  for (std::size_t k = 0; k < regressors.size(); ++k) {
+    Regressor& d = system.regressors[k];
+    const auto g = signature(session, state, system, d.cause, d.values);
     if (!g || !(g->norm() > 0.0)) return false;
-    rows.g.col(static_cast<Eigen::Index>(k)) = *g;
+    system.g.col(static_cast<Eigen::Index>(k)) = *g;
     if (d.fixed) continue;
     std::vector<double> nearby = d.values;
     nearby.front() *= kNearby;
-    const auto there = signature(session, state, rows, d.cause, nearby);
+    const auto there = signature(session, state, system, d.cause, nearby);
     if (!there) return false;
     d.power = power_about(*g, *there);
     d.refined = true;
@@ -345,19 +347,19 @@ bool renew_directions(const Session& session,
   return true;
 }
 
-double size_at(const Direction& direction, double coefficient) {
-  const double at = direction.values.front();
-  if (direction.fixed) return at;
-  if (coefficient <= 0.0) return is_odd(direction) ? at * coefficient : 0.0;
-  return at * std::pow(coefficient, 1.0 / direction.power);
+double size_at(const Regressor& regressor, double coefficient) {
+  const double at = regressor.values.front();
+  if (regressor.fixed) return at;
+  if (coefficient <= 0.0) return is_odd(regressor) ? at * coefficient : 0.0;
+  return at * std::pow(coefficient, 1.0 / regressor.power);
 }
 
-double size_slope(const Direction& direction, double coefficient) {
-  if (direction.fixed) return 0.0;
-  const double at = direction.values.front();
-  if (coefficient <= 0.0 && is_odd(direction)) return at;
+double size_slope(const Regressor& regressor, double coefficient) {
+  if (regressor.fixed) return 0.0;
+  const double at = regressor.values.front();
+  if (coefficient <= 0.0 && is_odd(regressor)) return at;
   const double c = std::max(coefficient, 1e-6);
-  return at / direction.power * std::pow(c, 1.0 / direction.power - 1.0);
+  return at / regressor.power * std::pow(c, 1.0 / regressor.power - 1.0);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/polish.hpp"
+#include "grid/diagnosis/relinearise.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -16,20 +16,20 @@ constexpr double kSettled_mm = 1e-3;  // of a setting
 constexpr int kSteps = 5;             // of the search for a size
 constexpr double kLongestStep = 0.5;  // of a size
 
-/// How far the places next to a direction's own lie.
+/// How far the places next to a regressor's own lie.
 struct Reach {
   double below = 0.0;
   double above = 0.0;
 };
 
-bool has_continuous_place(const Direction& direction) {
-  const auto& parameters = direction.cause.effect->parameters;
+bool has_continuous_place(const Regressor& regressor) {
+  const auto& parameters = regressor.cause.effect->parameters;
   return parameters.size() > 1 && !parameters.back().integer;
 }
 
-Reach reach(const Rows& rows, const Direction& own) {
+Reach reach(const LinearisedSystem& system, const Regressor& own) {
   Reach result;
-  for (const Direction& d : rows.directions) {
+  for (const Regressor& d : system.regressors) {
     if (!(d.cause == own.cause)) continue;
     const double step = d.values.back() - own.values.back();
     if (step < 0.0 && (result.below == 0.0 || -step < result.below)) result.below = -step;
@@ -43,17 +43,21 @@ Reach reach(const Rows& rows, const Direction& own) {
 
 class Round {
  public:
-  Round(const Session& session, const State& state, const Rows& rows, Space space, int pattern)
-      : session_(session), state_(state), rows_(rows), space_(std::move(space)) {
+  Round(const Session& session,
+        const State& state,
+        const LinearisedSystem& system,
+        MarginalisedSystem marginalised,
+        int discrepancy)
+      : session_(session), state_(state), system_(system), marginalised_(std::move(marginalised)) {
     std::vector<int> all;
-    for (std::size_t k = 0; k < rows.directions.size(); ++k) all.push_back(static_cast<int>(k));
-    estimate_ = diagnosis::estimate(session, rows, space_, all, pattern);
+    for (std::size_t k = 0; k < system.regressors.size(); ++k) all.push_back(static_cast<int>(k));
+    estimate_ = diagnosis::estimate(session, system, marginalised_, all, discrepancy);
   }
   [[nodiscard]] const Estimate& estimate() const { return estimate_; }
 
   /// The size whose signature is as long, along the one at hand, as the coefficient asks for.
   [[nodiscard]] double size(std::size_t which) const {
-    const Direction& own = rows_.directions[which];
+    const Regressor& own = system_.regressors[which];
     const auto& bounds = own.cause.effect->parameters.front();
     const double asked = estimate_.coefficient(static_cast<Eigen::Index>(which));
     const auto bounded = [&](double s) { return std::clamp(s, bounds.lower, bounds.upper); };
@@ -76,7 +80,7 @@ class Round {
 
   /// The place at which a cause explains most, beside the others.
   [[nodiscard]] double place(std::size_t which, const Reach& reach) const {
-    const Direction& own = rows_.directions[which];
+    const Regressor& own = system_.regressors[which];
     double low = own.values.back() - reach.below;
     double high = own.values.back() + reach.above;
     const Others others(*this, which);
@@ -105,34 +109,34 @@ class Round {
 
  private:
   [[nodiscard]] std::optional<double> length(std::size_t which, double size) const {
-    std::vector<double> values = rows_.directions[which].values;
+    std::vector<double> values = system_.regressors[which].values;
     values.front() = size;
-    const auto g = signature(session_, state_, rows_, rows_.directions[which].cause, values);
+    const auto g = signature(session_, state_, system_, system_.regressors[which].cause, values);
     if (!g) return std::nullopt;
-    const auto own = space_.g.col(static_cast<Eigen::Index>(which));
-    return own.dot(reduced(space_, *g)) / own.squaredNorm();
+    const auto own = marginalised_.g.col(static_cast<Eigen::Index>(which));
+    return own.dot(reduced(marginalised_, *g)) / own.squaredNorm();
   }
 
-  /// What is left for one direction once the others have taken their share.
+  /// What is left for one regressor once the others have taken their share.
   class Others {
    public:
     Others(const Round& round, std::size_t which) : round_(round), which_(which) {
-      for (std::size_t k = 0; k < round.rows_.directions.size(); ++k) {
+      for (std::size_t k = 0; k < round.system_.regressors.size(); ++k) {
         if (k == which) continue;
-        columns_.conservativeResize(round.space_.e.size(), columns_.cols() + 1);
-        columns_.rightCols<1>() = round.space_.g.col(static_cast<Eigen::Index>(k));
+        columns_.conservativeResize(round.marginalised_.e.size(), columns_.cols() + 1);
+        columns_.rightCols<1>() = round.marginalised_.g.col(static_cast<Eigen::Index>(k));
       }
       ldlt_.compute(columns_.transpose() * columns_);
-      e_ = without(round.space_.e);
+      e_ = without(round.marginalised_.e);
     }
 
     [[nodiscard]] double gain(double place) const {
-      const Direction& own = round_.rows_.directions[which_];
+      const Regressor& own = round_.system_.regressors[which_];
       std::vector<double> values = own.values;
       values.back() = place;
-      const auto g = signature(round_.session_, round_.state_, round_.rows_, own.cause, values);
+      const auto g = signature(round_.session_, round_.state_, round_.system_, own.cause, values);
       if (!g) return 0.0;
-      const Eigen::VectorXd left = without(reduced(round_.space_, *g));
+      const Eigen::VectorXd left = without(reduced(round_.marginalised_, *g));
       const double square = left.squaredNorm();
       const double c = left.dot(e_);
       const double sign = round_.estimate_.coefficient(static_cast<Eigen::Index>(which_));
@@ -154,43 +158,44 @@ class Round {
 
   const Session& session_;
   const State& state_;
-  const Rows& rows_;
-  Space space_;
+  const LinearisedSystem& system_;
+  MarginalisedSystem marginalised_;
   Estimate estimate_;
 };
 
 }  // namespace
 
-Polished polish(const Session& session,
-                const State& state,
-                const Rows& rows,
-                const Space& space,
-                const Leaders& leaders,
-                const Steps& steps) {
-  std::vector<Direction> own;
+Relinearised relinearise(const Session& session,
+                         const State& state,
+                         const LinearisedSystem& system,
+                         const MarginalisedSystem& marginalised,
+                         const Leaders& leaders,
+                         const Steps& steps) {
+  std::vector<Regressor> own;
   std::vector<Reach> reaches;
-  for (const int k : leaders.directions) {
-    own.push_back(rows.directions[static_cast<std::size_t>(k)]);
-    reaches.push_back(reach(rows, own.back()));
+  for (const int k : leaders.regressors) {
+    own.push_back(system.regressors[static_cast<std::size_t>(k)]);
+    reaches.push_back(reach(system, own.back()));
   }
-  Polished result{state, {}};
+  Relinearised result{state, {}};
   for (int round = 0; round < kRounds; ++round) {
-    auto about = base_rows(session, result.state, steps);
-    if (!about || !renew_directions(session, result.state, own, *about)) break;
-    Space there = make_space(*about, space.bad, steps);
-    there.pattern_trace = space.pattern_trace;  // the pattern stays as strong as it was found
-    const Round here(session, result.state, *about, std::move(there), leaders.pattern);
+    auto about = linearise(session, result.state, steps);
+    if (!about || !renew_regressors(session, result.state, own, *about)) break;
+    MarginalisedSystem there = marginalise(*about, marginalised.outliers, steps);
+    there.discrepancy_trace =
+        marginalised.discrepancy_trace;  // the discrepancy stays as strong as it was found
+    const Round here(session, result.state, *about, std::move(there), leaders.discrepancy);
     const auto settings = static_cast<Eigen::Index>(session.settings.size());
     bool settled =
         here.estimate().setting_change.head(settings).cwiseAbs().maxCoeff() < kSettled_mm;
-    std::vector<Direction> moved = own;
+    std::vector<Regressor> moved = own;
     for (std::size_t k = 0; k < own.size(); ++k) {
       if (own[k].fixed) continue;
       moved[k].values.front() = here.size(k);
       settled = settled && std::abs(moved[k].values.front() - own[k].values.front()) <
                                kSettled * std::abs(own[k].values.front());
-      // Beside a pattern the best of the places tried has to do: e has the pattern in it.
-      if (has_continuous_place(own[k]) && leaders.pattern < 0)
+      // Beside a discrepancy the best of the places tried has to do: e has the discrepancy in it.
+      if (has_continuous_place(own[k]) && leaders.discrepancy < 0)
         moved[k].values.back() = here.place(k, reaches[k]);
     }
     State next =
@@ -202,7 +207,7 @@ Polished polish(const Session& session,
   }
   for (std::size_t k = 0; k < own.size(); ++k) {
     const double first =
-        rows.directions[static_cast<std::size_t>(leaders.directions[k])].values.front();
+        system.regressors[static_cast<std::size_t>(leaders.regressors[k])].values.front();
     // A secant over next to nothing has no direction.
     if (own[k].fixed || !(std::abs(own[k].values.front()) > kSettled * std::abs(first))) continue;
     result.refinements.push_back({own[k].cause, own[k].values, own[k].log_prior});

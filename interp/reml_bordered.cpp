@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A is bordered block-diagonal: a block for each penalty, and a border of the shared columns.
+//
 // Notation beyond reml.hpp, for one block with Gram matrix G and penalty S:
 //   c        balances the traces of G and S
 //   T        T' (G + c S) T = I and T' c S T = diag(w), hence T' G T = diag(1 - w)            (1)
 //   a        diagonal of A in the block: (1 - w) / sigma2 + (lambda / c) w
 //   C        T' times the Gram matrix of the block with the p shared columns
 //   U        diag(1 / a) C / sigma2
-//   H        Schur complement on the shared columns: G_pp / sigma2 + S0 - sum C' diag(1/a) C /
-//   sigma2^2
+//   H        Schur complement on the shared columns:
+//            G_pp / sigma2 + S0 - sum C' diag(1 / a) C / sigma2^2
 // A^-1 is diag(1 / a) + U H^-1 U' within the blocks, -U H^-1 beside them, H^-1 in the corner. (2)
 //
 // With little noise H loses its digits to that difference. Where the rows are known and one penalty
 // is the identity (F the n x m part of X that it touches, Z the rest, F F' = Q diag(e) Q'):
-//   D        diag(1 / (sigma2 + e / lambda)), so that Q D Q' is the inverse of sigma2 I + F F' /
-//   lambda H        = S0 + Z' Q D Q' Z, all its terms positive (3) the shared coefficients s = H^-1
-//   (S0 s0 + Z' Q D Q' y), and with r = y - Z s the others are F' Q D Q' r / lambda, the deviance
-//   r' Q D Q' r + (s - s0)' S0 (s - s0)                        (4)
+//   D        diag(1 / (sigma2 + e / lambda)): Q D Q' is the inverse of sigma2 I + F F' / lambda
+//   H        = S0 + Z' Q D Q' Z, all its terms positive                                       (3)
+// the shared coefficients are s = H^-1 (S0 s0 + Z' Q D Q' y), and with r = y - Z s the others are
+// F' Q D Q' r / lambda, the deviance r' Q D Q' r + (s - s0)' S0 (s - s0).                     (4)
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -52,13 +54,13 @@ struct TurnedRows {
   Eigen::MatrixXd to_block;     // T^-1 F' Q
 };
 
-class ArrowFactor final : public Factor {
+class BorderedFactor final : public Factor {
  public:
-  ArrowFactor(const std::vector<Block>& blocks,
-              const Shared& shared,
-              const std::optional<TurnedRows>& rows,
-              const Eigen::VectorXd& lambda,
-              double sigma2)
+  BorderedFactor(const std::vector<Block>& blocks,
+                 const Shared& shared,
+                 const std::optional<TurnedRows>& rows,
+                 const Eigen::VectorXd& lambda,
+                 double sigma2)
       : blocks_(blocks), shared_(shared), rows_(rows), lambda_(lambda), size_(shared.gram.rows()) {
     const double per_sigma2 = 1.0 / sigma2;
     Eigen::MatrixXd h = per_sigma2 * shared.gram + shared.prior;
@@ -202,9 +204,9 @@ class ArrowFactor final : public Factor {
   bool positive_ = false;
 };
 
-class ArrowStructure final : public Structure {
+class BorderedStructure final : public Structure {
  public:
-  explicit ArrowStructure(const PenalisedProblem& problem) : columns_(problem.columns()) {
+  explicit BorderedStructure(const PenalisedProblem& problem) : columns_(problem.columns()) {
     gather_shared(problem);
     Eigen::Index working = 0;
     for (const Penalty& penalty : problem.penalties) {
@@ -244,7 +246,7 @@ class ArrowStructure final : public Structure {
 
   [[nodiscard]] std::unique_ptr<Factor> factor(const Eigen::VectorXd& lambda,
                                                double sigma2) const override {
-    auto result = std::make_unique<ArrowFactor>(blocks_, shared_, rows_, lambda, sigma2);
+    auto result = std::make_unique<BorderedFactor>(blocks_, shared_, rows_, lambda, sigma2);
     if (!result->positive()) {
       return nullptr;
     }
@@ -430,7 +432,7 @@ class ArrowStructure final : public Structure {
 
 }  // namespace
 
-bool is_arrow(const PenalisedProblem& problem) {
+bool is_bordered(const PenalisedProblem& problem) {
   std::vector<int> owner(static_cast<std::size_t>(problem.columns()), -1);
   for (std::size_t k = 0; k < problem.penalties.size(); ++k) {
     const Penalty& penalty = problem.penalties[k];
@@ -461,8 +463,8 @@ bool is_arrow(const PenalisedProblem& problem) {
   return true;
 }
 
-std::unique_ptr<Structure> make_arrow(const PenalisedProblem& problem) {
-  auto result = std::make_unique<ArrowStructure>(problem);
+std::unique_ptr<Structure> make_bordered(const PenalisedProblem& problem) {
+  auto result = std::make_unique<BorderedStructure>(problem);
   if (!result->positive()) {
     return nullptr;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The session as linear equations about a state of the machine: whitened residuals, how the
-/// settings move them, and a direction for every effect of the catalogue at every place where it
+/// settings move them, and a regressor for every effect of the catalogue at every place where it
 /// may set in.
 ///
 /// Of holes (observed/observed.hpp) the rows are distances, with W_i = 1 / tape's sigma, and A has
@@ -14,8 +14,8 @@
 ///   sigma A    d(prediction)/d(settings), whitened        g_k  prediction with the effect less
 ///   without it, whitened
 ///
-/// A direction is a secant: exact at the size at which it was taken, and proportional to
-/// size^power. Coefficient b of a direction is (size / that size)^power; a power of about one goes
+/// A regressor is a secant: exact at the size at which it was taken, and proportional to
+/// size^power. Coefficient b of a regressor is (size / that size)^power; a power of about one goes
 /// on through zero as a straight line.
 #pragma once
 
@@ -29,7 +29,7 @@
 namespace chaintrue::grid::diagnosis {
 
 /// An effect at one side, one place and one size.
-struct Direction {
+struct Regressor {
   CauseId cause;
   std::vector<double> values;  ///< sizes and places, in the effect's order
   double power = 1.0;          ///< of a refined one: as it is about its size
@@ -63,11 +63,11 @@ struct SeenPlace {
 };
 using Unit = std::vector<SeenPlace>;
 
-struct Rows {
+struct LinearisedSystem {
   Eigen::VectorXd e;
   Eigen::MatrixXd by_setting;  ///< A
-  Eigen::MatrixXd g;           ///< a column a direction
-  std::vector<Direction> directions;
+  Eigen::MatrixXd g;           ///< a column a regressor
+  std::vector<Regressor> regressors;
   std::vector<PointState> points;
   std::vector<Unit> units;
   Eigen::Index unit_rows = 2;
@@ -92,39 +92,39 @@ struct Refinement {
   double log_prior = 0.0;
 };
 
-/// Rows without directions. Fails where a point, or a hole, cannot be reached.
-[[nodiscard]] tl::expected<Rows, model::VisitFailure> base_rows(const Session& session,
-                                                                const State& state,
-                                                                const Steps& steps);
+/// The system without regressors. Fails where a point, or a hole, cannot be reached.
+[[nodiscard]] tl::expected<LinearisedSystem, model::VisitFailure> linearise(const Session& session,
+                                                                            const State& state,
+                                                                            const Steps& steps);
 
-/// Appends the directions of all these causes.
-void add_directions(const Session& session,
+/// Appends the regressors of all these causes.
+void add_regressors(const Session& session,
                     const State& state,
                     const std::vector<CauseId>& causes,
                     const std::vector<Refinement>& refinements,
-                    Rows& rows);
+                    LinearisedSystem& system);
 
 /// What stands in the nuisances' columns; nothing for points.
-[[nodiscard]] inline auto nuisance_columns(const Rows& rows) {
-  return rows.by_setting.rightCols(rows.nuisances);
+[[nodiscard]] inline auto nuisance_columns(const LinearisedSystem& system) {
+  return system.by_setting.rightCols(system.nuisances);
 }
 
-/// Directions anew about another state, at their values. False where such a machine cannot be.
-[[nodiscard]] bool renew_directions(const Session& session,
+/// Regressors anew about another state, at their values. False where such a machine cannot be.
+[[nodiscard]] bool renew_regressors(const Session& session,
                                     const State& state,
-                                    const std::vector<Direction>& directions,
-                                    Rows& rows);
+                                    const std::vector<Regressor>& regressors,
+                                    LinearisedSystem& system);
 
 /// The whitened column of an effect of these values; empty where such a machine cannot be.
 [[nodiscard]] std::optional<Eigen::VectorXd> signature(const Session& session,
                                                        const State& state,
-                                                       const Rows& rows,
+                                                       const LinearisedSystem& system,
                                                        CauseId cause,
                                                        const std::vector<double>& values);
 
-/// Size of a cause at a coefficient of its direction.
-[[nodiscard]] double size_at(const Direction& direction, double coefficient);
+/// Size of a cause at a coefficient of its regressor.
+[[nodiscard]] double size_at(const Regressor& regressor, double coefficient);
 /// d(size)/d(coefficient) there.
-[[nodiscard]] double size_slope(const Direction& direction, double coefficient);
+[[nodiscard]] double size_slope(const Regressor& regressor, double coefficient);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/bad_points.hpp"
+#include "grid/diagnosis/outlier_search.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/contest.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -23,29 +23,29 @@ struct Seen {
 };
 
 struct Found {
-  std::vector<bool> bad;
+  std::vector<bool> outliers;
   double log_weight = 0.0;
 };
 
 Seen seen_by(const Seen& nothing,
-             const Space& space,
-             const Rows& rows,
+             const MarginalisedSystem& marginalised,
+             const LinearisedSystem& system,
              const std::vector<int>& set) {
   Seen seen = nothing;
-  Eigen::VectorXd e = space.e;
+  Eigen::VectorXd e = marginalised.e;
   for (const int k : set) {
-    if (rows.directions[static_cast<std::size_t>(k)].fixed) e -= space.g.col(k);
+    if (system.regressors[static_cast<std::size_t>(k)].fixed) e -= marginalised.g.col(k);
   }
-  const auto upper = space.factor.transpose().triangularView<Eigen::Upper>();
+  const auto upper = marginalised.factor.transpose().triangularView<Eigen::Upper>();
   seen.u = upper.solve(e);
   seen.quadratic = e.squaredNorm();
   std::vector<Eigen::VectorXd> taken;
   for (const int k : set) {
-    if (rows.directions[static_cast<std::size_t>(k)].fixed) continue;
-    const double prior = space.g.col(k).squaredNorm() / (kWideDelta * kWideDelta);
+    if (system.regressors[static_cast<std::size_t>(k)].fixed) continue;
+    const double prior = marginalised.g.col(k).squaredNorm() / (kWideDelta * kWideDelta);
     // P g for the precision so far
-    Eigen::VectorXd pg = upper.solve(Eigen::VectorXd(space.g.col(k)));
-    const Eigen::VectorXd g = space.factor * space.g.col(k);
+    Eigen::VectorXd pg = upper.solve(Eigen::VectorXd(marginalised.g.col(k)));
+    const Eigen::VectorXd g = marginalised.factor * marginalised.g.col(k);
     for (const Eigen::VectorXd& t : taken) pg -= t * t.dot(g);
     const double denominator = prior + g.dot(pg);
     const double ug = seen.u.dot(g);
@@ -58,12 +58,13 @@ Seen seen_by(const Seen& nothing,
   return seen;
 }
 
-/// Blocks of rows in `space` that are one unit, with the unit's number.
-std::vector<std::pair<Eigen::Index, std::size_t>> blocks(const Rows& rows, const Space& space) {
+/// Blocks of rows in `marginalised` that are one unit, with the unit's number.
+std::vector<std::pair<Eigen::Index, std::size_t>> blocks(const LinearisedSystem& system,
+                                                         const MarginalisedSystem& marginalised) {
   std::vector<std::pair<Eigen::Index, std::size_t>> result;
-  for (std::size_t a = 0; a < space.kept.size(); ++a) {
-    const auto unit = static_cast<std::size_t>(space.kept[a] / rows.unit_rows);
-    if (space.kept[a] % rows.unit_rows == 0 && unit < rows.units.size()) {
+  for (std::size_t a = 0; a < marginalised.kept.size(); ++a) {
+    const auto unit = static_cast<std::size_t>(marginalised.kept[a] / system.unit_rows);
+    if (marginalised.kept[a] % system.unit_rows == 0 && unit < system.units.size()) {
       result.emplace_back(static_cast<Eigen::Index>(a), unit);
     }
   }
@@ -79,18 +80,21 @@ struct Search {
 
 /// Mean shifts one after the other; the best of the nested sets. kRows in a unit.
 template <int kRows>
-Found search(Seen seen, const Rows& rows, const Space& space, const Search& by) {
+Found search(Seen seen,
+             const LinearisedSystem& system,
+             const MarginalisedSystem& marginalised,
+             const Search& by) {
   using Shift = Eigen::Matrix<double, kRows, 1>;
   using Block = Eigen::Matrix<double, kRows, kRows>;
-  auto free = blocks(rows, space);
+  auto free = blocks(system, marginalised);
   const auto count = static_cast<double>(free.size());
-  const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostBadShare * count)));
-  auto n = static_cast<Eigen::Index>(space.kept.size());
-  const double price = log_price_of_bad(rows);
-  Found best{space.bad,
+  const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostOutlierShare * count)));
+  auto n = static_cast<Eigen::Index>(marginalised.kept.size());
+  const double price = log_price_of_outlier(system);
+  Found best{marginalised.outliers,
              NoiseDensity(by.noise_dof, n).log_density(seen.quadratic) - 0.5 * seen.log_det +
                  by.log_prior};
-  std::vector<bool> bad = space.bad;
+  std::vector<bool> outliers = marginalised.outliers;
   for (std::size_t step = 1; step <= most && free.size() > by.fewest_units; ++step) {
     std::size_t worst = 0;
     double drop = -1.0;
@@ -112,39 +116,39 @@ Found search(Seen seen, const Rows& rows, const Space& space, const Search& by) 
     seen.log_det += std::log(block.determinant());
     seen.u -= columns * u;
     seen.precision.noalias() -= columns * seen.precision.template middleRows<kRows>(at).eval();
-    bad[free[worst].second] = true;
+    outliers[free[worst].second] = true;
     free.erase(free.begin() + static_cast<std::ptrdiff_t>(worst));
     n -= kRows;
     const double weight = NoiseDensity(by.noise_dof, n).log_density(std::max(seen.quadratic, 0.0)) -
                           0.5 * seen.log_det + by.log_prior + static_cast<double>(step) * price;
-    if (weight > best.log_weight) best = {bad, weight};
+    if (weight > best.log_weight) best = {outliers, weight};
   }
   return best;
 }
 
 }  // namespace
 
-std::vector<std::vector<bool>> bad_point_sets(const Session& session,
-                                              const Rows& rows,
-                                              const std::vector<bool>& excluded,
-                                              const std::vector<std::vector<int>>& hypotheses,
-                                              const Steps& steps) {
+std::vector<std::vector<bool>> outlier_sets(const Session& session,
+                                            const LinearisedSystem& system,
+                                            const std::vector<bool>& excluded,
+                                            const std::vector<std::vector<int>>& hypotheses,
+                                            const Steps& steps) {
   if (!steps.robust) return {excluded};
-  const Space space = make_space(rows, excluded, steps);
-  const auto n = static_cast<Eigen::Index>(space.kept.size());
+  const MarginalisedSystem marginalised = marginalise(system, excluded, steps);
+  const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
   Seen nothing;
   const Eigen::MatrixXd inverse =
-      space.factor.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));
+      marginalised.factor.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));
   nothing.precision = inverse.transpose() * inverse;
-  nothing.log_det = space.log_det;
+  nothing.log_det = marginalised.log_det;
   std::vector<Found> found;
   for (const auto& set : hypotheses) {
     const Search by{
-        log_prior(rows.directions, set, false), session.noise_dof, session.fewest_units()};
-    const auto look = rows.unit_rows == 2 ? search<2> : search<1>;
-    Found one = look(seen_by(nothing, space, rows, set), rows, space, by);
-    const auto same =
-        std::find_if(found.begin(), found.end(), [&](const Found& f) { return f.bad == one.bad; });
+        log_prior(system.regressors, set, false), session.noise_dof, session.fewest_units()};
+    const auto look = system.unit_rows == 2 ? search<2> : search<1>;
+    Found one = look(seen_by(nothing, marginalised, system, set), system, marginalised, by);
+    const auto same = std::find_if(
+        found.begin(), found.end(), [&](const Found& f) { return f.outliers == one.outliers; });
     if (same == found.end()) {
       found.push_back(std::move(one));
     } else {
@@ -157,7 +161,7 @@ std::vector<std::vector<bool>> bad_point_sets(const Session& session,
   std::vector<std::vector<bool>> sets;
   for (const Found& one : found) {
     if (sets.size() == kMostSets || one.log_weight < found.front().log_weight - kNegligible) break;
-    sets.push_back(one.bad);
+    sets.push_back(one.outliers);
   }
   return sets;
 }

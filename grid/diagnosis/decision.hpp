@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From the contest's probabilities to a verdict: which causes are present, which cannot be told
-/// apart, and when to keep silent.
+/// From the comparison's probabilities to a verdict: which causes are present, which cannot be told
+/// apart, and when to abstain.
 #pragma once
 
 #include <vector>
 
-#include "grid/diagnosis/contest.hpp"
+#include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -19,49 +19,51 @@ inline constexpr double kSetHolds = 0.98;
 /// Chance of a false alarm over the whole catalogue.
 inline constexpr double kFalseAlarm = 0.01;
 
-/// From this probability of an unknown pattern on, names are given more sparingly.
-inline constexpr double kPatternPossible = 0.25;
+/// From this probability of a model discrepancy on, names are given more sparingly.
+inline constexpr double kDiscrepancyPossible = 0.25;
 
 /// Causes that these data cannot separate, however strong; the one that gives the class its name
 /// first: a cause in the machine before one on the paper.
 using CauseClass = std::vector<CauseId>;
-[[nodiscard]] std::vector<CauseClass> classes_of(const Rows& rows, const Space& space);
+[[nodiscard]] std::vector<CauseClass> classes_of(const LinearisedSystem& system,
+                                                 const MarginalisedSystem& marginalised);
 
 struct ClassProbability {
   std::size_t index = 0;  ///< into the classes
   double probability = 0.0;
 };
 
-struct Judgement {
+struct Decision {
   Verdict verdict = Verdict::nothing_found;
   std::vector<CauseClass> classes;
   /// Present at all, with whatever else; most probable first.
   std::vector<ClassProbability> marginal;
   double nothing = 0.0;
   double noise = 0.0;
-  double bad_points = 0.0;
+  double outliers = 0.0;
   double unknown = 0.0;
-  double caused = 0.0;   ///< one cause or more
-  double pattern = 0.0;  ///< with an unknown pattern, beside causes or alone
+  double caused = 0.0;       ///< one cause or more
+  double discrepancy = 0.0;  ///< with a model discrepancy, beside causes or alone
   /// The causes of the verdict (indices into classes): the one named, the set, or those that act
   /// together.
   std::vector<std::size_t> listed;
-  /// What goes into the model: one direction a cause, the pattern that is left or -1, the space.
-  std::vector<int> directions;
-  int best_pattern = -1;
-  bool pattern_left = false;
-  std::size_t space = 0;
+  /// What goes into the model: one regressor a cause, the discrepancy that is left or -1, the
+  /// marginalised system.
+  std::vector<int> regressors;
+  int best_discrepancy = -1;
+  bool discrepancy_left = false;
+  std::size_t marginalised = 0;
 };
 
 /// `seen`: the strongest effect is beyond what noise does (family-wise).
-[[nodiscard]] Judgement judge(const Rows& rows,
-                              const Contest& contest,
+[[nodiscard]] Decision decide(const LinearisedSystem& system,
+                              const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool seen);
-/// The same with the classes known: of the contest's spaces nothing but the points set aside is
-/// asked.
-[[nodiscard]] Judgement judge(const Rows& rows,
-                              const Contest& contest,
+/// The same with the classes known: of the comparison's marginalised systems nothing but the points
+/// set aside is asked.
+[[nodiscard]] Decision decide(const LinearisedSystem& system,
+                              const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool seen,
                               std::vector<CauseClass> classes);

@@ -10,13 +10,13 @@
 namespace chaintrue::grid::diagnosis {
 
 /// At most this share of them is set aside, or three where there are few.
-inline constexpr double kMostBadShare = 0.12;
+inline constexpr double kMostOutlierShare = 0.12;
 
 /// Flags per unit, the most probable set first; units that are excluded beforehand stay flagged in
-/// all of them. `hypotheses` are sets of directions.
-[[nodiscard]] std::vector<std::vector<bool>> bad_point_sets(
+/// all of them. `hypotheses` are sets of regressors.
+[[nodiscard]] std::vector<std::vector<bool>> outlier_sets(
     const Session& session,
-    const Rows& rows,
+    const LinearisedSystem& system,
     const std::vector<bool>& excluded,
     const std::vector<std::vector<int>>& hypotheses,
     const Steps& steps);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/judgement.hpp"
+#include "grid/diagnosis/decision.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -14,22 +14,23 @@ namespace {
 
 /// Probability that anything acts at all from which causes are spoken of.
 constexpr double kCaused = 0.65;
-constexpr double kNeededBesidePattern = 0.98;
+constexpr double kNeededBesideDiscrepancy = 0.98;
 constexpr double kLikelierThanNot = 0.5;
 constexpr double kAbsorbed = 1e-3;
 
-/// The most telling direction of each cause: the longest, and the nearest to the data among those
+/// The most telling regressor of each cause: the longest, and the nearest to the data among those
 /// of a cause with places.
-std::vector<std::pair<CauseId, int>> leading_directions(const Rows& rows, const Space& space) {
+std::vector<std::pair<CauseId, int>> leading_regressors(const LinearisedSystem& system,
+                                                        const MarginalisedSystem& marginalised) {
   std::vector<std::pair<CauseId, int>> result;
   double best = -1.0;
-  for (std::size_t k = 0; k < rows.directions.size(); ++k) {
-    const auto column = space.g.col(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+    const auto column = marginalised.g.col(static_cast<Eigen::Index>(k));
     const double length = column.norm();
     if (!(length > 1e-4)) continue;
-    const double score = std::abs(column.dot(space.e)) / length;
-    if (result.empty() || !(result.back().first == rows.directions[k].cause)) {
-      result.emplace_back(rows.directions[k].cause, static_cast<int>(k));
+    const double score = std::abs(column.dot(marginalised.e)) / length;
+    if (result.empty() || !(result.back().first == system.regressors[k].cause)) {
+      result.emplace_back(system.regressors[k].cause, static_cast<int>(k));
       best = score;
     } else if (score > best) {
       result.back().second = static_cast<int>(k);
@@ -66,22 +67,22 @@ using Key = std::vector<std::size_t>;  ///< classes that act, ascending
 
 struct Grouped {
   double probability = 0.0;
-  double pattern = 0.0;
-  const Model* best = nullptr;  ///< without a pattern, where there is one
-  const Model* with_pattern = nullptr;
+  double discrepancy = 0.0;
+  const CandidateModel* best = nullptr;  ///< without a discrepancy, where there is one
+  const CandidateModel* with_discrepancy = nullptr;
 };
 
-class Judge {
+class Decider {
  public:
-  Judge(const Rows& rows,
-        const Contest& contest,
-        const std::vector<bool>& excluded,
-        std::vector<CauseClass> classes)
-      : rows_(rows), contest_(contest), excluded_(excluded) {
+  Decider(const LinearisedSystem& system,
+          const ModelComparison& comparison,
+          const std::vector<bool>& excluded,
+          std::vector<CauseClass> classes)
+      : system_(system), comparison_(comparison), excluded_(excluded) {
     result_.classes = std::move(classes);
   }
 
-  Judgement run(bool seen) {
+  Decision run(bool seen) {
     group();
     marginals();
     const bool caused = seen && result_.caused > kCaused;
@@ -89,7 +90,7 @@ class Judge {
     if (leading != nullptr) {
       name_causes(*leading);
     } else {
-      keep_silent();
+      abstain();
     }
     return std::move(result_);
   }
@@ -104,36 +105,37 @@ class Judge {
   }
 
   void group() {
-    for (const Model& model : contest_.models) {
-      const double p = contest_.probability(model);
+    for (const CandidateModel& model : comparison_.models) {
+      const double p = comparison_.probability(model);
       Key key;
-      for (const int k : model.directions) {
-        key.push_back(class_of(rows_.directions[static_cast<std::size_t>(k)].cause));
+      for (const int k : model.regressors) {
+        key.push_back(class_of(system_.regressors[static_cast<std::size_t>(k)].cause));
       }
       std::sort(key.begin(), key.end());
       Grouped& one = groups_[key];
       one.probability += p;
-      if (model.pattern >= 0) {
-        one.pattern += p;
-        result_.pattern += p;
-        if (one.with_pattern == nullptr) one.with_pattern = &model;
+      if (model.discrepancy >= 0) {
+        one.discrepancy += p;
+        result_.discrepancy += p;
+        if (one.with_discrepancy == nullptr) one.with_discrepancy = &model;
       } else if (one.best == nullptr) {
         one.best = &model;
       }
       if (key.empty()) {
-        share_silence(model, p);
+        share_abstention(model, p);
       } else {
         result_.caused += p;
       }
     }
   }
 
-  void share_silence(const Model& model, double p) {
-    const bool bad = contest_.spaces[model.space].bad != excluded_;
-    if (model.pattern >= 0) {
+  void share_abstention(const CandidateModel& model, double p) {
+    const bool with_outliers =
+        comparison_.marginalised_systems[model.marginalised].outliers != excluded_;
+    if (model.discrepancy >= 0) {
       result_.unknown += p;
-    } else if (bad) {
-      result_.bad_points += p;
+    } else if (with_outliers) {
+      result_.outliers += p;
     } else {
       result_.noise += p * model.larger_noise;
       result_.nothing += p * (1.0 - model.larger_noise);
@@ -173,15 +175,16 @@ class Judge {
   }
 
   void take(const Grouped& grouped) {
-    const Model* model = grouped.best != nullptr ? grouped.best : grouped.with_pattern;
+    const CandidateModel* model = grouped.best != nullptr ? grouped.best : grouped.with_discrepancy;
     if (model == nullptr) return;
-    result_.directions = model->directions;
-    result_.space = model->space;
-    if (grouped.with_pattern != nullptr) result_.best_pattern = grouped.with_pattern->pattern;
-    result_.pattern_left = grouped.pattern > 0.5 * grouped.probability;
-    if (result_.pattern_left) {
-      result_.directions = grouped.with_pattern->directions;
-      result_.space = grouped.with_pattern->space;
+    result_.regressors = model->regressors;
+    result_.marginalised = model->marginalised;
+    if (grouped.with_discrepancy != nullptr)
+      result_.best_discrepancy = grouped.with_discrepancy->discrepancy;
+    result_.discrepancy_left = grouped.discrepancy > 0.5 * grouped.probability;
+    if (result_.discrepancy_left) {
+      result_.regressors = grouped.with_discrepancy->regressors;
+      result_.marginalised = grouped.with_discrepancy->marginalised;
     }
   }
 
@@ -200,11 +203,11 @@ class Judge {
   }
 
   void name_causes(const Grouped& leading) {
-    // Beside a pattern that nobody knows a cause must be needed, not only possible.
-    if (result_.pattern > kPatternPossible &&
+    // Beside a discrepancy that nobody knows a cause must be needed, not only possible.
+    if (result_.discrepancy > kDiscrepancyPossible &&
         (leading_key_.size() > 1 ? result_.marginal.front().probability : result_.caused) <
-            kNeededBesidePattern) {
-      keep_silent();
+            kNeededBesideDiscrepancy) {
+      abstain();
       return;
     }
     if (leading_key_.size() > 1) {
@@ -244,18 +247,18 @@ class Judge {
     if (result_.listed.size() == 1) result_.verdict = Verdict::named;
   }
 
-  void keep_silent() {
+  void abstain() {
     const auto found = groups_.find({});
     if (found != groups_.end()) {
       take(found->second);
-      result_.pattern_left = false;
+      result_.discrepancy_left = false;
     }
     const double most =
-        std::max({result_.nothing, result_.noise, result_.bad_points, result_.unknown});
-    if (result_.pattern > 0.5 || result_.unknown == most) {
+        std::max({result_.nothing, result_.noise, result_.outliers, result_.unknown});
+    if (result_.discrepancy > 0.5 || result_.unknown == most) {
       result_.verdict = Verdict::unknown_pattern;
-      result_.pattern_left = true;
-    } else if (result_.bad_points == most) {
+      result_.discrepancy_left = true;
+    } else if (result_.outliers == most) {
       result_.verdict = Verdict::bad_points;
     } else if (result_.noise == most) {
       result_.verdict = Verdict::noise_larger_than_stated;
@@ -271,46 +274,47 @@ class Judge {
     return 0.0;
   }
 
-  const Rows& rows_;
-  const Contest& contest_;
+  const LinearisedSystem& system_;
+  const ModelComparison& comparison_;
   const std::vector<bool>& excluded_;
   std::map<Key, Grouped> groups_;
   Key leading_key_;
-  Judgement result_;
+  Decision result_;
 };
 
 /// An orthonormal basis of what the settings can do. Distances hardly feel some of them, and what
 /// no setting does within reason does not count.
-Eigen::MatrixXd range_of_settings(const Rows& rows, const Eigen::MatrixXd& columns) {
+Eigen::MatrixXd range_of_settings(const LinearisedSystem& system, const Eigen::MatrixXd& columns) {
   constexpr double kFelt = 1e-4;
-  if (rows.nuisances == 0) {
+  if (system.nuisances == 0) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
     return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns *
-                                                 rows.sigma.head(columns.cols()).asDiagonal());
+                                                 system.sigma.head(columns.cols()).asDiagonal());
   qr.setThreshold(kFelt);
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
 }  // namespace
 
-std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
+std::vector<CauseClass> classes_of(const LinearisedSystem& system,
+                                   const MarginalisedSystem& marginalised) {
   // Free settings: what a class shares must not hang on how well the settings were stated.
-  const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(rows, space.kept);
+  const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(system, marginalised.kept);
   const auto seen = [&](Eigen::MatrixXd columns) {
-    if (rows.nuisances > 0) noise.matrixL().solveInPlace(columns);
+    if (system.nuisances > 0) noise.matrixL().solveInPlace(columns);
     return columns;
   };
-  const Eigen::Index settings = rows.by_setting.cols() - rows.nuisances;
-  const Eigen::MatrixXd basis =
-      range_of_settings(rows, seen(rows.by_setting.leftCols(settings)(space.kept, Eigen::all)));
+  const Eigen::Index settings = system.by_setting.cols() - system.nuisances;
+  const Eigen::MatrixXd basis = range_of_settings(
+      system, seen(system.by_setting.leftCols(settings)(marginalised.kept, Eigen::all)));
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
-  for (const auto& [cause, column] : leading_directions(rows, space)) {
-    Representative own{seen(rows.g(space.kept, column)),
-                       space.g.col(column),
-                       rows.directions[static_cast<std::size_t>(column)].fixed};
+  for (const auto& [cause, column] : leading_regressors(system, marginalised)) {
+    Representative own{seen(system.g(marginalised.kept, column)),
+                       marginalised.g.col(column),
+                       system.regressors[static_cast<std::size_t>(column)].fixed};
     const double whole = own.free.norm();
     own.free -= basis * (basis.transpose() * own.free);
     // Of a signature that the settings take whole, only rounding would be compared.
@@ -333,20 +337,24 @@ std::vector<CauseClass> classes_of(const Rows& rows, const Space& space) {
   return classes;
 }
 
-Judgement judge(const Rows& rows,
-                const Contest& contest,
+Decision decide(const LinearisedSystem& system,
+                const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
                 bool seen) {
-  return judge(
-      rows, contest, excluded, seen, classes_of(rows, contest.spaces[contest.best().space]));
+  return decide(
+      system,
+      comparison,
+      excluded,
+      seen,
+      classes_of(system, comparison.marginalised_systems[comparison.best().marginalised]));
 }
 
-Judgement judge(const Rows& rows,
-                const Contest& contest,
+Decision decide(const LinearisedSystem& system,
+                const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
                 bool seen,
                 std::vector<CauseClass> classes) {
-  return Judge(rows, contest, excluded, std::move(classes)).run(seen);
+  return Decider(system, comparison, excluded, std::move(classes)).run(seen);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/discrepancy.hpp"
+
+#include <cmath>
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+double bell(double square) { return std::exp(-0.5 * square); }
+
+/// Density of a half-Cauchy over the logarithm of the strength, but for a constant.
+double cauchy_weight(double delta) {
+  constexpr double kScale = 10.0;
+  return delta / (1.0 + std::pow(delta / kScale, 2));
+}
+
+}  // namespace
+
+double log_share_of_discrepancy(int index) {
+  double sum = 0.0;
+  for (const double delta : kDiscrepancyStrengths) sum += cauchy_weight(delta);
+  const auto deltas = static_cast<int>(std::size(kDiscrepancyStrengths));
+  return std::log(cauchy_weight(kDiscrepancyStrengths[index % deltas]) / sum) -
+         std::log(static_cast<double>(std::size(kDiscrepancyKernels)));
+}
+
+Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
+                                  const DiscrepancyPlace& a,
+                                  const DiscrepancyPlace& b) {
+  const double dx = std::pow((a.mark.x_mm - b.mark.x_mm) / kernel.length_mm, 2);
+  const double dy = std::pow((a.mark.y_mm - b.mark.y_mm) / kernel.length_mm, 2);
+  if (kernel.kind == DiscrepancyKind::chains) return bell(dx + dy) * Eigen::Matrix2d::Identity();
+  return 0.5 * (bell(dx) + bell(dy)) * a.by_mark * b.by_mark.transpose();
+}
+
+Eigen::Matrix2d discrepancy_between(const Session& session,
+                                    const LinearisedSystem& system,
+                                    const DiscrepancyKernel& kernel,
+                                    const Unit& a,
+                                    const Unit& b) {
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (const SeenPlace& i : a) {
+    for (const SeenPlace& j : b) {
+      sum += i.by_chain *
+             discrepancy_block(kernel,
+                               discrepancy_place(session, system, i.place),
+                               discrepancy_place(session, system, j.place)) *
+             j.by_chain.transpose();
+    }
+  }
+  return sum;
+}
+
+DiscrepancyPlace discrepancy_place(const Session& session,
+                                   const LinearisedSystem& system,
+                                   std::size_t i) {
+  return {session.points[i].mark, system.points[i].by_mark};
+}
+
+Eigen::MatrixXd discrepancy_covariance(const Session& session,
+                                       const LinearisedSystem& system,
+                                       const std::vector<Eigen::Index>& kept,
+                                       const DiscrepancyKernel& kernel) {
+  // Rows stand in units, first of all; readings of the machine come after them.
+  const Eigen::Index size = system.unit_rows;
+  std::vector<std::size_t> units;
+  for (const Eigen::Index row : kept) {
+    if (row < session.observed_rows() && row % size == 0) {
+      units.push_back(static_cast<std::size_t>(row / size));
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(kept.size());
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t a = 0; a < units.size(); ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      const Eigen::Matrix2d block = discrepancy_between(
+          session, system, kernel, system.units[units[a]], system.units[units[b]]);
+      const auto row = size * static_cast<Eigen::Index>(a);
+      const auto column = size * static_cast<Eigen::Index>(b);
+      c.block(row, column, size, size) = block.topLeftCorner(size, size);
+      c.block(column, row, size, size) = block.transpose().topLeftCorner(size, size);
+    }
+  }
+  return c;
+}
+
+}  // namespace chaintrue::grid::diagnosis

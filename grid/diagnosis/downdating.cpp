@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/downdating.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "grid/diagnosis/leading.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// Models so far below the best are not followed, nor more than so many in all.
+constexpr double kNegligible = 14.0;
+constexpr std::size_t kMostModels = 160;
+/// Share of the probability from which a discrepancy is followed, and the most of them.
+constexpr double kDiscrepancyShare = 0.01;
+constexpr std::size_t kMostDiscrepancies = 4;
+
+using FactorisationKey = std::pair<std::size_t, int>;  ///< marginalised system, discrepancy
+
+/// The models that may lead once some points are gone: the best, and in each marginalised system of
+/// these nothing, and every cause alone at its best place.
+std::map<FactorisationKey, std::vector<CandidateModel>> followed(
+    const LinearisedSystem& system, const ModelComparison& comparison) {
+  std::map<FactorisationKey, double> share;
+  for (const CandidateModel& model : comparison.models) {
+    share[{model.marginalised, model.discrepancy}] += comparison.probability(model);
+  }
+  std::vector<std::pair<double, FactorisationKey>> discrepancies;
+  for (const auto& [key, p] : share) {
+    if (key.second >= 0 && p >= kDiscrepancyShare) discrepancies.emplace_back(-p, key);
+  }
+  std::sort(discrepancies.begin(), discrepancies.end());
+  if (discrepancies.size() > kMostDiscrepancies) discrepancies.resize(kMostDiscrepancies);
+  const auto is_followed = [&](const FactorisationKey& key) {
+    return key.second < 0 || std::any_of(discrepancies.begin(),
+                                         discrepancies.end(),
+                                         [&](const auto& p) { return p.second == key; });
+  };
+  const double best = comparison.best().log_weight;
+  std::map<FactorisationKey, std::vector<CandidateModel>> result;
+  std::map<FactorisationKey, std::vector<CauseId>> alone;
+  std::set<std::size_t> marginalised_systems;
+  std::size_t taken = 0;
+  // Best first, so that a marginalised system is known before the rest of what is asked for in it.
+  for (const CandidateModel& model : comparison.models) {
+    const FactorisationKey key{model.marginalised, model.discrepancy};
+    if (!is_followed(key)) continue;
+    const bool leads = model.log_weight > best - kNegligible && taken < kMostModels;
+    bool first_alone = model.regressors.empty();
+    if (model.regressors.size() == 1) {
+      const CauseId& cause = system.regressors[static_cast<std::size_t>(model.regressors[0])].cause;
+      auto& known = alone[key];
+      first_alone = std::find(known.begin(), known.end(), cause) == known.end();
+      if (first_alone) known.push_back(cause);
+    }
+    if (!leads && !(first_alone && marginalised_systems.contains(key.first))) continue;
+    taken += leads ? 1 : 0;
+    marginalised_systems.insert(key.first);
+    result[key].push_back(model);
+  }
+  return result;
+}
+
+/// Rows of these points in a marginalised system.
+std::vector<Eigen::Index> rows_of(const MarginalisedSystem& marginalised,
+                                  const std::vector<std::size_t>& points) {
+  std::vector<Eigen::Index> result;
+  for (const std::size_t point : points) {
+    const auto row = 2 * static_cast<Eigen::Index>(point);
+    const auto at = std::lower_bound(marginalised.kept.begin(), marginalised.kept.end(), row);
+    if (at == marginalised.kept.end() || *at != row) continue;
+    const auto first = static_cast<Eigen::Index>(at - marginalised.kept.begin());
+    result.insert(result.end(), {first, first + 1});
+  }
+  return result;
+}
+
+std::vector<bool> with_points_out(std::vector<bool> outliers,
+                                  const std::vector<std::size_t>& points) {
+  for (const std::size_t point : points) outliers[point] = true;
+  return outliers;
+}
+
+/// The comparison's marginalised system with these points set aside, made where there is none.
+std::size_t home_of(ModelComparison& comparison, std::vector<bool> outliers) {
+  const auto same = std::find_if(
+      comparison.marginalised_systems.begin(),
+      comparison.marginalised_systems.end(),
+      [&](const MarginalisedSystem& marginalised) { return marginalised.outliers == outliers; });
+  if (same != comparison.marginalised_systems.end())
+    return static_cast<std::size_t>(same - comparison.marginalised_systems.begin());
+  comparison.marginalised_systems.emplace_back().outliers = std::move(outliers);
+  return comparison.marginalised_systems.size() - 1;
+}
+
+}  // namespace
+
+Downdating::Downdating(const Session& session,
+                       const Analysis& analysis,
+                       const DiagnosisOptions& options)
+    : session_(session),
+      a_(analysis),
+      dof_(options.steps.anchor_noise ? session.noise_dof : 1e-3),
+      score_(analysis.system,
+             analysis.comparison.marginalised_systems[analysis.comparison.best().marginalised],
+             dof_) {
+  for (auto& [key, models] : followed(a_.system, a_.comparison)) {
+    add_factorisation(key.first, key.second, std::move(models));
+  }
+}
+
+void Downdating::add_factorisation(std::size_t number,
+                                   int discrepancy,
+                                   std::vector<CandidateModel> models) {
+  const MarginalisedSystem& marginalised = a_.comparison.marginalised_systems[number];
+  Factorisation factorised;
+  factorised.marginalised = number;
+  factorised.discrepancy = discrepancy;
+  std::vector<int> columns;
+  for (const CandidateModel& model : models) {
+    columns.insert(columns.end(), model.regressors.begin(), model.regressors.end());
+  }
+  std::sort(columns.begin(), columns.end());
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
+  const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
+  factorised.inverse = lower.solve(Eigen::MatrixXd::Identity(n, n));
+  Eigen::MatrixXd e(n, static_cast<Eigen::Index>(columns.size()) + 1);
+  e.col(0) = marginalised.e;
+  e.rightCols(e.cols() - 1) = marginalised.g(Eigen::all, columns);
+  double log_det = marginalised.log_det;
+  if (discrepancy >= 0) {
+    const Discrepancy process = discrepancy_of(marginalised, discrepancy);
+    Eigen::MatrixXd k =
+        discrepancy_covariance(session_, a_.system, marginalised.kept, process.kernel);
+    lower.solveInPlace(k);
+    k = lower.solve(k.transpose()).eval() * (process.sigma_mm * process.sigma_mm);
+    k.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> llt(k);
+    llt.matrixL().solveInPlace(factorised.inverse);
+    llt.matrixL().solveInPlace(e);
+    log_det += 2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
+  }
+  factorised.precision = factorised.inverse.transpose() * e;
+  const Eigen::MatrixXd gram = e.transpose() * e;
+  const Eigen::Index c = e.cols() - 1;
+  factorised.equations = {
+      columns, gram(0, 0), gram.col(0).tail(c), gram.bottomRightCorner(c, c), log_det};
+  const NoiseDensity noise(dof_, n);
+  for (const CandidateModel& model : models) {
+    std::vector<Eigen::Index> set;
+    for (const int k : model.regressors) set.push_back(factorised.equations.position(k));
+    const double evidence =
+        set_evidence(factorised.equations, a_.system.regressors, set, noise).log_evidence;
+    factorised.prior.push_back(model.log_weight - evidence - marginalised.log_outliers);
+    factorised.sets.push_back(std::move(set));
+  }
+  factorised.models = std::move(models);
+  factorisations_.push_back(std::move(factorised));
+}
+
+NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
+                                                const std::vector<Eigen::Index>& out) {
+  NormalEquations equations = factorised.equations;
+  if (out.empty()) return equations;
+  const Eigen::MatrixXd half = factorised.inverse(Eigen::all, out);
+  const Eigen::LLT<Eigen::MatrixXd> block(half.transpose() * half);
+  Eigen::MatrixXd seen = factorised.precision(out, Eigen::all);
+  block.matrixL().solveInPlace(seen);
+  const Eigen::Index c = seen.cols() - 1;
+  equations.ee -= seen.col(0).squaredNorm();
+  equations.ge.noalias() -= seen.rightCols(c).transpose() * seen.col(0);
+  equations.gg.noalias() -= seen.rightCols(c).transpose() * seen.rightCols(c);
+  equations.log_det += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
+  return equations;
+}
+
+Downdating::Without Downdating::without(const std::vector<std::size_t>& points) const {
+  const double price = log_price_of_outlier(a_.system);
+  Without result;
+  ModelComparison& comparison = result.comparison;
+  std::set<std::tuple<std::size_t, int, std::vector<int>>> known;
+  std::vector<std::pair<double, std::size_t>> strongest;  // score, by marginalised system
+  for (const Factorisation& factorised : factorisations_) {
+    const MarginalisedSystem& whole = a_.comparison.marginalised_systems[factorised.marginalised];
+    const auto out = rows_of(whole, points);
+    const NormalEquations equations = downdated_equations(factorised, out);
+    const Eigen::Index rows = factorised.inverse.rows() - static_cast<Eigen::Index>(out.size());
+    const NoiseDensity noise(dof_, rows);
+    // Marginalised systems that differ in the points left out alone are one.
+    const std::size_t home = home_of(comparison, with_points_out(whole.outliers, points));
+    const auto outliers =
+        static_cast<double>(std::count(whole.outliers.begin(), whole.outliers.end(), true) -
+                            std::count_if(points.begin(), points.end(), [&](std::size_t i) {
+                              return whole.outliers[i];
+                            }));
+    for (std::size_t k = 0; k < factorised.models.size(); ++k) {
+      const CandidateModel& model = factorised.models[k];
+      if (!known.emplace(home, factorised.discrepancy, model.regressors).second) continue;
+      const SetEvidence evidence =
+          set_evidence(equations, a_.system.regressors, factorised.sets[k], noise);
+      if (!std::isfinite(evidence.log_evidence)) continue;
+      comparison.models.push_back({model.regressors,
+                                   factorised.discrepancy,
+                                   home,
+                                   factorised.prior[k] + evidence.log_evidence + outliers * price,
+                                   noise.larger_share(evidence.quadratic),
+                                   evidence.quadratic});
+    }
+    if (factorised.discrepancy < 0) strongest.emplace_back(score_.largest(equations, rows), home);
+  }
+  std::stable_sort(
+      comparison.models.begin(),
+      comparison.models.end(),
+      [](const CandidateModel& a, const CandidateModel& b) { return a.log_weight > b.log_weight; });
+  double sum = 0.0;
+  for (const CandidateModel& model : comparison.models) {
+    sum += std::exp(model.log_weight - comparison.best().log_weight);
+  }
+  comparison.log_total = comparison.best().log_weight + std::log(sum);
+  for (const auto& [score, marginalised] : strongest) {
+    if (marginalised == comparison.best().marginalised) {
+      result.seen = result.seen || a_.null.p_value(score) < kFalseAlarm;
+    }
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

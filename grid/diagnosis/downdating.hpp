@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Evidence downdated: the models of a comparison without some of the points, at a small part of
+/// what a comparison of their own would cost.
+///
+/// Notation
+///   V     covariance of a marginalised system's rows, the discrepancy integrated out as well;
+///         V = L L', P = V^-1
+///   E     residual and columns of the models, whitened by L
+///   O     rows of the points left out
+///   U     P times the residual and the columns
+///
+/// Inner products without O need no new factorisation:
+///   a' V_kept^-1 b = a' P b - (P a)_O' (P_OO)^-1 (P b)_O,   det V_kept = det V det P_OO
+/// which are the inverse of a partitioned matrix and Schur's determinant (G. Golub and C. Van Loan,
+/// Matrix Computations (2013), section 3.2.11; F. Zhang, The Schur Complement (2005), theorem 1.1).
+///
+/// Exact for each model that the comparison kept; models that it let go, sets of outliers that it
+/// never met, and discrepancies that hold less than a hundredth of the probability are not looked
+/// at.
+#pragma once
+
+#include <vector>
+
+#include "grid/diagnosis/analysis.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+class Downdating {
+ public:
+  /// Both arguments are kept by reference.
+  Downdating(const Session& session, const Analysis& analysis, const DiagnosisOptions& options);
+
+  struct Without {
+    /// Best first; its marginalised systems bear the points set aside, those left out among them,
+    /// and no rows.
+    ModelComparison comparison;
+    /// The strongest effect is still beyond what noise does.
+    bool seen = false;
+  };
+  /// Points are positions in the session.
+  [[nodiscard]] Without without(const std::vector<std::size_t>& points) const;
+
+ private:
+  /// One marginalised system with one discrepancy or none.
+  struct Factorisation {
+    std::size_t marginalised = 0;
+    int discrepancy = -1;
+    NormalEquations equations;  ///< with all points
+    Eigen::MatrixXd inverse;    ///< L^-1
+    Eigen::MatrixXd precision;  ///< U: first column the residual
+    std::vector<CandidateModel> models;
+    std::vector<std::vector<Eigen::Index>> sets;  ///< of each: its columns in the equations
+    std::vector<double> prior;                    ///< of each: weight less evidence
+  };
+
+  void add_factorisation(std::size_t marginalised,
+                         int discrepancy,
+                         std::vector<CandidateModel> models);
+  /// Inner products with these rows of the marginalised system gone.
+  [[nodiscard]] static NormalEquations downdated_equations(const Factorisation& factorised,
+                                                           const std::vector<Eigen::Index>& out);
+
+  const Session& session_;
+  const Analysis& a_;
+  double dof_;
+  SingleScore score_;
+  std::vector<Factorisation> factorisations_;
+};
+
+}  // namespace chaintrue::grid::diagnosis

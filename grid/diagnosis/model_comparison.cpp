@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/model_comparison.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "grid/diagnosis/estimate.hpp"
+#include "grid/diagnosis/outlier_search.hpp"
+#include "grid/diagnosis/set_search.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
+
+/// Beforehand: nothing, one cause, two, three, four; and how much rarer each is with a model
+/// discrepancy beside it.
+constexpr std::array<double, kMostCauses + 1> kPriorOfCount = {0.50, 0.25, 0.05, 0.02, 0.01};
+constexpr double kDiscrepancyPrior = 0.10;
+/// A set of outliers so much less probable than the best is not tried beside discrepancies.
+constexpr double kWorthDiscrepancies = 6.0;
+/// Sets of outliers in one comparison.
+constexpr std::size_t kMostOutlierSets = 8;
+
+double log_sum(const std::vector<double>& terms) {
+  double high = kMinusInfinity;
+  for (const double t : terms) high = std::max(high, t);
+  if (high == kMinusInfinity) return high;
+  double sum = 0.0;
+  for (const double t : terms) sum += std::exp(t - high);
+  return high + std::log(sum);
+}
+
+/// Nothing, and each cause alone at its best place.
+std::vector<std::vector<int>> first_hypotheses(const Session& session,
+                                               const LinearisedSystem& system,
+                                               const std::vector<bool>& excluded,
+                                               const ComparisonOptions& options) {
+  const MarginalisedSystem marginalised = marginalise(system, excluded, options.steps);
+  const NoiseDensity noise(session.noise_dof, static_cast<Eigen::Index>(marginalised.kept.size()));
+  const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e, false);
+  std::vector<std::vector<int>> hypotheses = {{}};
+  for (std::size_t k = 0; k < scores.causes.size(); ++k) {
+    if (options.told && !(scores.causes[k] == *options.told)) continue;
+    if (scores.best_regressor[k] >= 0) hypotheses.push_back({scores.best_regressor[k]});
+  }
+  return hypotheses;
+}
+
+}  // namespace
+
+double ModelComparison::probability(const CandidateModel& model) const {
+  return std::exp(model.log_weight - log_total);
+}
+
+double log_prior(const std::vector<Regressor>& regressors,
+                 const std::vector<int>& set,
+                 bool discrepancy) {
+  const auto effects = static_cast<double>(model::effects::catalogue().size());
+  std::size_t lasting = 0;
+  double value = discrepancy ? std::log(kDiscrepancyPrior) : 0.0;
+  for (const int k : set) {
+    const Regressor& d = regressors[static_cast<std::size_t>(k)];
+    value += d.log_prior - std::log(effects);
+    if (!d.slip) ++lasting;
+  }
+  return value + std::log(kPriorOfCount[lasting]) + std::lgamma(1.0 + static_cast<double>(lasting));
+}
+
+SingleScores single_scores(const LinearisedSystem& system,
+                           const MarginalisedSystem& marginalised,
+                           const NoiseDensity& noise,
+                           const Eigen::VectorXd& e,
+                           bool average_location) {
+  SingleScores scores;
+  const double ee = e.squaredNorm();
+  const double nothing = noise.log_density(ee);
+  const Eigen::VectorXd c = marginalised.g.transpose() * e;
+  const Eigen::VectorXd square = marginalised.g.colwise().squaredNorm();
+  std::vector<std::vector<double>> terms;
+  std::vector<double> best;
+  NormalEquations equations;
+  equations.columns = {0};
+  equations.ee = ee;
+  equations.ge.resize(1);
+  equations.gg.resize(1, 1);
+  const std::array<Eigen::Index, 1> first = {0};
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+    const Regressor& regressor = system.regressors[k];
+    if (scores.causes.empty() || !(scores.causes.back() == regressor.cause)) {
+      scores.causes.push_back(regressor.cause);
+      scores.best_regressor.push_back(-1);
+      terms.emplace_back();
+      best.push_back(kMinusInfinity);
+    }
+    const auto at = static_cast<Eigen::Index>(k);
+    if (!(square(at) > 1e-8)) continue;
+    equations.ge(0) = c(at);
+    equations.gg(0, 0) = square(at);
+    const std::vector<Regressor> one = {regressor};
+    const double factor =
+        set_evidence(equations, one, first, noise).log_evidence - nothing + regressor.log_prior;
+    terms.back().push_back(factor);
+    if (factor > best.back()) {
+      best.back() = factor;
+      scores.best_regressor.back() = static_cast<int>(k);
+    }
+  }
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    scores.log_factor.push_back(average_location ? log_sum(terms[k]) : best[k]);
+  }
+  return scores;
+}
+
+namespace {
+
+/// Of the best model's outliers those that are off by just what a whole number of links does:
+/// each set of outliers once more without one of them.
+std::vector<std::vector<bool>> sets_without_links(const Session& session,
+                                                  const LinearisedSystem& system,
+                                                  const std::vector<bool>& excluded,
+                                                  const ModelComparison& comparison) {
+  constexpr double kAlike = 25.0;  // squared, in sigmas: two rows, 1 in 270 000
+  const CandidateModel& best = comparison.best();
+  const MarginalisedSystem& marginalised = comparison.marginalised_systems[best.marginalised];
+  const Estimate fitted = estimate(session, system, marginalised, best.regressors, -1);
+  std::vector<std::vector<bool>> result;
+  for (std::size_t i = 0; i < marginalised.outliers.size(); ++i) {
+    if (!marginalised.outliers[i] || excluded[i]) continue;
+    const auto row = system.unit_rows * static_cast<Eigen::Index>(i);
+    bool links = false;
+    for (std::size_t k = 0; k < system.regressors.size() && !links; ++k) {
+      if (!system.regressors[k].fixed) continue;
+      const auto g = system.g.col(static_cast<Eigen::Index>(k)).segment(row, system.unit_rows);
+      links =
+          g.squaredNorm() > 0.0 && (fitted.left.segment(row, system.unit_rows) - g).squaredNorm() <
+                                       kAlike * fitted.noise_square;
+    }
+    if (!links) continue;
+    std::vector<bool> without = marginalised.outliers;
+    without[i] = false;
+    const bool known =
+        std::any_of(comparison.marginalised_systems.begin(),
+                    comparison.marginalised_systems.end(),
+                    [&](const MarginalisedSystem& s) { return s.outliers == without; });
+    if (!known) result.push_back(std::move(without));
+  }
+  return result;
+}
+
+void finish(ModelComparison& comparison) {
+  std::stable_sort(
+      comparison.models.begin(),
+      comparison.models.end(),
+      [](const CandidateModel& a, const CandidateModel& b) { return a.log_weight > b.log_weight; });
+  std::vector<double> weights;
+  for (const CandidateModel& model : comparison.models) weights.push_back(model.log_weight);
+  comparison.log_total = log_sum(weights);
+}
+
+}  // namespace
+
+ModelComparison compare_models(const Session& session,
+                               const LinearisedSystem& system,
+                               const std::vector<bool>& excluded,
+                               const ComparisonOptions& options) {
+  ModelComparison comparison;
+  const auto compare_with = [&](const std::vector<std::vector<bool>>& sets) {
+    comparison.marginalised_systems.reserve(kMostOutlierSets);
+    std::vector<SetSearch> searches;
+    double best = kMinusInfinity;
+    const auto take = [&](std::vector<CandidateModel> models) {
+      std::move(models.begin(), models.end(), std::back_inserter(comparison.models));
+    };
+    for (const auto& outliers : sets) {
+      if (comparison.marginalised_systems.size() == kMostOutlierSets) break;
+      comparison.marginalised_systems.push_back(marginalise(system, outliers, options.steps));
+      searches.emplace_back(session,
+                            system,
+                            comparison.marginalised_systems.back(),
+                            comparison.marginalised_systems.size() - 1,
+                            options);
+      take(searches.back().run());
+      best = std::max(best, searches.back().best());
+    }
+    for (SetSearch& search : searches) {
+      if (options.discrepancies && search.best() > best - kWorthDiscrepancies) {
+        take(search.run_beside_discrepancies());
+      }
+    }
+    finish(comparison);
+  };
+  compare_with(outlier_sets(session,
+                            system,
+                            excluded,
+                            first_hypotheses(session, system, excluded, options),
+                            options.steps));
+  const auto more = sets_without_links(session, system, excluded, comparison);
+  if (!more.empty()) compare_with(more);
+  return comparison;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The evidence of the data for each of: nothing, every cause, causes together, outliers, noise
+/// larger than stated, a model discrepancy, and causes beside a model discrepancy.
+///
+/// Every hypothesis looks for its own outliers, by mean shifts added one after the other without
+/// stopping at the first that does not pay, so that several outliers cannot hide each other; the
+/// few sets of outliers so found are each given the whole comparison. Causes are searched
+/// exhaustively one and two at a time, three and four at a time from the best of those.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "grid/diagnosis/evidence.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// A set of regressors, with or without a model discrepancy, and the points set aside.
+struct CandidateModel {
+  std::vector<int> regressors;   ///< ascending
+  int discrepancy = -1;          ///< number of the model discrepancy, or none
+  std::size_t marginalised = 0;  ///< into ModelComparison::marginalised_systems
+  double log_weight = 0.0;       ///< prior times evidence
+  double larger_noise = 0.0;     ///< share of it from noise larger than stated
+  double quadratic = 0.0;
+};
+
+struct ModelComparison {
+  std::vector<MarginalisedSystem> marginalised_systems;
+  std::vector<CandidateModel> models;  ///< those that matter, best first
+  double log_total = 0.0;
+  [[nodiscard]] const CandidateModel& best() const { return models.front(); }
+  [[nodiscard]] double probability(const CandidateModel& model) const;
+};
+
+struct ComparisonOptions {
+  Steps steps;
+  bool discrepancies = true;
+  /// Nothing but this cause acts.
+  std::optional<CauseId> told;
+};
+
+/// Points already known not to count (held out) are `excluded`.
+[[nodiscard]] ModelComparison compare_models(const Session& session,
+                                             const LinearisedSystem& system,
+                                             const std::vector<bool>& excluded,
+                                             const ComparisonOptions& options);
+
+/// Most causes in one set.
+inline constexpr std::size_t kMostCauses = 4;
+
+/// Prior of a set of regressors, of its outliers not.
+[[nodiscard]] double log_prior(const std::vector<Regressor>& regressors,
+                               const std::vector<int>& set,
+                               bool discrepancy);
+
+/// log BF of one cause against nothing, its places averaged: by position in `causes`.
+struct SingleScores {
+  std::vector<CauseId> causes;
+  std::vector<double> log_factor;
+  std::vector<int> best_regressor;
+};
+[[nodiscard]] SingleScores single_scores(const LinearisedSystem& system,
+                                         const MarginalisedSystem& marginalised,
+                                         const NoiseDensity& noise,
+                                         const Eigen::VectorXd& e,
+                                         bool average_location);
+
+}  // namespace chaintrue::grid::diagnosis
