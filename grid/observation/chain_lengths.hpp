@@ -24,6 +24,12 @@ class ChainLengthReadings final : public Observation {
                       PointNoise noise,
                       double noise_dof,
                       std::optional<SheetPrior> sheet);
+  /// The same in the order of `places`.
+  [[nodiscard]] static ChainLengthReadings in_given_order(std::vector<Place> places,
+                                                          bool ordered,
+                                                          PointNoise noise,
+                                                          double noise_dof,
+                                                          std::optional<SheetPrior> sheet);
 
   [[nodiscard]] const Kind& kind() const override { return chain_lengths; }
   [[nodiscard]] Eigen::Index rows() const override { return measured_.size(); }
@@ -46,6 +52,14 @@ class ChainLengthReadings final : public Observation {
   [[nodiscard]] const PointNoise& noise() const { return noise_; }
 
  private:
+  struct GivenOrder {};
+  ChainLengthReadings(GivenOrder,
+                      std::vector<Place> places,
+                      bool ordered,
+                      PointNoise noise,
+                      double noise_dof,
+                      std::optional<SheetPrior> sheet);
+
   std::vector<Place> places_;
   std::vector<Unit> units_;
   Eigen::VectorXd measured_;
