@@ -56,7 +56,10 @@ void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
     pull += row.transpose() * sure_response_[i];
   }
   problem.prior_precision.topLeftCorner(count, count) = precision;
-  problem.prior_mean.head(count) = precision.ldlt().solve(pull);
+  // No reading of the machine touches the scales: without more knowledge they stand apart.
+  const Eigen::Index coupled = input_.knowledge ? count : unknowns_->settings();
+  problem.prior_mean.head(coupled) =
+      precision.topLeftCorner(coupled, coupled).ldlt().solve(pull.head(coupled));
 }
 
 /// Sheets beside the first, and nuisances. Those of the noise are rows of data: the noise factor
