@@ -209,8 +209,10 @@ tl::expected<void, EstimationFailure> Estimator::choose_surface() {
   interp::FitOptions plain;
   plain.prior = interp::SmoothingPrior::kNone;
   plain.correct_covariance = false;
-  const auto without = interp::fit_penalised(problem_->weighted(weights_), plain);
-  if (!without) return tl::unexpected(failure_of(without.error()));
+  // V without a surface; of an unknown noise its prior is in it (reml.hpp).
+  const bool unknown = input_.noise.knowledge == interp::NoiseKnowledge::kUnknown;
+  const double without =
+      fit_.minus_two_log_reml + (unknown ? std::log(fit_.sigma2) : 0.0);
   auto bent = std::make_unique<JointProblem>(input_, true);
   State state = bent->stated();
   state.settings = state_.settings;
@@ -222,7 +224,7 @@ tl::expected<void, EstimationFailure> Estimator::choose_surface() {
   const double prior = 2.0 * static_cast<double>(bent->unknowns().surface().polynomials) *
                        std::log(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
   surface_log_evidence_ =
-      0.5 * (without->minus_two_log_reml - (with->minus_two_log_reml - prior));
+      0.5 * (without - (with->minus_two_log_reml - prior));
   if (surface_log_evidence_ < kSurfaceEvidence) return {};
   problem_ = std::move(bent);
   state_ = std::move(state);

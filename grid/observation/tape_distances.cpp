@@ -103,6 +103,16 @@ std::vector<BedPoint> marks_of(const std::vector<PlaceState>& states) {
   return marks;
 }
 
+/// The machine's own lengths, which corrected at the mark are those that were paid out.
+model::ChainLengths own_lengths(const LengthCorrection& correction,
+                                BedPoint mark,
+                                model::ChainLengths paid_out,
+                                model::ChainLengths own) {
+  const auto corrected = correction.at(mark, own, Eigen::Matrix2d::Zero());
+  return {paid_out.left_mm - (corrected.lengths.left_mm - own.left_mm),
+          paid_out.right_mm - (corrected.lengths.right_mm - own.right_mm)};
+}
+
 }  // namespace
 
 const Kind tape_distances{"tape_distances", "distance", "distances", "hole", false};
@@ -256,17 +266,21 @@ Eigen::MatrixXd TapeDistances::hook_columns() const {
 tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const View& view) const {
   // A correction changes by a thousandth of a hole's way, the chains' scale by 0.2 %: each turn
   // gains two digits at least, and begins within some mm.
-  constexpr int kTurns = 5;
+  constexpr int kTurns = 6;
+  constexpr double kSettledMm = 1e-9;
   std::vector<PlaceState> states;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const BedPoint start = places_[i].mark;
+    model::BedPoint start = places_[i].mark;
     model::ChainLengths own = places_[i].lengths;
+    if (view.correction != nullptr) own = own_lengths(*view.correction, start, places_[i].lengths, own);
     auto reading = view.model.find(own, start);
-    for (int turn = 0; reading && view.correction != nullptr && turn < kTurns; ++turn) {
-      const BedPoint mark = view.sheet.to_mark(reading->pose.position);
-      const auto corrected = view.correction->at(mark, own, Eigen::Matrix2d::Zero());
-      own.left_mm = places_[i].lengths.left_mm - (corrected.lengths.left_mm - own.left_mm);
-      own.right_mm = places_[i].lengths.right_mm - (corrected.lengths.right_mm - own.right_mm);
+    for (int turn = 1; reading && view.correction != nullptr && turn < kTurns; ++turn) {
+      start = reading->pose.position;
+      const model::ChainLengths before = own;
+      own = own_lengths(*view.correction, view.sheet.to_mark(start), places_[i].lengths, own);
+      if (std::abs(own.left_mm - before.left_mm) + std::abs(own.right_mm - before.right_mm) <
+          kSettledMm)
+        break;
       reading = view.model.find(own, start);
     }
     if (!reading) return tl::unexpected(Unreachable{i, reading.error()});

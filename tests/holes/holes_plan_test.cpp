@@ -54,8 +54,8 @@ TEST(HolesPlan, WithEdgesTheSheetsPlaceIsMeasured) {
   const auto plan = plan_holes(classic(), request);
   ASSERT_TRUE(plan);
   EXPECT_EQ(plan->set.distances.size(), 24u);
-  const observation::SheetPrior measured = sheet_measured(plan->set);
-  EXPECT_TRUE(measured.x && measured.y && measured.rotation);
+  const observation::SheetPrior measured = observation::sheet_measured(plan->set);
+  EXPECT_TRUE(measured.knows_x && measured.knows_y && measured.knows_rotation);
   std::set<std::tuple<std::size_t, std::size_t, std::optional<SheetEdge>>> readings;
   for (const HoleDistance& distance : plan->set.distances) {
     EXPECT_TRUE(readings.insert({distance.from, distance.to, distance.edge}).second) << "twice";
@@ -104,7 +104,7 @@ TEST(HolesPlan, WithEdgesFitsReachThePromisedErrorOnTheSheet) {
   for (std::uint64_t seed = 1; seed <= kSets; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     synthetic::HolesSpec spec = testing_support::usual_holes(seed);
-    spec.scale_sigma = kScaleSigma;
+    spec.scale_sigma = estimation::kScaleSigma;
     spec.sheet = {12.0, -9.0, 0.006};
     MeasuredHoles design = plan->set;
     design.sheet.width_mm = bed.width_mm + design.sheet.size_sigma_mm * size.normal();
