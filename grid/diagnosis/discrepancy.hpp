@@ -56,20 +56,16 @@ struct DiscrepancyPlace {
                                                 const DiscrepancyPlace& a,
                                                 const DiscrepancyPlace& b);
 
-[[nodiscard]] DiscrepancyPlace discrepancy_place(const Session& session,
-                                                 const LinearisedSystem& system,
-                                                 std::size_t i);
+[[nodiscard]] DiscrepancyPlace discrepancy_place(const SystemPlace& place);
 
-/// Covariance of two units' whitened rows, for s = 1; of units of one row the first number.
-[[nodiscard]] Eigen::Matrix2d discrepancy_between(const Session& session,
-                                                  const LinearisedSystem& system,
+/// Covariance of two units' whitened rows, for s = 1; of units of one row the first line, or column.
+[[nodiscard]] Eigen::Matrix2d discrepancy_between(const LinearisedSystem& system,
                                                   const DiscrepancyKernel& kernel,
-                                                  const Unit& a,
-                                                  const Unit& b);
+                                                  const SystemUnit& a,
+                                                  const SystemUnit& b);
 
 /// Covariance of these whitened rows, for s = 1.
-[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const Session& session,
-                                                     const LinearisedSystem& system,
+[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& system,
                                                      const std::vector<Eigen::Index>& kept,
                                                      const DiscrepancyKernel& kernel);
 

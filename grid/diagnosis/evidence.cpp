@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -27,10 +28,9 @@ double log_mass(double mean, double sigma, double low, double high) {
 
 /// L^-1 W K W' L^-T for a discrepancy of 1 mm.
 Eigen::MatrixXd reduced_discrepancy(const LinearisedSystem& system,
-                                    const Session& session,
                                     const MarginalisedSystem& marginalised,
                                     const DiscrepancyKernel& kernel) {
-  Eigen::MatrixXd c = discrepancy_covariance(session, system, marginalised.kept, kernel);
+  Eigen::MatrixXd c = discrepancy_covariance(system, marginalised.kept, kernel);
   const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
   c = lower.solve(c).eval();
   return lower.solve(c.transpose()).eval();
@@ -77,10 +77,18 @@ double NoiseDensity::noise_square(double quadratic) const {
   return sum;
 }
 
-double log_price_of_outlier(const LinearisedSystem& system) {
+double log_price_of_outlier(Eigen::Index rows) {
   return std::log(kOutlierPrior) -
-         0.5 * static_cast<double>(system.unit_rows) *
+         0.5 * static_cast<double>(rows) *
              std::log(2.0 * std::numbers::pi * kOutlierSpread * kOutlierSpread);
+}
+
+double log_price_of_outliers(const LinearisedSystem& system, const std::vector<bool>& outliers) {
+  std::array<double, 2> set_aside{};
+  for (std::size_t u = 0; u < outliers.size(); ++u) {
+    if (outliers[u]) set_aside[static_cast<std::size_t>(system.units[u].rows - 1)] += 1.0;
+  }
+  return set_aside[0] * log_price_of_outlier(1) + set_aside[1] * log_price_of_outlier(2);
 }
 
 MarginalisedSystem marginalise(const LinearisedSystem& system,
@@ -89,11 +97,10 @@ MarginalisedSystem marginalise(const LinearisedSystem& system,
   MarginalisedSystem marginalised;
   marginalised.outliers = outliers;
   for (Eigen::Index row = 0; row < system.e.size(); ++row) {
-    const auto unit = static_cast<std::size_t>(row / system.unit_rows);
-    if (unit >= outliers.size() || !outliers[unit]) marginalised.kept.push_back(row);
+    const int unit = system.unit_of_row[static_cast<std::size_t>(row)];
+    if (unit < 0 || !outliers[static_cast<std::size_t>(unit)]) marginalised.kept.push_back(row);
   }
-  const auto set_aside = static_cast<double>(std::count(outliers.begin(), outliers.end(), true));
-  marginalised.log_outliers = set_aside * log_price_of_outlier(system);
+  marginalised.log_outliers = log_price_of_outliers(system, outliers);
   const Eigen::MatrixXd a = system.by_setting(marginalised.kept, Eigen::all);
   Eigen::MatrixXd v = Eigen::MatrixXd::Identity(a.rows(), a.rows());
   if (steps.project_settings) {
@@ -161,7 +168,6 @@ NormalEquations normal_equations(const MarginalisedSystem& marginalised, std::ve
 
 std::vector<NormalEquations> normal_equations_beside_discrepancies(
     const LinearisedSystem& system,
-    const Session& session,
     MarginalisedSystem& marginalised,
     const std::vector<int>& columns) {
   std::vector<int> sorted = columns;
@@ -170,7 +176,7 @@ std::vector<NormalEquations> normal_equations_beside_discrepancies(
   marginalised.discrepancy_trace.clear();
   for (const DiscrepancyKernel& kernel : kDiscrepancyKernels) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        reduced_discrepancy(system, session, marginalised, kernel));
+        reduced_discrepancy(system, marginalised, kernel));
     const Eigen::ArrayXd values = eigen.eigenvalues().array().max(0.0);
     marginalised.discrepancy_trace.push_back(values.sum());
     const Eigen::VectorXd e = eigen.eigenvectors().transpose() * marginalised.e;

@@ -69,8 +69,11 @@ struct MarginalisedSystem {
   /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.
   std::vector<double> discrepancy_trace;
 };
-/// Prior and density of one unit set aside.
-[[nodiscard]] double log_price_of_outlier(const LinearisedSystem& system);
+/// Prior and density of one unit of so many rows set aside.
+[[nodiscard]] double log_price_of_outlier(Eigen::Index rows);
+/// Of all these units.
+[[nodiscard]] double log_price_of_outliers(const LinearisedSystem& system,
+                                           const std::vector<bool>& outliers);
 [[nodiscard]] MarginalisedSystem marginalise(const LinearisedSystem& system,
                                              const std::vector<bool>& outliers,
                                              const Steps& steps);
@@ -105,7 +108,6 @@ struct NormalEquations {
 /// marginalised system.
 [[nodiscard]] std::vector<NormalEquations> normal_equations_beside_discrepancies(
     const LinearisedSystem& system,
-    const Session& session,
     MarginalisedSystem& marginalised,
     const std::vector<int>& columns);
 /// Kernel and strength of discrepancy number `index`, in a marginalised system whose traces are

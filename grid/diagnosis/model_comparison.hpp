@@ -42,8 +42,7 @@ struct ComparisonOptions {
 };
 
 /// Points already known not to count (held out) are `excluded`.
-[[nodiscard]] ModelComparison compare_models(const Session& session,
-                                             const LinearisedSystem& system,
+[[nodiscard]] ModelComparison compare_models(const LinearisedSystem& system,
                                              const std::vector<bool>& excluded,
                                              const ComparisonOptions& options);
 

@@ -21,10 +21,6 @@ ChainLengthReadings::ChainLengthReadings(std::vector<Place> places,
       noise_(noise),
       noise_dof_(noise_dof),
       sheet_(sheet) {
-  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-    return std::tie(a.order, a.mark.x_mm, a.mark.y_mm, a.lengths.left_mm, a.lengths.right_mm) <
-           std::tie(b.order, b.mark.x_mm, b.mark.y_mm, b.lengths.left_mm, b.lengths.right_mm);
-  });
   measured_.resize(2 * static_cast<Eigen::Index>(places_.size()));
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const auto row = 2 * static_cast<Eigen::Index>(i);
@@ -32,6 +28,18 @@ ChainLengthReadings::ChainLengthReadings(std::vector<Place> places,
     measured_(row + 1) = places_[i].lengths.right_mm;
     units_.push_back({row, 2, places_[i].index});
   }
+}
+
+ChainLengthReadings ChainLengthReadings::of(std::vector<Place> places,
+                                            bool ordered,
+                                            PointNoise noise,
+                                            double noise_dof,
+                                            std::optional<SheetPrior> sheet) {
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.order, a.mark.x_mm, a.mark.y_mm, a.lengths.left_mm, a.lengths.right_mm) <
+           std::tie(b.order, b.mark.x_mm, b.mark.y_mm, b.lengths.left_mm, b.lengths.right_mm);
+  });
+  return {std::move(places), ordered, noise, noise_dof, sheet};
 }
 
 tl::expected<Eigen::VectorXd, Unreachable> ChainLengthReadings::predicted(const View& view) const {

@@ -19,6 +19,12 @@ struct PointNoise {
 class ChainLengthReadings final : public Observation {
  public:
   /// Sorts the places: by visit where the order is known, else by mark and lengths.
+  [[nodiscard]] static ChainLengthReadings of(std::vector<Place> places,
+                                              bool ordered,
+                                              PointNoise noise,
+                                              double noise_dof,
+                                              std::optional<SheetPrior> sheet);
+  /// The same in the order given.
   ChainLengthReadings(std::vector<Place> places,
                       bool ordered,
                       PointNoise noise,

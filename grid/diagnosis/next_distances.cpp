@@ -18,18 +18,21 @@ constexpr std::size_t kArms = 3;
 
 class HoleCandidates {
  public:
-  HoleCandidates(const Session& session, const Analysis& a)
-      : session_(session), a_(a), measured_(session.distances->set()), set_(measured_) {
+  HoleCandidates(const Analysis& a, const observation::TapeDistances& tape, std::size_t part)
+      : a_(a), part_(part), measured_(tape.set()), set_(measured_) {
     set_.distances.clear();
     add_pairs();
     add_edges();
     add_holes();
   }
 
-  [[nodiscard]] NextCandidates take() {
-    auto next = with_holes(session_, std::move(set_));
-    if (!next) return {session_, {}};
-    return {*std::move(next), std::move(candidates_)};
+  [[nodiscard]] std::optional<CandidateReadings> take() {
+    if (candidates_.empty()) return std::nullopt;
+    auto tape = observation::TapeDistances::in_given_order(std::move(set_));
+    if (!tape) return std::nullopt;
+    return CandidateReadings{
+        {std::make_shared<const observation::TapeDistances>(*std::move(tape)), part_},
+        std::move(candidates_)};
   }
 
  private:
@@ -93,7 +96,7 @@ class HoleCandidates {
     alone.holes = {hole};
     alone.distances.clear();
     const auto one = observation::TapeDistances::in_given_order(std::move(alone));
-    return one && one->placed({model::ReadingModel(a_.state.machine), a_.state.sheet});
+    return one && one->placed(a_.state.view(a_.session.parts[part_]));
   }
 
   void add_hole(const model::BedPoint& place) {
@@ -131,8 +134,8 @@ class HoleCandidates {
     }
   }
 
-  const Session& session_;
   const Analysis& a_;
+  std::size_t part_;
   const MeasuredHoles& measured_;
   MeasuredHoles set_;
   std::vector<Candidate> candidates_;
@@ -140,8 +143,11 @@ class HoleCandidates {
 
 }  // namespace
 
-NextCandidates candidates_between_holes(const Session& session, const Analysis& a) {
-  return HoleCandidates(session, a).take();
+std::optional<CandidateReadings> candidate_distances(const Analysis& a, std::size_t part) {
+  const auto* tape = dynamic_cast<const observation::TapeDistances*>(
+      a.session.parts[part].observation.get());
+  if (tape == nullptr) return std::nullopt;
+  return HoleCandidates(a, *tape, part).take();
 }
 
 }  // namespace chaintrue::grid::diagnosis
