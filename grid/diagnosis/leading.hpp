@@ -26,7 +26,7 @@ namespace chaintrue::grid::diagnosis {
 /// there is none.
 struct Nearest {
   int column = -1;
-  double rho = 0.0;  ///< |cosine| of the two
+  double collinearity = 0.0;  ///< |cosine| of the two
 };
 [[nodiscard]] Nearest nearest_other(const Analysis& analysis, int column);
 

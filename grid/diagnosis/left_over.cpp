@@ -122,7 +122,7 @@ LeftOver left_over(const Session& session, const Analysis& a, std::uint64_t seed
     const Estimate beside = estimate(
         session, a.system, marginalised, a.decision.regressors, a.decision.best_discrepancy);
     const Eigen::VectorXd discrepancy = beside.left - beside.left_beside_discrepancy;
-    result.delta =
+    result.signal_to_noise =
         length_in_noise(a.system, marginalised.kept, discrepancy) / std::sqrt(beside.noise_square);
   }
   // A distance has no place to follow, and a few holes draw no curve.

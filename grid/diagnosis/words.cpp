@@ -252,7 +252,7 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
           "name; the nearest inside it is this: {}{} (likeness {:.3f}).",
           lead.rival->effect->cause,
           side_words(*lead.rival),
-          lead.rival_rho);
+          lead.rival_collinearity);
     }
   } else if (d.verdict == Verdict::unknown_pattern) {
     text =

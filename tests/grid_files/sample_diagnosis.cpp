@@ -83,12 +83,12 @@ void add_causes(Diagnosis& found) {
   diagnosis::Cause named;
   named.cause = cause("chain_pitch_error", EffectSide::left);
   named.probability = 0.97;
-  named.delta = 11.3;
+  named.signal_to_noise = 11.3;
   named.share_left = 0.28;
   named.parameters = {{"elongation", kElongation, 0.0001}};
   named.same_as = {{cause("tape_scale", EffectSide::both), {{"scale", -kElongation, 0.0001}}}};
   named.rival = cause("tooth_skip", EffectSide::left);
-  named.rival_rho = 0.81;
+  named.rival_collinearity = 0.81;
   named.order_assumed = true;
   found.causes = {named};
   found.hypotheses = {{"chain_pitch_error", "left", 0.97},

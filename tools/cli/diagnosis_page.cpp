@@ -220,8 +220,9 @@ Section separation_section(const Diagnosis& found) {
     table.rows.push_back(
         {{cause_title(pair.first),
           cause_title(pair.second),
-          fixed(pair.rho, 3),
-          std::isfinite(pair.delta_needed) ? fixed(pair.delta_needed, 1) : "never"},
+          fixed(pair.collinearity, 3),
+          std::isfinite(pair.signal_to_noise_needed) ? fixed(pair.signal_to_noise_needed, 1)
+                                                     : "never"},
          false});
   }
   table.caption =

@@ -75,7 +75,7 @@ Section terms_section(const Diagnosis& found) {
     const std::string fate = fate_of(found, term);
     table.rows.push_back({{cause_title(term.cause),
                            typeset(size_in_words(term.parameter, term.value, term.sigma)),
-                           fixed(term.delta, 1),
+                           fixed(term.signal_to_noise, 1),
                            share_percent(term.share_left),
                            share_percent(term.p_value),
                            percent(term.probability),
