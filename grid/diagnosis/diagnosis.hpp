@@ -35,12 +35,12 @@
 namespace chaintrue::grid::diagnosis {
 
 enum class Verdict {
-  named,           ///< one cause, or one class that no data of this kind can separate
-  named_set,       ///< one cause, but these data leave two or more
-  several_causes,  ///< two or more act together
-  unknown_pattern,
+  named,              ///< one cause, or one class that no data of this kind can separate
+  named_set,          ///< one cause, but these data leave two or more
+  several_causes,     ///< two or more act together
+  model_discrepancy,  ///< "unknown_pattern" in words
   noise_larger_than_stated,
-  bad_points,
+  outliers,  ///< "bad_points" in words
   nothing_found,
 };
 [[nodiscard]] std::string_view name(Verdict verdict);
@@ -315,7 +315,7 @@ struct Diagnosis {
   std::vector<Cause> causes;
   std::vector<Hypothesis> hypotheses;
   LeftOver left_over;
-  std::vector<Outlier> bad_points;
+  std::vector<Outlier> outliers;
   std::vector<NotTestable> not_testable;
   std::vector<Bound> bounds;
   std::vector<CalibratedSetting> settings;
