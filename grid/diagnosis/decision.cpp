@@ -133,7 +133,7 @@ class Decider {
     const bool with_outliers =
         comparison_.marginalised_systems[model.marginalised].outliers != excluded_;
     if (model.discrepancy >= 0) {
-      result_.unknown += p;
+      result_.discrepancy_alone += p;
     } else if (with_outliers) {
       result_.outliers += p;
     } else {
@@ -254,12 +254,12 @@ class Decider {
       result_.discrepancy_left = false;
     }
     const double most =
-        std::max({result_.nothing, result_.noise, result_.outliers, result_.unknown});
-    if (result_.discrepancy > 0.5 || result_.unknown == most) {
-      result_.verdict = Verdict::unknown_pattern;
+        std::max({result_.nothing, result_.noise, result_.outliers, result_.discrepancy_alone});
+    if (result_.discrepancy > 0.5 || result_.discrepancy_alone == most) {
+      result_.verdict = Verdict::model_discrepancy;
       result_.discrepancy_left = true;
     } else if (result_.outliers == most) {
-      result_.verdict = Verdict::bad_points;
+      result_.verdict = Verdict::outliers;
     } else if (result_.noise == most) {
       result_.verdict = Verdict::noise_larger_than_stated;
     } else {

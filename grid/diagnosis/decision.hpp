@@ -41,7 +41,7 @@ struct Decision {
   double nothing = 0.0;
   double noise = 0.0;
   double outliers = 0.0;
-  double unknown = 0.0;
+  double discrepancy_alone = 0.0;
   double caused = 0.0;       ///< one cause or more
   double discrepancy = 0.0;  ///< with a model discrepancy, beside causes or alone
   /// The causes of the verdict (indices into classes): the one named, the set, or those that act

@@ -22,11 +22,11 @@ std::string_view name(Verdict verdict) {
       return "named_set";
     case Verdict::several_causes:
       return "several_causes";
-    case Verdict::unknown_pattern:
+    case Verdict::model_discrepancy:
       return "unknown_pattern";
     case Verdict::noise_larger_than_stated:
       return "noise_larger_than_stated";
-    case Verdict::bad_points:
+    case Verdict::outliers:
       return "bad_points";
     case Verdict::nothing_found:
       break;
@@ -63,7 +63,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(
   d.not_testable = analysis->candidates.not_testable;
   d.bounds = bounds(*session, *analysis, d.not_testable);
   d.settings = settings_found(*session, *analysis);
-  d.bad_points = outliers_found(*session, *analysis);
+  d.outliers = outliers_found(*session, *analysis);
   d.separations = separations(*analysis);
   d.points = pictures(*session, *analysis);
   d.holes = hole_pictures(*session, *analysis);

@@ -5,8 +5,9 @@
 /// Three statements are kept apart throughout: a cause is present (causes), it was looked for and
 /// is smaller than a bound (bounds), or these data cannot show it (not_testable).
 ///
-///   delta  length of an effect's whitened signature after the settings have taken their share: its
-///          strength in units of noise
+///   signal_to_noise  length of an effect's whitened signature after the settings have taken their
+///                    share: its strength in units of noise; "delta" in files
+///   collinearity     |cosine| of two such signatures; "rho" in files
 ///
 /// What was measured may be a grid, or holes with a tape's distances between them: the same answer
 /// of the same engine, whose points are then distances.
@@ -34,12 +35,12 @@
 namespace chaintrue::grid::diagnosis {
 
 enum class Verdict {
-  named,           ///< one cause, or one class that no data of this kind can separate
-  named_set,       ///< one cause, but these data leave two or more
-  several_causes,  ///< two or more act together
-  unknown_pattern,
+  named,              ///< one cause, or one class that no data of this kind can separate
+  named_set,          ///< one cause, but these data leave two or more
+  several_causes,     ///< two or more act together
+  model_discrepancy,  ///< "unknown_pattern" in words
   noise_larger_than_stated,
-  bad_points,
+  outliers,  ///< "bad_points" in words
   nothing_found,
 };
 [[nodiscard]] std::string_view name(Verdict verdict);
@@ -70,13 +71,13 @@ struct SameCause {
 struct Cause {
   CauseId cause;
   double probability = 0.0;
-  double delta = 0.0;
+  double signal_to_noise = 0.0;
   double share_left = 0.0;  ///< of its signature, after the settings have taken theirs
   std::vector<ParameterEstimate> parameters;
   std::vector<SameCause> same_as;
   /// The effect that these data tell from it least, |cosine| of the two.
   std::optional<CauseId> rival;
-  double rival_rho = 0.0;
+  double rival_collinearity = 0.0;
   /// It needs the visiting order, which nobody measured.
   bool order_assumed = false;
 };
@@ -90,7 +91,7 @@ struct Hypothesis {
 
 /// What is left once the causes named are in the model.
 struct LeftOver {
-  double delta = 0.0;
+  double signal_to_noise = 0.0;
   /// The coordinate it follows best: angle_left, length_right, tension_left, order, x, y, ...;
   /// empty where nothing stands out.
   std::string follows;
@@ -245,7 +246,7 @@ struct Term {
   std::string parameter;  ///< the size; where there are two, their amplitude
   double value = 0.0;     ///< if it acted alone
   double sigma = 0.0;
-  double delta = 0.0;
+  double signal_to_noise = 0.0;
   double share_left = 0.0;
   double p_value = 1.0;  ///< family-wise: chance that noise alone lets any effect look as strong
   double probability = 0.0;
@@ -255,8 +256,9 @@ struct Term {
 struct Separation {
   CauseId first;
   CauseId second;
-  double rho = 0.0;
-  double delta_needed = 0.0;  ///< strength at which 95 of 100 are told apart; infinity: none
+  double collinearity = 0.0;
+  /// Strength at which 95 of 100 are told apart; infinity: none.
+  double signal_to_noise_needed = 0.0;
 };
 
 /// How well a model, calibrated elsewhere, predicts another grid: nothing is fitted but, where the
@@ -313,7 +315,7 @@ struct Diagnosis {
   std::vector<Cause> causes;
   std::vector<Hypothesis> hypotheses;
   LeftOver left_over;
-  std::vector<Outlier> bad_points;
+  std::vector<Outlier> outliers;
   std::vector<NotTestable> not_testable;
   std::vector<Bound> bounds;
   std::vector<CalibratedSetting> settings;

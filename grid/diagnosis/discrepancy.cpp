@@ -9,18 +9,18 @@ namespace {
 double bell(double square) { return std::exp(-0.5 * square); }
 
 /// Density of a half-Cauchy over the logarithm of the strength, but for a constant.
-double cauchy_weight(double delta) {
+double cauchy_weight(double strength) {
   constexpr double kScale = 10.0;
-  return delta / (1.0 + std::pow(delta / kScale, 2));
+  return strength / (1.0 + std::pow(strength / kScale, 2));
 }
 
 }  // namespace
 
 double log_share_of_discrepancy(int index) {
   double sum = 0.0;
-  for (const double delta : kDiscrepancyStrengths) sum += cauchy_weight(delta);
-  const auto deltas = static_cast<int>(std::size(kDiscrepancyStrengths));
-  return std::log(cauchy_weight(kDiscrepancyStrengths[index % deltas]) / sum) -
+  for (const double strength : kDiscrepancyStrengths) sum += cauchy_weight(strength);
+  const auto strengths = static_cast<int>(std::size(kDiscrepancyStrengths));
+  return std::log(cauchy_weight(kDiscrepancyStrengths[index % strengths]) / sum) -
          std::log(static_cast<double>(std::size(kDiscrepancyKernels)));
 }
 

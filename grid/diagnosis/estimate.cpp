@@ -86,7 +86,7 @@ Estimate estimate(const LinearisedSystem& system,
       const int column = regressors[result.free[static_cast<std::size_t>(k)]];
       unknowns.design.col(settings + k) = system.g(marginalised.kept, column);
       unknowns.sigma(settings + k) =
-          kWideDelta / std::max(marginalised.g.col(column).norm(), 1e-12);
+          kWideSignalToNoise / std::max(marginalised.g.col(column).norm(), 1e-12);
     }
     solution = solve(unknowns, data(marginalised.kept), discrepancy >= 0 ? &noise : nullptr);
     std::size_t outside = result.free.size();

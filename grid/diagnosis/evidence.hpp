@@ -7,9 +7,9 @@
 ///   e, g_k   whitened rows (linearised_system.hpp), those of points set aside taken out; N of them
 ///   V        I + A diag(sigma^2) A': their covariance with the settings unknown but for what is
 ///            stated, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
-///   delta_k  coefficient times |V^-1/2 g_k|: the strength of a cause. Beforehand N(0,
-///   kDeltaSigma^2),
-///            cut to what the parameter may be
+///   delta_k  coefficient times |V^-1/2 g_k|: the signal-to-noise ratio of a cause. Beforehand
+///            N(0, kUsualSignalToNoise^2), with a small weight N(0, kWideSignalToNoise^2), cut to
+///            what the parameter may be
 ///   s^2      the noise's square over the stated one: scaled inverse chi^2, dof as stated, about 1;
 ///            with a small weight about one of kLargerNoise squared
 ///   K        covariance of the model discrepancy (discrepancy.hpp)
@@ -31,9 +31,9 @@
 
 namespace chaintrue::grid::diagnosis {
 
-inline constexpr double kUsualDelta = 12.0;
-inline constexpr double kWideDelta = 60.0;
-inline constexpr double kWideDeltaPrior = 0.15;
+inline constexpr double kUsualSignalToNoise = 12.0;
+inline constexpr double kWideSignalToNoise = 60.0;
+inline constexpr double kWideSignalToNoisePrior = 0.15;
 inline constexpr double kLargerNoise[] = {1.5, 2.0, 2.7};
 inline constexpr double kLargerNoisePrior = 0.06;  ///< shared by all of them
 /// An outlier's whitened reading is spread this wide, in sigmas.
@@ -117,9 +117,9 @@ struct NormalEquations {
 /// What a set of regressors makes of the data.
 struct SetEvidence {
   double log_evidence = 0.0;
-  double quadratic = 0.0;        ///< what is left of e'e
-  Eigen::VectorXd delta;         ///< of the free ones, in the order of the set
-  Eigen::VectorXd delta_square;  ///< their variances, in units of s^2
+  double quadratic = 0.0;                    ///< what is left of e'e
+  Eigen::VectorXd signal_to_noise;           ///< of the free ones, in the order of the set
+  Eigen::VectorXd signal_to_noise_variance;  ///< their variances, in units of s^2
 };
 /// `set` holds positions in the normal equations. Minus infinity where a cause would need what it
 /// cannot be.

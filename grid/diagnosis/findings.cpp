@@ -99,12 +99,12 @@ Cause describe(const Analysis& a, std::size_t index) {
     auto found = parameters(a, column, fitted.coefficient(at), fitted.coefficient_sigma(at));
     if (member == members.front()) {
       const double length = marginalised_system(a).g.col(column).norm();
-      cause.delta = std::abs(fitted.coefficient(at)) * length;
+      cause.signal_to_noise = std::abs(fitted.coefficient(at)) * length;
       cause.share_left = length / std::max(raw_length(a, column), 1e-12);
       cause.parameters = std::move(found);
       if (const Nearest other = nearest_other(a, column); other.column >= 0) {
         cause.rival = regressor(a, other.column).cause;
-        cause.rival_rho = other.rho;
+        cause.rival_collinearity = other.collinearity;
       }
     } else {
       cause.same_as.push_back({member, std::move(found)});
@@ -170,7 +170,7 @@ std::vector<Term> terms(const Analysis& a) {
     term.value = size_at(regressor(a, column), alone.coefficient(0));
     term.sigma = std::abs(size_slope(regressor(a, column), alone.coefficient(0))) *
                  alone.coefficient_sigma(0);
-    term.delta = std::abs(alone.coefficient(0)) * length;
+    term.signal_to_noise = std::abs(alone.coefficient(0)) * length;
     term.share_left = length / std::max(raw_length(a, column), 1e-12);
     term.p_value = a.null.p_value(by_cause(static_cast<Eigen::Index>(k)));
     for (std::size_t c = 0; c < a.decision.classes.size(); ++c) {
@@ -306,11 +306,12 @@ std::vector<Separation> separations(const Analysis& a) {
       const CauseId& y = a.decision.classes[shown[i]].front();
       const auto gx = marginalised.g.col(best_regressor(a, x));
       const auto gy = marginalised.g.col(best_regressor(a, y));
-      const double rho =
+      const double collinearity =
           std::min(1.0, std::abs(gx.dot(gy)) / std::max(gx.norm() * gy.norm(), 1e-12));
-      // 1.645 sqrt(2 / (1 - rho)): 95 of 100 told apart; a class is never told apart.
-      const double needed = kQuantile95 * std::sqrt(2.0 / std::max(1.0 - rho, 1.0 - kOneClass));
-      result.push_back({x, y, rho, needed});
+      // 1.645 sqrt(2 / (1 - collinearity)): 95 of 100 told apart; a class is never told apart.
+      const double needed =
+          kQuantile95 * std::sqrt(2.0 / std::max(1.0 - collinearity, 1.0 - kOneClass));
+      result.push_back({x, y, collinearity, needed});
     }
   }
   return result;

@@ -75,8 +75,8 @@ Nearest nearest_other(const Analysis& a, int column) {
     const auto g = marginalised.g.col(static_cast<Eigen::Index>(k));
     const double length = g.norm() * own.norm();
     if (!(length > 1e-12) || excluded(a.system.regressors[k].cause)) continue;
-    const double rho = std::abs(own.dot(g)) / length;
-    if (rho > nearest.rho) nearest = {static_cast<int>(k), rho};
+    const double collinearity = std::abs(own.dot(g)) / length;
+    if (collinearity > nearest.collinearity) nearest = {static_cast<int>(k), collinearity};
   }
   return nearest;
 }

@@ -29,7 +29,7 @@ void set_slips_aside(const Analysis& analysis, std::vector<bool>& outliers);
 /// there is none.
 struct Nearest {
   int column = -1;
-  double rho = 0.0;  ///< |cosine| of the two
+  double collinearity = 0.0;  ///< |cosine| of the two
 };
 [[nodiscard]] Nearest nearest_other(const Analysis& analysis, int column);
 

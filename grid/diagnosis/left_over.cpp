@@ -111,7 +111,7 @@ LeftOver left_over(const Analysis& a) {
     const Estimate beside =
         estimate(a.system, marginalised, a.decision.regressors, a.decision.best_discrepancy);
     const Eigen::VectorXd discrepancy = beside.left - beside.left_beside_discrepancy;
-    result.delta =
+    result.signal_to_noise =
         length_in_noise(a.system, marginalised.kept, discrepancy) / std::sqrt(beside.noise_square);
   }
   // A distance joins two places and follows neither.

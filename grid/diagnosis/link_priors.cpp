@@ -13,11 +13,12 @@ constexpr double kSlipOddsOfVisit = 0.5 / 34.0;
 /// Of whole numbers of links, one is the rule.
 double share_of_links(double links) { return std::pow(0.25, std::abs(links) - 1.0); }
 
-double strength_density(double delta) {
+double strength_density(double signal_to_noise) {
   const auto normal = [&](double sigma) {
-    return std::exp(-0.5 * std::pow(delta / sigma, 2)) / sigma;
+    return std::exp(-0.5 * std::pow(signal_to_noise / sigma, 2)) / sigma;
   };
-  return (1.0 - kWideDeltaPrior) * normal(kUsualDelta) + kWideDeltaPrior * normal(kWideDelta);
+  return (1.0 - kWideSignalToNoisePrior) * normal(kUsualSignalToNoise) +
+         kWideSignalToNoisePrior * normal(kWideSignalToNoise);
 }
 
 }  // namespace

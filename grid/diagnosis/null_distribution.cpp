@@ -11,7 +11,7 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr double kNoScore = -1e3;
-constexpr double kPrecision = 1.0 / (kUsualDelta * kUsualDelta);
+constexpr double kPrecision = 1.0 / (kUsualSignalToNoise * kUsualSignalToNoise);
 constexpr int kBlock = 250;  // draws at a time
 
 }  // namespace
@@ -30,7 +30,7 @@ SingleScore::SingleScore(const LinearisedSystem& system,
     sign_.push_back(d.fixed || (d.lowest < 0.0 && d.highest > 0.0) ? 0
                                                                    : (d.highest > 0.0 ? 1 : -1));
     constant_(k) = d.log_prior;
-    if (!d.fixed) constant_(k) -= std::log(kUsualDelta) + 0.5 * std::log1p(kPrecision);
+    if (!d.fixed) constant_(k) -= std::log(kUsualSignalToNoise) + 0.5 * std::log1p(kPrecision);
     if (sign_.back() != 0) constant_(k) += std::log(2.0);
   }
 }

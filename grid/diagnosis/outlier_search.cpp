@@ -43,7 +43,8 @@ Seen seen_by(const Seen& nothing,
   std::vector<Eigen::VectorXd> taken;
   for (const int k : set) {
     if (system.regressors[static_cast<std::size_t>(k)].fixed) continue;
-    const double prior = marginalised.g.col(k).squaredNorm() / (kWideDelta * kWideDelta);
+    const double prior =
+        marginalised.g.col(k).squaredNorm() / (kWideSignalToNoise * kWideSignalToNoise);
     // P g for the precision so far
     Eigen::VectorXd pg = upper.solve(Eigen::VectorXd(marginalised.g.col(k)));
     const Eigen::VectorXd g = marginalised.factor * marginalised.g.col(k);

@@ -72,7 +72,7 @@ std::string distance_words(const Diagnosis& d, const Outlier& bad) {
 /// The outliers by number, or by their ends.
 std::vector<std::string> bad_ones(const Diagnosis& d) {
   std::vector<std::string> result;
-  for (const Outlier& b : d.bad_points) {
+  for (const Outlier& b : d.outliers) {
     result.push_back(d.observations == Observations::distances ? distance_words(d, b)
                                                                : fmt::format("{}", b.index + 1));
   }
@@ -163,7 +163,7 @@ std::string sentence(const Session& session, const Diagnosis& d) {
       return set_words(d);
     case Verdict::several_causes:
       return several_words(d);
-    case Verdict::unknown_pattern:
+    case Verdict::model_discrepancy:
       return unknown_words(d);
     case Verdict::noise_larger_than_stated:
       return fmt::format(
@@ -172,7 +172,7 @@ std::string sentence(const Session& session, const Diagnosis& d) {
           name(d.observations),
           d.noise_factor,
           session.distances ? "drill" : "marking");
-    case Verdict::bad_points:
+    case Verdict::outliers:
       return bad_words(d);
     case Verdict::nothing_found:
       break;
@@ -184,7 +184,7 @@ std::string sentence(const Session& session, const Diagnosis& d) {
 void say_what_to_read_again(Diagnosis& d) {
   const std::vector<std::size_t> points = points_it_rests_on(d);
   if (points.size() != 1) return;
-  const bool is_bad = std::any_of(d.bad_points.begin(), d.bad_points.end(), [&](const Outlier& b) {
+  const bool is_bad = std::any_of(d.outliers.begin(), d.outliers.end(), [&](const Outlier& b) {
     return b.index == points.front();
   });
   if (is_bad) return;
@@ -214,7 +214,7 @@ void say_what_to_do(Diagnosis& d) {
                         : "",
                     100.0 * d.next_measurements.back().raises_probability_to));
   }
-  if (!d.bad_points.empty() && d.what_to_do.size() < 3) {
+  if (!d.outliers.empty() && d.what_to_do.size() < 3) {
     d.what_to_do.push_back(
         fmt::format("Measure {}{} again.",
                     d.observations == Observations::points ? "point " : "the distance ",
@@ -228,7 +228,7 @@ void say_what_to_do(Diagnosis& d) {
                                        s.calibrated,
                                        name(d.observations)));
   }
-  if (d.what_to_do.empty() && d.verdict == Verdict::unknown_pattern) {
+  if (d.what_to_do.empty() && d.verdict == Verdict::model_discrepancy) {
     d.what_to_do.emplace_back(
         "Use the measured map (chaintrue fit): it corrects a pattern that repeats, whatever makes "
         "it.");
@@ -252,9 +252,9 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
           "name; the nearest inside it is this: {}{} (likeness {:.3f}).",
           lead.rival->effect->cause,
           side_words(*lead.rival),
-          lead.rival_rho);
+          lead.rival_collinearity);
     }
-  } else if (d.verdict == Verdict::unknown_pattern) {
+  } else if (d.verdict == Verdict::model_discrepancy) {
     text =
         "That no cause in the catalogue explains it does not prove that none of them acts as well.";
   } else {

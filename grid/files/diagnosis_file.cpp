@@ -87,11 +87,11 @@ void outlier_keys(Record<Diagnosis>& record) {
         const auto read = indices.read(at);
         if (!read) return;
         for (const int index : *read)
-          object.bad_points.push_back({.index = static_cast<std::size_t>(index)});
+          object.outliers.push_back({.index = static_cast<std::size_t>(index)});
       },
       [](const Diagnosis& object) {
         Json json = Json::array();
-        for (const Outlier& bad : object.bad_points) json.push_back(bad.index);
+        for (const Outlier& bad : object.outliers) json.push_back(bad.index);
         return std::optional<Json>(std::move(json));
       });
   record.custom(
@@ -101,18 +101,18 @@ void outlier_keys(Record<Diagnosis>& record) {
       [](const Cursor& at, Diagnosis& object) {
         const auto read = shifts.read(at);
         if (!read) return;
-        if (read->size() != object.bad_points.size())
+        if (read->size() != object.outliers.size())
           return at.expect("as many shifts as there are bad_points");
         for (std::size_t i = 0; i < read->size(); ++i) {
           const Shift& shift = (*read)[i];
-          object.bad_points[i].shift_mm = {shift.x_mm.value_or(0.0), shift.y_mm.value_or(0.0)};
-          object.bad_points[i].off_mm = shift.off_mm.value_or(0.0);
-          object.bad_points[i].distance = (*read)[i].sigmas;
+          object.outliers[i].shift_mm = {shift.x_mm.value_or(0.0), shift.y_mm.value_or(0.0)};
+          object.outliers[i].off_mm = shift.off_mm.value_or(0.0);
+          object.outliers[i].distance = (*read)[i].sigmas;
         }
       },
       [](const Diagnosis& object) {
         Json json = Json::array();
-        for (const Outlier& bad : object.bad_points) {
+        for (const Outlier& bad : object.outliers) {
           json.push_back(shift_record().write(
               object.observations == Observations::distances
                   ? Shift{{}, {}, bad.off_mm, bad.distance}

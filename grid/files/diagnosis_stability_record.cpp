@@ -16,9 +16,9 @@ Value<diagnosis::Verdict> verdict_word() {
   for (const Verdict verdict : {Verdict::named,
                                 Verdict::named_set,
                                 Verdict::several_causes,
-                                Verdict::unknown_pattern,
+                                Verdict::model_discrepancy,
                                 Verdict::noise_larger_than_stated,
-                                Verdict::bad_points,
+                                Verdict::outliers,
                                 Verdict::nothing_found}) {
     names.emplace_back(diagnosis::name(verdict), verdict);
   }

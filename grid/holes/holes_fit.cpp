@@ -29,7 +29,7 @@ constexpr int kMaximumPasses = 40;
 constexpr double kSettledSigmas = 1e-3;
 /// 95 % of good readings are nearer.
 constexpr double kHuberSigmas = 1.96;
-/// Passes with soft weights only, so that several bad readings cannot hide each other.
+/// Passes with soft weights only, so that several outliers cannot mask each other.
 constexpr int kSoftPasses = 4;
 /// What is stated without any uncertainty is taken as known this well, in mm or as a ratio.
 constexpr double kKnownSigma = 1e-7;
@@ -101,7 +101,7 @@ LinearHoles HolesFitter::linear() const {
 }
 
 /// The reading that fits worst, where the others alone, with the noise that they alone show, put it
-/// beyond kBadDistanceSigmas: a bad reading raises the noise found and so hides itself.
+/// beyond kOutlierSigmas: an outlier raises the noise found and so masks itself.
 std::optional<Eigen::Index> HolesFitter::worst_bad(const HolesSolution& solution) {
   constexpr double kSuspect = 2.5;
   Eigen::Index worst = -1;
@@ -118,7 +118,7 @@ std::optional<Eigen::Index> HolesFitter::worst_bad(const HolesSolution& solution
   const HolesSolution without = solve(prior_);
   weights_[worst] = weight;
   const double sigmas = std::abs(without.left_out[worst]) / without.left_out_sigma[worst];
-  return sigmas > kBadDistanceSigmas ? std::optional(worst) : std::nullopt;
+  return sigmas > kOutlierSigmas ? std::optional(worst) : std::nullopt;
 }
 
 /// True where the weights changed enough to solve again.

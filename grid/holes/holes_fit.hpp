@@ -16,7 +16,7 @@
 ///   left out:  y_k - E y_k = (K^-1 y)_k / (K^-1)_kk,  variance 1 / (K^-1)_kk                (2)
 ///
 /// s, the noise found as a multiple of what was stated, has the greatest posterior with its stated
-/// degrees of freedom. A reading beyond kBadDistanceSigmas of what the others alone make of it,
+/// degrees of freedom. A reading beyond kOutlierSigmas of what the others alone make of it,
 /// with the noise that they alone show, is set aside, the worst first. Sources: C. Rasmussen and C.
 /// Williams, Gaussian Processes for Machine Learning (2006), equations 2.25, 2.26, 5.8 and 5.12; P.
 /// Huber and E. Ronchetti, Robust Statistics (2009), section 7.7, for the weights of the first
@@ -36,7 +36,7 @@ namespace chaintrue::grid {
 
 /// Chance 1.5e-3 for a good reading (Student's t, some 30 degrees of freedom): one set of twenty
 /// readings in thirty-five loses one.
-inline constexpr double kBadDistanceSigmas = 3.5;
+inline constexpr double kOutlierSigmas = 3.5;
 
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
 inline constexpr Eigen::Index kHolesUnknowns = 8;

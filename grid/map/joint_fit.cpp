@@ -21,7 +21,7 @@ constexpr double kSettledSigmas = 3e-3;
 constexpr double kSettledWeight = 1e-2;
 /// 95 % of good points are nearer (chi with two degrees of freedom): those keep their full weight.
 constexpr double kHuberDistance = 2.4477;
-/// Passes with soft weights only, so that several bad points cannot hide each other.
+/// Passes with soft weights only, so that several outliers cannot mask each other.
 constexpr int kSoftPasses = 4;
 
 class JointFitter {
@@ -126,7 +126,7 @@ bool JointFitter::update_weights(int pass) {
   measure_distances();
   double change = 0.0;
   for (Eigen::Index i = 0; i < weights_.size(); ++i) {
-    const bool bad = pass >= kSoftPasses && distances_[i] > kBadPointDistance;
+    const bool bad = pass >= kSoftPasses && distances_[i] > kOutlierDistance;
     const double weight =
         bad ? 0.0 : std::min(1.0, kHuberDistance / std::max(distances_[i], 1e-12));
     change = std::max(change, std::abs(weight - weights_[i]));
@@ -158,7 +158,7 @@ tl::expected<JointFit, JointFitFailure> JointFitter::run() {
       weights_ = solved_with;
       break;
     }
-    // Otherwise chosen anew only when the bad points are first set aside.
+    // Otherwise chosen anew only when the outliers are first set aside.
     smoothing = pass == kSoftPasses ? Smoothing::choose : Smoothing::keep;
   }
   return result(settled);

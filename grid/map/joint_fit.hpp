@@ -7,7 +7,7 @@
 /// explained by the setting; the surfaces' smoothness and, where nobody stated it, the size of the
 /// noise are chosen by restricted maximum likelihood (interp/reml.hpp). The model is linearised
 /// anew until it settles. Points that do not fit the rest are first weighted down, then set aside:
-/// a point is bad where its residual, seen from a fit without it, is beyond kBadPointDistance
+/// a point is an outlier where its residual, seen from a fit without it, is beyond kOutlierDistance
 /// sigmas of the plane (two chains).
 ///
 /// Sources: S. Wood, Generalized Additive Models (2017), sections 4.2 and 6.2, for the mixed model;
@@ -39,7 +39,7 @@ inline constexpr double kScaleSigma = 0.002;
 /// the bed's centre, the rise from there to its edge and, for order 3, the bow.
 inline constexpr double kFreePartSigmaMm = 1.0;
 /// Chance 4e-5 for a good point: 1 in 900 grids of 28 good points loses one.
-inline constexpr double kBadPointDistance = 4.5;
+inline constexpr double kOutlierDistance = 4.5;
 
 struct JointFitInput {
   model::Machine machine;  ///< as stated

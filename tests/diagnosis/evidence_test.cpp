@@ -55,8 +55,8 @@ double brute_force_at(const LinearisedSystem& system,
                       const MarginalisedSystem& marginalised,
                       double lowest,
                       bool with_cause,
-                      double delta_sigma) {
-  const double size_sigma = delta_sigma / marginalised.g.col(0).norm();
+                      double prior_sigma) {
+  const double size_sigma = prior_sigma / marginalised.g.col(0).norm();
   double total = 0.0;
   const double step_u = 0.05;
   for (double u = -3.0; u <= 3.0; u += step_u) {  // u = log of the noise's square
@@ -106,10 +106,11 @@ double brute_force(const LinearisedSystem& system,
                    const MarginalisedSystem& marginalised,
                    double lowest,
                    bool with_cause) {
-  return std::log((1.0 - kWideDeltaPrior) *
-                      brute_force_at(system, marginalised, lowest, with_cause, kUsualDelta) +
-                  kWideDeltaPrior *
-                      brute_force_at(system, marginalised, lowest, with_cause, kWideDelta));
+  return std::log(
+      (1.0 - kWideSignalToNoisePrior) *
+          brute_force_at(system, marginalised, lowest, with_cause, kUsualSignalToNoise) +
+      kWideSignalToNoisePrior *
+          brute_force_at(system, marginalised, lowest, with_cause, kWideSignalToNoise));
 }
 
 TEST(Evidence, OfNothingEqualsTheIntegral) {

@@ -223,13 +223,13 @@ TEST(HolesDiagnosis, TheFileHoldsAllOfIt) {
   MeasuredHoles set = holes({{"chain_pitch_error", "left", {{"elongation", 0.0015}}}}, 5);
   set.distances[3].distance_mm += 15.0;
   const Diagnosis found = diagnosed(set, {});
-  ASSERT_EQ(found.bad_points.size(), 1u);
-  EXPECT_EQ(found.bad_points[0].index, 3u);
+  ASSERT_EQ(found.outliers.size(), 1u);
+  EXPECT_EQ(found.outliers[0].index, 3u);
   const std::string text = files::write_diagnosis(found);
   const Diagnosis again = files::parse_diagnosis(text, "d.json");
   EXPECT_EQ(files::write_diagnosis(again), text);
   EXPECT_EQ(again.observations, Observations::distances);
-  EXPECT_EQ(again.bad_points[0].off_mm, found.bad_points[0].off_mm);
+  EXPECT_EQ(again.outliers[0].off_mm, found.outliers[0].off_mm);
   std::string spoilt = text;
   spoilt.replace(spoilt.find("\"off_mm\""), 8, "\"of_mmm\"");
   EXPECT_THROW((void)files::parse_diagnosis(spoilt, "d.json"), files::InputError);
@@ -280,12 +280,12 @@ TEST(HolesDiagnosis, ADistanceThatIsOffIsNamedWithItsAmount) {
     const std::size_t k = seed % set.distances.size();
     set.distances[k].distance_mm -= 12.0;
     const Diagnosis found = diagnosed(set);
-    for (const Outlier& bad : found.bad_points) {
+    for (const Outlier& bad : found.outliers) {
       if (bad.index != k) {
         ++others;
         continue;
       }
-      right += found.verdict == Verdict::bad_points;
+      right += found.verdict == Verdict::outliers;
       // One sigma of the tape, of both holes and of what the others leave open: about 1 mm.
       EXPECT_NEAR(bad.off_mm, -12.0, 4.0);
       EXPECT_THAT(found.sentence, HasSubstr("mm too short"));

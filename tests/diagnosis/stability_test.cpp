@@ -186,11 +186,11 @@ TEST(Stability, OnePointMakesNoName) {
     if (found->notes.empty() || found->notes.front().find("would make a name") == std::string::npos)
       continue;
     ++refused;
-    EXPECT_EQ(found->verdict, Verdict::bad_points) << found->sentence;
+    EXPECT_EQ(found->verdict, Verdict::outliers) << found->sentence;
     EXPECT_TRUE(found->causes.empty());
     EXPECT_THAT(found->notes.front(), HasSubstr(fmt::format("Point {} by itself", point + 1)));
-    ASSERT_EQ(found->bad_points.size(), 1u);
-    EXPECT_EQ(found->bad_points.front().index, point);
+    ASSERT_EQ(found->outliers.size(), 1u);
+    EXPECT_EQ(found->outliers.front().index, point);
     EXPECT_TRUE(found->extended_machine.effects.empty());
   }
   EXPECT_GT(refused, 0) << "no reading makes a name any more: choose others";

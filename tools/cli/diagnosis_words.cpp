@@ -154,7 +154,7 @@ std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
   std::string text = fmt::format(
       "Something is left over that noise does not explain: its strength is {:.1f} in units of "
       "noise, and noise alone leaves as much in {} of cases.",
-      left_over.delta,
+      left_over.signal_to_noise,
       share_percent(left_over.p_value));
   if (!left_over.follows.empty()) {
     text += fmt::format(" It follows {} best ({} of its square): look there.",
