@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -150,16 +150,21 @@ std::string too_few_distances(const MeasuredHoles& set) {
   return text;
 }
 
+struct PointsSoFar {
+  bool noise_from_repeats = false;
+  bool ordered = false;
+};
+
 /// Points of one grid, numbered from `first_index` on.
 tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> points_of(
-    MeasuredGrid grid, const Machine& stated, std::size_t first_index, bool& noise_from_repeats) {
+    MeasuredGrid grid, const Machine& stated, std::size_t first_index, PointsSoFar& so_far) {
   grid.machine = stated;
   const auto lengths = length_points(grid);
   if (!lengths) return failure(Reason::no_lengths, lengths.error().sentence);
   std::optional<StatedNoise> noise = grid.noise;
   if (!noise) {
     noise = noise_of_repeats(stated, *lengths);
-    noise_from_repeats = noise.has_value();
+    so_far.noise_from_repeats = noise.has_value();
   }
   if (!noise) {
     return failure(Reason::no_noise,
@@ -167,9 +172,12 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
                    "State it (\"noise\" in the grid file, or --noise-length-mm, "
                    "--noise-position-mm), or measure at least six points twice");
   }
-  const bool ordered = std::all_of(grid.points.begin(),
-                                   grid.points.end(),
-                                   [](const MeasuredPoint& p) { return p.order.has_value(); });
+  // Visits are those of one session: an order of another says nothing about them.
+  const bool ordered =
+      !so_far.ordered && std::all_of(grid.points.begin(),
+                                     grid.points.end(),
+                                     [](const MeasuredPoint& p) { return p.order.has_value(); });
+  so_far.ordered = so_far.ordered || ordered;
   std::vector<observation::Place> places;
   for (const LengthPoint& point : *lengths) {
     const std::size_t index = first_index + point.index;
@@ -320,25 +328,32 @@ tl::expected<Session, DiagnosisFailure> make_session(const Measured& measured) {
     return failure(Reason::contradictory_settings, *std::move(said));
   }
   Assembly assembly(stated);
-  bool noise_from_repeats = false;
+  PointsSoFar so_far;
   std::size_t index = 0;
   for (const MeasuredGrid& grid : measured.grids) {
-    auto points = points_of(grid, stated, index, noise_from_repeats);
+    auto points = points_of(grid, stated, index, so_far);
     if (!points) return tl::unexpected(points.error());
     assembly.add(*std::move(points));
     index += grid.points.size();
   }
-  for (MeasuredHoles set : measured.holes) {
+  observation::NumberedFrom first;
+  for (std::size_t k = 0; k < measured.holes.size(); ++k) {
+    MeasuredHoles set = measured.holes[k];
     if (!set.machine) set.machine = stated;
-    auto distances = observation::TapeDistances::of(set);
+    for (Hole& hole : set.holes) {
+      if (k > 0) hole.name = fmt::format("{} ({})", hole.name, k + 1);
+    }
+    auto distances = observation::TapeDistances::of(set, first);
     if (!distances) return failure(Reason::point_unreachable, distances.error());
     assembly.add(std::make_shared<const observation::TapeDistances>(*std::move(distances)));
+    first.hole += set.holes.size();
+    first.distance += set.distances.size();
   }
   if (!readings.empty()) {
     assembly.add(std::make_shared<const observation::SingleReadings>(std::move(readings)));
   }
   Session session = assembly.take();
-  session.noise_from_repeats = noise_from_repeats;
+  session.noise_from_repeats = so_far.noise_from_repeats;
   return session;
 }
 

@@ -19,7 +19,11 @@ constexpr std::size_t kArms = 3;
 class HoleCandidates {
  public:
   HoleCandidates(const Analysis& a, const observation::TapeDistances& tape, std::size_t part)
-      : a_(a), part_(part), measured_(tape.set()), set_(measured_) {
+      : a_(a),
+        part_(part),
+        hook_sessions_(tape.hook_sessions()),
+        measured_(tape.set()),
+        set_(measured_) {
     set_.distances.clear();
     add_pairs();
     add_edges();
@@ -28,7 +32,7 @@ class HoleCandidates {
 
   [[nodiscard]] std::optional<CandidateReadings> take() {
     if (candidates_.empty()) return std::nullopt;
-    auto tape = observation::TapeDistances::in_given_order(std::move(set_));
+    auto tape = observation::TapeDistances::with_hooks(std::move(set_), hook_sessions_);
     if (!tape) return std::nullopt;
     return CandidateReadings{
         {std::make_shared<const observation::TapeDistances>(*std::move(tape)), part_},
@@ -136,6 +140,7 @@ class HoleCandidates {
 
   const Analysis& a_;
   std::size_t part_;
+  std::vector<std::size_t> hook_sessions_;
   const MeasuredHoles& measured_;
   MeasuredHoles set_;
   std::vector<Candidate> candidates_;

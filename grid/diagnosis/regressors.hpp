@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/linearised_system.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -15,7 +15,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/options.hpp"
+#include "grid/measured.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/observation/tape_distances.hpp"

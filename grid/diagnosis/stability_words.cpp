@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/stability.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -84,11 +85,6 @@ std::string fate(const Removal& removal) {
   }
   return fmt::format("the verdict would be {}",
                      listed(names, removal.verdict == Verdict::named_set ? "or" : "and"));
-}
-
-std::string percent(double probability) {
-  if (probability > kBeyondDoubt) return "more than 99 %";
-  return fmt::format("{:.0f} %", 100.0 * probability);
 }
 
 /// Whether a column or row that was left out holds the point.

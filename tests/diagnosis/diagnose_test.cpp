@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "grid/synthetic/strength.hpp"
 #include "model/effects/catalogue.hpp"

@@ -30,7 +30,10 @@ LinearisedSystem small_system(double lowest) {
   system.by_setting.col(0) << 0.5, 0.4, 0.6, 0.5, 0.3, 0.2;
   system.g.resize(6, 1);
   system.g.col(0) << 1.0, -0.5, 1.5, 0.2, -1.0, 0.7;
-  system.points.resize(3);
+  for (Eigen::Index row = 0; row < 6; row += 2) {
+    system.units.push_back({.first_row = row, .rows = 2});
+    system.unit_of_row.insert(system.unit_of_row.end(), 2, static_cast<int>(row / 2));
+  }
   system.setting = Eigen::VectorXd::Zero(1);
   system.expected_change = Eigen::VectorXd::Constant(1, 0.4);
   system.sigma = Eigen::VectorXd::Constant(1, 2.0);

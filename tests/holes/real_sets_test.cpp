@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/holes/holes_fit.hpp"
 #include "grid/holes/sets_together.hpp"
 

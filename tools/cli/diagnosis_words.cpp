@@ -196,14 +196,6 @@ std::vector<FollowUpPlace> follow_up_places(const grid::diagnosis::Diagnosis& di
   return places;
 }
 
-std::string percent(double probability) {
-  const double in_percent = 100.0 * probability;
-  if (in_percent > 99.9) return "above 99.9 %";
-  if (in_percent < 0.1) return "below 0.1 %";
-  return in_percent > 99.0 || in_percent < 1.0 ? fmt::format("{:.1f} %", in_percent)
-                                               : fmt::format("{:.0f} %", in_percent);
-}
-
 std::string share_percent(double share) {
   if (share > 0.0 && share < 0.001) return "below 0.1 %";
   const double in_percent = 100.0 * share;
