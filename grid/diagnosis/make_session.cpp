@@ -319,10 +319,12 @@ tl::expected<Session, DiagnosisFailure> make_session(const Measured& measured) {
   }
   Machine stated = *measured.machine;
   std::vector<ExtraReading> readings;
-  for (const MeasuredGrid& grid : measured.grids) {
-    const auto own = predictable(grid.readings, stated);
+  const auto take = [&](const std::vector<ExtraReading>& of_file) {
+    const auto own = predictable(of_file, stated);
     readings.insert(readings.end(), own.begin(), own.end());
-  }
+  };
+  for (const MeasuredGrid& grid : measured.grids) take(grid.readings);
+  for (const MeasuredHoles& set : measured.holes) take(set.readings);
   if (auto said = too_few(measured)) return failure(Reason::too_few_points, *std::move(said));
   if (auto said = contradiction(stated, readings)) {
     return failure(Reason::contradictory_settings, *std::move(said));

@@ -155,8 +155,7 @@ NextCandidates next_candidates(const Analysis& a) {
     }
     if (!a.session.parts[part].reads_chains()) take(candidate_distances(a, part));
   }
-  // A file of holes says nothing of the machine's parts, so nothing of the kind is asked for.
-  if (chains_read) take(candidate_readings(a.session));
+  take(candidate_readings(a.session));
   return {with_observations(a.session, std::move(observations)), std::move(all)};
 }
 

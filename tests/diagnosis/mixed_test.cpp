@@ -2,10 +2,12 @@
 // Points and distances of one machine in one estimate: what neither tells alone, both together do.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "grid/diagnosis/analysis.hpp"
 #include "grid/synthetic/holes.hpp"
+#include "model/effects/catalogue.hpp"
 #include "tests/diagnosis/sessions.hpp"
 
 namespace chaintrue::grid::diagnosis {

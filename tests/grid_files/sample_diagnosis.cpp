@@ -181,7 +181,7 @@ Diagnosis sample_diagnosis() {
   found.not_proved = "Another cause outside the catalogue may look the same at these points.";
   found.notes = {"The order of the visits was assumed, row by row."};
   found.left_over = {2.1, "angle_left", 0.31, 0.4};
-  found.outliers = {{9, {3.0, -4.0}, 8.4}};
+  found.outliers = {{.index = 9, .shift_mm = {3.0, -4.0}, .distance = 8.4}};
   found.not_testable = {{cause("drift", EffectSide::left), "the points bear no order"}};
   found.bounds = {{cause("beam_flex"), "flexibility_mm_per_n", 0.004},
                   {cause("side_pull"), "force_n", 1.3}};

@@ -77,7 +77,7 @@ TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
     made->set.distances[k].distance_mm = on_sheet.predicted_mm[static_cast<Eigen::Index>(k)];
   const auto fit = fit_holes(made->set);
   ASSERT_TRUE(fit);
-  EXPECT_TRUE(fit->sheet_measured.x && fit->sheet_measured.y && fit->sheet_measured.rotation);
+  EXPECT_TRUE(fit->sheet_measured.knows_x && fit->sheet_measured.knows_y && fit->sheet_measured.knows_rotation);
   for (std::size_t i = 0; i < marks.size(); ++i) {
     // The tape's 0.5 mm at two readings an edge, four sigmas.
     EXPECT_NEAR(fit->holes[i].place.x_mm, marks[i].x_mm, 1.5);

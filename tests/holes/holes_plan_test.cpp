@@ -54,8 +54,8 @@ TEST(HolesPlan, WithEdgesTheSheetsPlaceIsMeasured) {
   const auto plan = plan_holes(classic(), request);
   ASSERT_TRUE(plan);
   EXPECT_EQ(plan->set.distances.size(), 24u);
-  const observation::SheetPrior measured = sheet_measured(plan->set);
-  EXPECT_TRUE(measured.x && measured.y && measured.rotation);
+  const observation::SheetPrior measured = observation::sheet_measured(plan->set);
+  EXPECT_TRUE(measured.knows_x && measured.knows_y && measured.knows_rotation);
   std::set<std::tuple<std::size_t, std::size_t, std::optional<SheetEdge>>> readings;
   for (const HoleDistance& distance : plan->set.distances) {
     EXPECT_TRUE(readings.insert({distance.from, distance.to, distance.edge}).second) << "twice";
