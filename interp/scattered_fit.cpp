@@ -61,16 +61,16 @@ double narrowness(std::span<const ScatteredPoint> points) {
   return extent(1) > 0.0 ? std::sqrt(std::max(0.0, extent(0)) / extent(1)) : 0.0;
 }
 
-// About as many cells as points, between 32 and 72: fewer cannot follow, and beyond the penalty
-// decides alone (measured: the error does not change from 8 x 4 to 24 x 12).
+// One cell for eight points, at least 32 and at most 40 cells: fewer cannot follow, and beyond the
+// penalty decides alone (measured: the error does not change from 8 x 4 to 24 x 12). What is given
+// stays as it is.
 void choose_intervals(const Rectangle& box, std::size_t points, ScatteredOptions& options) {
-  if (options.intervals_x > 0 && options.intervals_y > 0) {
-    return;
-  }
   const double cells = std::clamp(static_cast<double>(points) / 8.0, 32.0, 40.0);
   const double ratio = std::clamp(box.width() / box.height(), 0.125, 8.0);
-  options.intervals_x = std::max(2, static_cast<int>(std::lround(std::sqrt(cells * ratio))));
-  options.intervals_y = std::max(2, static_cast<int>(std::lround(std::sqrt(cells / ratio))));
+  if (options.intervals_x == 0)
+    options.intervals_x = std::max(2, static_cast<int>(std::lround(std::sqrt(cells * ratio))));
+  if (options.intervals_y == 0)
+    options.intervals_y = std::max(2, static_cast<int>(std::lround(std::sqrt(cells / ratio))));
 }
 
 double median(std::vector<double> values) {

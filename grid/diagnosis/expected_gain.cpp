@@ -55,7 +55,8 @@ Session over_the_area(const Analysis& a) {
   // Nobody goes there: no order of visits.
   return with_observations(session,
                            {{std::make_shared<const observation::ChainLengthReadings>(
-                                 std::move(places), false, own.noise(), own.noise_dof(), own.sheet()),
+                                 observation::ChainLengthReadings::in_given_order(
+                                     std::move(places), false, own.noise(), own.noise_dof(), own.sheet())),
                              part}});
 }
 

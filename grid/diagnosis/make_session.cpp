@@ -190,11 +190,11 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   std::optional<observation::SheetPrior> sheet;
   if (grid.sheet) sheet = {grid.sheet->shift_mm, 1e-3 * grid.sheet->rotation_mrad};
   return std::make_shared<const observation::ChainLengthReadings>(
-      observation::ChainLengthReadings::of(std::move(places),
-                                           ordered,
-                                           {noise->length_mm, noise->position_mm},
-                                           noise->dof,
-                                           sheet));
+      std::move(places),
+      ordered,
+      observation::PointNoise{noise->length_mm, noise->position_mm},
+      noise->dof,
+      sheet);
 }
 
 class Assembly {

@@ -50,7 +50,8 @@ class PointCandidates {
   [[nodiscard]] CandidateReadings take() {
     // Each is a next visit; only their order among them is arbitrary.
     return {{std::make_shared<const observation::ChainLengthReadings>(
-                 std::move(places_), false, own_.noise(), own_.noise_dof(), own_.sheet()),
+                 observation::ChainLengthReadings::in_given_order(
+                     std::move(places_), false, own_.noise(), own_.noise_dof(), own_.sheet())),
              part_},
             std::move(candidates_)};
   }

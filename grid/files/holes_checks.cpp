@@ -10,6 +10,7 @@
 #include <set>
 
 #include "grid/files/number_text.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -38,12 +39,6 @@ std::string names_of(const std::vector<Hole>& holes) {
   std::vector<std::string> names;
   for (const Hole& hole : holes) names.push_back(hole.name);
   return joined(names);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// True where inches stand for mm, which is said. A machine cuts true to some per cent: a factor

@@ -8,6 +8,7 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/whole_file.hpp"
+#include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::files {
@@ -241,12 +242,6 @@ std::uint64_t hash_of(const std::string& text) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
   return hash;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
 Json median_and_worst(const std::vector<sweep::CellResult>& done,

@@ -135,7 +135,7 @@ tl::expected<CheckReadings, PlanFailure> readings_at(const CompensationMap& map,
     }
     grid.points.push_back({mark, told->lengths, {}, {}});
   }
-  auto readings = check_readings(map, grid);
+  auto readings = check_readings(map, {{grid.name, grid}});
   if (!readings) return tl::unexpected(PlanFailure{readings.error()});
   return *std::move(readings);
 }

@@ -87,6 +87,106 @@ tl::expected<MapAt, std::string> map_at(const CompensationMap& map,
   return at;
 }
 
+/// The new points of one file: where they are on the map, and what they say there.
+struct Part {
+  std::vector<BedPoint> marks;
+  std::vector<LengthPoint> points;  ///< of a grid
+  StatedNoise noise;
+  std::optional<observation::TapeDistances> distances;
+};
+
+tl::expected<Part, std::string> part_of(const CompensationMap& map, const MeasuredGrid& grid) {
+  MeasuredGrid with_machine = grid;
+  if (!with_machine.machine && map.machine() != nullptr) with_machine.machine = *map.machine();
+  const auto points = length_points(with_machine);
+  if (!points) return tl::unexpected(points.error().sentence);
+  Part part;
+  part.points = *points;
+  part.noise = grid.noise.value_or(StatedNoise{});
+  for (const LengthPoint& point : *points) part.marks.push_back(point.mark);
+  return part;
+}
+
+tl::expected<Part, std::string> part_of(const CompensationMap& map, const MeasuredHoles& set) {
+  if (!set.machine) {
+    return tl::unexpected(std::string(
+        "the holes name no machine; what was commanded becomes chain lengths by its controller"));
+  }
+  auto distances = observation::TapeDistances::in_given_order(set);
+  if (!distances) return tl::unexpected(distances.error());
+  Part part;
+  for (const observation::Place& place : distances->places()) {
+    const auto mark = map.inverse(place.lengths);
+    if (!mark) {
+      return tl::unexpected(fmt::format("hole {}: {}", place.name, explain(mark.error())));
+    }
+    part.marks.push_back(*mark);
+  }
+  part.distances = *std::move(distances);
+  return part;
+}
+
+/// Rows of a part: what is left of its readings, by the chains at its own places, and their noise.
+struct Rows {
+  Eigen::VectorXd residual_mm;
+  Eigen::MatrixXd by_chain;
+  Eigen::MatrixXd noise;
+};
+
+/// `first` is where the part's places begin among all.
+Rows rows_of_points(const Part& part, const MapAt& at, std::size_t first) {
+  const auto count = 2 * static_cast<Eigen::Index>(part.points.size());
+  Rows rows{Eigen::VectorXd(count),
+            Eigen::MatrixXd::Identity(count, count),
+            Eigen::MatrixXd::Zero(count, count)};
+  for (std::size_t i = 0; i < part.points.size(); ++i) {
+    const auto row = 2 * static_cast<Eigen::Index>(i);
+    const ChainLengths& read = part.points[i].lengths;
+    const ChainLengths& told = at.lengths[first + i];
+    const Eigen::Matrix2d& by_mark = at.by_mark[first + i];
+    rows.residual_mm.segment<2>(row) << read.left_mm - told.left_mm, read.right_mm - told.right_mm;
+    rows.noise.block<2, 2>(row, row) =
+        part.noise.length_mm * part.noise.length_mm * Eigen::Matrix2d::Identity() +
+        part.noise.position_mm * part.noise.position_mm * by_mark * by_mark.transpose();
+  }
+  return rows;
+}
+
+Rows rows_of_distances(const Part& part, const MapAt& at, std::size_t first) {
+  const MeasuredHoles& set = part.distances->set();
+  const observation::DistanceGeometry geometry = observation::distance_geometry(set, part.marks);
+  const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
+  const auto places = static_cast<Eigen::Index>(part.marks.size());
+  Eigen::MatrixXd marks_by_chain = Eigen::MatrixXd::Zero(2 * places, 2 * places);
+  for (Eigen::Index i = 0; i < places; ++i) {
+    // More read on a chain than the map says for the same place: the tool is nearer to that motor.
+    marks_by_chain.block<2, 2>(2 * i, 2 * i) =
+        -at.by_mark[first + static_cast<std::size_t>(i)].inverse();
+  }
+  Rows rows{part.distances->measured() - geometry.predicted_mm,
+            geometry.by_mark * marks_by_chain,
+            noise.holes_mm2 + noise.size_mm2 + noise.hook_mm2};
+  rows.noise.diagonal() += noise.tape_mm2;
+  return rows;
+}
+
+/// `of` tells files apart where there are several: "", or " of holes.json".
+void name_rows(const Part& part, const std::string& of, Eigen::Index row, CheckReadings& readings) {
+  for (const LengthPoint& point : part.points) {
+    readings.groups.push_back({row, row + 1});
+    row += 2;
+    readings.group_names.push_back(fmt::format("point {}{}", point.index + 1, of));
+    for (const char* side : {"left", "right"})
+      readings.names.push_back(fmt::format("point {}{}, {} chain", point.index + 1, of, side));
+  }
+  if (!part.distances) return;
+  for (const HoleDistance& distance : part.distances->set().distances) {
+    readings.groups.push_back({row++});
+    readings.names.push_back(words_of(part.distances->set(), distance) + of);
+    readings.group_names.push_back(readings.names.back());
+  }
+}
+
 void fill_common(CheckReadings& readings, const CompensationMap& map, const MapAt& at) {
   const auto places = static_cast<Eigen::Index>(at.lengths.size());
   readings.lengths_mm = Eigen::MatrixXd::Zero(2 * places, 2);
@@ -104,77 +204,40 @@ void fill_common(CheckReadings& readings, const CompensationMap& map, const MapA
 }  // namespace
 
 tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& map,
-                                                        const MeasuredGrid& grid) {
-  MeasuredGrid with_machine = grid;
-  if (!with_machine.machine && map.machine() != nullptr) with_machine.machine = *map.machine();
-  const auto points = length_points(with_machine);
-  if (!points) return tl::unexpected(points.error().sentence);
+                                                        const std::vector<MeasuredFile>& files) {
+  std::vector<Part> parts;
   std::vector<BedPoint> marks;
-  for (const LengthPoint& point : *points) marks.push_back(point.mark);
-  auto at = map_at(map, marks);
+  for (const MeasuredFile& file : files) {
+    auto part = std::visit([&map](const auto& one) { return part_of(map, one); }, file.measured);
+    if (!part)
+      return tl::unexpected((files.size() > 1 ? file.name + ": " : std::string{}) + part.error());
+    marks.insert(marks.end(), part->marks.begin(), part->marks.end());
+    parts.push_back(*std::move(part));
+  }
+  const auto at = map_at(map, marks);
   if (!at) return tl::unexpected(at.error());
-  const auto count = static_cast<Eigen::Index>(points->size());
-  const StatedNoise noise = grid.noise.value_or(StatedNoise{});
   CheckReadings readings;
   fill_common(readings, map, *at);
-  readings.residual_mm.resize(2 * count);
-  readings.by_chain = Eigen::MatrixXd::Identity(2 * count, 2 * count);
-  readings.covariance = at->covariance;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const LengthPoint& point = (*points)[k];
-    readings.residual_mm[2 * i] = point.lengths.left_mm - at->lengths[k].left_mm;
-    readings.residual_mm[2 * i + 1] = point.lengths.right_mm - at->lengths[k].right_mm;
-    readings.covariance.block<2, 2>(2 * i, 2 * i) +=
-        noise.length_mm * noise.length_mm * Eigen::Matrix2d::Identity() +
-        noise.position_mm * noise.position_mm * at->by_mark[k] * at->by_mark[k].transpose();
-    readings.groups.push_back({2 * i, 2 * i + 1});
-    readings.group_names.push_back(fmt::format("point {}", point.index + 1));
-    readings.names.push_back(fmt::format("point {}, left chain", point.index + 1));
-    readings.names.push_back(fmt::format("point {}, right chain", point.index + 1));
+  const auto chains = 2 * static_cast<Eigen::Index>(marks.size());
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const Part& part = parts[k];
+    const Rows rows =
+        part.distances ? rows_of_distances(part, *at, first) : rows_of_points(part, *at, first);
+    const Eigen::Index before = readings.residual_mm.size();
+    const Eigen::Index count = rows.residual_mm.size();
+    readings.residual_mm.conservativeResize(before + count);
+    readings.residual_mm.tail(count) = rows.residual_mm;
+    readings.by_chain.conservativeResizeLike(Eigen::MatrixXd::Zero(before + count, chains));
+    readings.by_chain.block(
+        before, 2 * static_cast<Eigen::Index>(first), count, rows.by_chain.cols()) = rows.by_chain;
+    readings.covariance.conservativeResizeLike(
+        Eigen::MatrixXd::Zero(before + count, before + count));
+    readings.covariance.bottomRightCorner(count, count) = rows.noise;
+    name_rows(part, files.size() > 1 ? " of " + files[k].name : std::string{}, before, readings);
+    first += part.marks.size();
   }
-  return readings;
-}
-
-tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& map,
-                                                        const MeasuredHoles& set) {
-  MeasuredHoles with_machine = set;
-  if (!with_machine.machine) {
-    return tl::unexpected(std::string(
-        "the holes name no machine; what was commanded becomes chain lengths by its controller"));
-  }
-  const auto distances = observation::TapeDistances::in_given_order(with_machine);
-  if (!distances) return tl::unexpected(distances.error());
-  std::vector<BedPoint> marks;
-  for (std::size_t i = 0; i < set.holes.size(); ++i) {
-    const auto mark = map.inverse(distances->places()[i].lengths);
-    if (!mark) {
-      return tl::unexpected(fmt::format("hole {}: {}", set.holes[i].name, explain(mark.error())));
-    }
-    marks.push_back(*mark);
-  }
-  auto at = map_at(map, marks);
-  if (!at) return tl::unexpected(at.error());
-  const observation::DistanceGeometry geometry = observation::distance_geometry(with_machine, marks);
-  const observation::DistanceNoise noise = observation::distance_noise(with_machine, geometry);
-  CheckReadings readings;
-  fill_common(readings, map, *at);
-  readings.residual_mm = distances->measured() - geometry.predicted_mm;
-  const auto places = static_cast<Eigen::Index>(marks.size());
-  Eigen::MatrixXd marks_by_chain = Eigen::MatrixXd::Zero(2 * places, 2 * places);
-  for (Eigen::Index i = 0; i < places; ++i) {
-    // More read on a chain than the map says for the same place: the tool is nearer to that motor.
-    marks_by_chain.block<2, 2>(2 * i, 2 * i) = -at->by_mark[static_cast<std::size_t>(i)].inverse();
-  }
-  readings.by_chain = geometry.by_mark * marks_by_chain;
-  readings.covariance = readings.by_chain * at->covariance * readings.by_chain.transpose() +
-                        noise.holes_mm2 + noise.size_mm2 + noise.hook_mm2;
-  readings.covariance.diagonal() += noise.tape_mm2;
-  for (std::size_t k = 0; k < set.distances.size(); ++k) {
-    readings.groups.push_back({static_cast<Eigen::Index>(k)});
-    readings.names.push_back(words_of(set, set.distances[k]));
-    readings.group_names.push_back(readings.names.back());
-  }
+  readings.covariance += readings.by_chain * at->covariance * readings.by_chain.transpose();
   return readings;
 }
 

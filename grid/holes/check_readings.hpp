@@ -28,9 +28,8 @@ struct CheckReadings {
   model::ChainLengths zero;
 };
 
-[[nodiscard]] tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& map,
-                                                                      const MeasuredGrid& grid);
-[[nodiscard]] tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& map,
-                                                                      const MeasuredHoles& set);
+/// Of all files together: what the map does not know of itself they share.
+[[nodiscard]] tl::expected<CheckReadings, std::string> check_readings(
+    const CompensationMap& map, const std::vector<MeasuredFile>& files);
 
 }  // namespace chaintrue::grid

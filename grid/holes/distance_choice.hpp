@@ -20,7 +20,7 @@
 namespace chaintrue::grid {
 
 /// The machine's, then the sheet's shift by x, by y and its turn.
-inline constexpr Eigen::Index kPlanUnknowns = kHolesUnknowns + 3;
+inline constexpr Eigen::Index kPlanUnknowns = estimation::kMachineUnknowns + 3;
 
 /// A place where a hole may be, and how the unknowns move what is cut there on the sheet.
 struct PlannedPlace {

@@ -206,7 +206,7 @@ std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
 /// The sheet's place where it counts is not known beforehand.
 Eigen::MatrixXd prior_of(const model::Machine& machine, bool edges) {
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns);
-  prior.topLeftCorner<kHolesUnknowns, kHolesUnknowns>() = stated_prior(machine).covariance;
+  prior.topLeftCorner<estimation::kMachineUnknowns, estimation::kMachineUnknowns>() = estimation::stated_knowledge(machine).covariance;
   if (edges) {
     prior.diagonal().tail<3>() =
         Eigen::Array3d(observation::kSheetShiftMm, observation::kSheetShiftMm, observation::kSheetTurnRad).square();
@@ -248,7 +248,7 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
   HolesPlan plan;
   plan.set = set_of(machine, request, holes, choice.distances);
   plan.expected_rms_mm = std::sqrt(choice.variance_mm2);
-  plan.expected_before_mm = tool_sigma_mm(machine, stated_prior(machine).covariance);
+  plan.expected_before_mm = tool_sigma_mm(machine, estimation::stated_knowledge(machine).covariance);
   plan.knowledge =
       knowledge_of(prior, after, request.edges ? std::optional(error.whole) : std::nullopt);
   plan.effects = seen_effects(plan.set);

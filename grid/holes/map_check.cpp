@@ -324,13 +324,18 @@ std::string_view name(CheckVerdict verdict) {
 }
 
 tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
+                                              const std::vector<MeasuredFile>& files) {
+  return check_readings(map, files).map(judge);
+}
+
+tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
                                               const MeasuredGrid& grid) {
-  return check_readings(map, grid).map(judge);
+  return check_map(map, std::vector<MeasuredFile>{{grid.name, grid}});
 }
 
 tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
                                               const MeasuredHoles& set) {
-  return check_readings(map, set).map(judge);
+  return check_map(map, std::vector<MeasuredFile>{{set.name, set}});
 }
 
 }  // namespace chaintrue::grid

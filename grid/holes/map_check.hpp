@@ -27,7 +27,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/holes/measured_holes.hpp"
+#include "grid/holes/measured_file.hpp"
 #include "grid/map/compensation_map.hpp"
 
 namespace chaintrue::grid {
@@ -100,7 +100,9 @@ struct MapCheck {
 };
 inline constexpr double kDecided = 0.8;
 
-/// Fails in words: a point off the map, commands without a controller, a tape without a machine.
+/// Any mix of files. Fails in words: a point off the map, commands without a controller, a tape without a machine.
+[[nodiscard]] tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
+                                                            const std::vector<MeasuredFile>& files);
 [[nodiscard]] tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
                                                             const MeasuredGrid& grid);
 [[nodiscard]] tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,

@@ -7,17 +7,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/statistics.hpp"
+
 namespace chaintrue::grid {
-namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
-
 std::string_view name(SheetEdge edge) {
   switch (edge) {
     case SheetEdge::left:

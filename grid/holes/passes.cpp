@@ -40,7 +40,7 @@ double as_cut_rms_mm(const MeasuredHoles& set, const std::vector<BedPoint>& want
 }  // namespace
 
 HolesPasses::HolesPasses(model::Machine stated, double worthwhile_mm)
-    : stated_(std::move(stated)), worthwhile_mm_(worthwhile_mm), prior_(stated_prior(stated_)) {}
+    : stated_(std::move(stated)), worthwhile_mm_(worthwhile_mm), prior_(estimation::stated_knowledge(stated_)) {}
 
 tl::expected<HolesPass, FitFailure> HolesPasses::add(const MeasuredHoles& set,
                                                      const std::vector<BedPoint>& wanted) {
@@ -63,11 +63,11 @@ tl::expected<HolesPass, FitFailure> HolesPasses::add(const MeasuredHoles& set,
   pass.left_out_rms_mm = fit->left_out_good.rms_mm;
   for (const FittedDistance& distance : fit->distances)
     pass.set_aside += distance.set_aside ? 1 : 0;
-  pass.expected_mm = tool_sigma_mm(stated_, fit->posterior.covariance);
+  pass.expected_mm = tool_sigma_mm(stated_, fit->estimate.knowledge.covariance);
   pass.expected_next_mm =
-      tool_sigma_mm(stated_, after_one_more(prior_.covariance, fit->posterior.covariance));
+      tool_sigma_mm(stated_, after_one_more(prior_.covariance, fit->estimate.knowledge.covariance));
   pass.next_pays = pass.expected_mm - pass.expected_next_mm > worthwhile_mm_;
-  prior_ = fit->posterior;
+  prior_ = fit->estimate.knowledge;
   fit_ = *std::move(fit);
   return pass;
 }

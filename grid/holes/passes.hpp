@@ -63,7 +63,7 @@ class HolesPasses {
  private:
   model::Machine stated_;
   double worthwhile_mm_;
-  HolesPrior prior_;
+  estimation::MachineKnowledge prior_;
   std::optional<HolesFit> fit_;
   int count_ = 0;
 };

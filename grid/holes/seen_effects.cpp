@@ -51,7 +51,7 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
   const auto line = distances->linearise({model::ReadingModel(*set.machine), {}}, settings);
   if (!line) return std::nullopt;
   Eigen::VectorXd prior(static_cast<Eigen::Index>(settings.size()));
-  prior << stated_prior(*set.machine).covariance.diagonal().head(model::kMachineSettings.size()),
+  prior << estimation::stated_knowledge(*set.machine).covariance.diagonal().head(model::kMachineSettings.size()),
       std::pow(observation::kSheetShiftMm, 2), std::pow(observation::kSheetShiftMm, 2), std::pow(observation::kSheetTurnRad, 2);
   Stated stated{observation::marginal_covariance(*line, distances->nuisance_sigma()) +
                     line->by_setting * prior.asDiagonal() * line->by_setting.transpose(),

@@ -2,7 +2,7 @@
 /// \file
 /// The catalogue's effects as a set of distances sees them: how large each is beyond what settings
 /// can imitate, and which look alike. By secants at the nominal strength, whitened by
-/// K = V + A P A' (holes_fit.hpp).
+/// K = V + A P A'.
 #pragma once
 
 #include <vector>

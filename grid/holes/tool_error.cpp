@@ -15,7 +15,7 @@ using model::BedPoint;
 std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, BedPoint place) {
   const auto reading = model.at(place);
   if (!reading) return std::nullopt;
-  Eigen::Matrix<double, 2, kHolesUnknowns> lengths;
+  Eigen::Matrix<double, 2, estimation::kMachineUnknowns> lengths;
   for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {
     lengths.col(static_cast<Eigen::Index>(i)) =
         model.sensitivity(*reading, model::kMachineSettings[i]);
@@ -62,7 +62,7 @@ ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
 }
 
 double tool_sigma_mm(const model::Machine& machine, const Eigen::MatrixXd& covariance) {
-  const Eigen::MatrixXd root = tool_error(machine, false).root.leftCols(kHolesUnknowns);
+  const Eigen::MatrixXd root = tool_error(machine, false).root.leftCols(estimation::kMachineUnknowns);
   return std::sqrt(std::max(0.0, (root * covariance * root.transpose()).trace()));
 }
 

@@ -94,6 +94,18 @@ bool CompensationMap::answers_at(BedPoint mark) const {
   return contents_.outside.way != Outside::refuse || area_.status(mark) != MapStatus::extrapolated;
 }
 
+CompensationMap CompensationMap::with_accuracy(MapAccuracy accuracy) const {
+  CompensationMap map = *this;
+  map.contents_.accuracy = accuracy;
+  return map;
+}
+
+CompensationMap CompensationMap::with_mirror(std::optional<MirrorTest> mirror) const {
+  CompensationMap map = *this;
+  map.contents_.mirror = std::move(mirror);
+  return map;
+}
+
 CompensationMap CompensationMap::with_outside(OutsideRule rule) const {
   MapContents contents = contents_;
   contents.outside = rule;

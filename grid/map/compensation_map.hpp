@@ -217,6 +217,9 @@ class CompensationMap {
   explicit CompensationMap(MapContents contents);
   /// The same map, continued in another way.
   [[nodiscard]] CompensationMap with_outside(OutsideRule rule) const;
+  /// The same map with this said of its error, and of its mirror image.
+  [[nodiscard]] CompensationMap with_accuracy(MapAccuracy accuracy) const;
+  [[nodiscard]] CompensationMap with_mirror(std::optional<MirrorTest> mirror) const;
   [[nodiscard]] const MapContents& contents() const { return contents_; }
 
   [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::BedPoint point,

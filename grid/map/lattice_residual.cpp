@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "grid/map/joint_fit.hpp"
 #include "grid/map/lattice_lines.hpp"
+#include "grid/map/points_fit.hpp"
+#include "grid/statistics.hpp"
 #include "interp/missing_nodes.hpp"
 #include "interp/quintic_spline.hpp"
 
@@ -33,7 +34,7 @@ struct Places {
   std::vector<std::pair<Eigen::Index, Eigen::Index>> of_point;
 };
 
-std::optional<Places> places_of(const JointFit& fit) {
+std::optional<Places> places_of(const PointsFit& fit) {
   std::vector<double> x;
   std::vector<double> y;
   for (const FittedPoint& point : fit.points) {
@@ -62,21 +63,21 @@ std::optional<Places> places_of(const JointFit& fit) {
 }
 
 /// Measured minus the calibrated machine with its chains' scales, at every node; empty ones NaN.
-model::PerSide<Eigen::MatrixXd> left_by_machine(const JointFit& fit, const Places& places) {
+model::PerSide<Eigen::MatrixXd> left_by_machine(const PointsFit& fit, const Places& places) {
   const auto nx = static_cast<Eigen::Index>(places.x_nodes_mm.size());
   const auto ny = static_cast<Eigen::Index>(places.y_nodes_mm.size());
   model::PerSide<Eigen::MatrixXd> values{Eigen::MatrixXd::Constant(nx, ny, kEmpty),
                                          Eigen::MatrixXd::Constant(nx, ny, kEmpty)};
-  const model::ReadingModel model(fit.machine);
+  const model::ReadingModel model(fit.estimate.machine);
   for (std::size_t i = 0; i < fit.points.size(); ++i) {
     if (fit.points[i].bad) continue;
     const LengthPoint& point = fit.points[i].point;
     // The fit reached every point at these very settings.
-    const model::ChainLengths lengths = model.at(fit.sheet.to_bed(point.mark)).value().lengths;
+    const model::ChainLengths lengths = model.at(fit.sheet().to_bed(point.mark)).value().lengths;
     const auto [ix, iy] = places.of_point[i];
-    values.left(ix, iy) = point.lengths.left_mm - (1.0 + fit.surface.scale.left) * lengths.left_mm;
+    values.left(ix, iy) = point.lengths.left_mm - (1.0 + fit.estimate.surface.scale.left) * lengths.left_mm;
     values.right(ix, iy) =
-        point.lengths.right_mm - (1.0 + fit.surface.scale.right) * lengths.right_mm;
+        point.lengths.right_mm - (1.0 + fit.estimate.surface.scale.right) * lengths.right_mm;
   }
   return values;
 }
@@ -91,12 +92,6 @@ double predicted(const Places& places, Eigen::MatrixXd values, Eigen::Index ix, 
                                  filled->filled.end(),
                                  [&](const auto& one) { return one.ix == ix && one.iy == iy; });
   return node->by_line;
-}
-
-double rms(const std::vector<Eigen::Vector2d>& residuals) {
-  double squares = 0.0;
-  for (const Eigen::Vector2d& residual : residuals) squares += residual.squaredNorm();
-  return std::sqrt(squares / (2.0 * static_cast<double>(residuals.size())));
 }
 
 }  // namespace
@@ -123,7 +118,7 @@ Eigen::Matrix2d LatticeSplines::covariance(model::BedPoint mark,
   return squares * node + own * Eigen::Matrix2d::Identity();
 }
 
-std::optional<LatticeFit> fit_lattice(const JointFit& fit) {
+std::optional<LatticeFit> fit_lattice(const PointsFit& fit) {
   const auto places = places_of(fit);
   if (!places) return std::nullopt;
   const model::PerSide<Eigen::MatrixXd> values = left_by_machine(fit, *places);
@@ -143,7 +138,7 @@ std::optional<LatticeFit> fit_lattice(const JointFit& fit) {
     lattice.left_out_residual_mm.push_back(residual);
   }
   const bool noisy =
-      fit.effective_parameters < kMetClosely * 2.0 * static_cast<double>(errors_here.size());
+      fit.estimate.effective_parameters < kMetClosely * 2.0 * static_cast<double>(errors_here.size());
   if (noisy || rms(errors_here) > kStillPredicts * rms(errors_there)) return std::nullopt;
 
   lattice.residual.x_nodes_mm = places->x_nodes_mm;

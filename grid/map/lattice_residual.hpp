@@ -24,7 +24,7 @@
 
 namespace chaintrue::grid {
 
-struct JointFit;
+struct PointsFit;
 
 struct LatticeResidual {
   std::vector<double> x_nodes_mm;
@@ -69,6 +69,6 @@ struct LatticeFit {
 /// stand alone on the nodes of a lattice of at least 4 x 4 lines with at most a tenth of the nodes
 /// empty, where the readings bear noise (the fit then has clearly fewer effective parameters than
 /// readings), or where the lines predict left-out points far worse.
-[[nodiscard]] std::optional<LatticeFit> fit_lattice(const JointFit& fit);
+[[nodiscard]] std::optional<LatticeFit> fit_lattice(const PointsFit& fit);
 
 }  // namespace chaintrue::grid

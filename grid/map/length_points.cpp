@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 
 #include "model/controllers/payout.hpp"
 
@@ -52,25 +53,6 @@ const std::map<std::string, TakeReading>& machine_readings() {
       {"ring_radius_mm", take_ring_radius},
       {"link_pitch_mm", take_link_pitch},
       {"tape_error_mm_per_m", take_tape_error},
-  };
-  return kReadings;
-}
-
-using MakeObservation =
-    std::function<std::shared_ptr<const model::Observation>(const ExtraReading&)>;
-
-const std::map<std::string, MakeObservation>& setting_readings() {
-  static const std::map<std::string, MakeObservation> kReadings = {
-      {"motor_spacing_mm",
-       [](const ExtraReading& r) {
-         return std::make_shared<const model::SettingDifference>(
-             model::Setting::motor_right_x_mm, model::Setting::motor_left_x_mm, r.value, r.sigma);
-       }},
-      {"beam_rise_mm",
-       [](const ExtraReading& r) {
-         return std::make_shared<const model::SettingDifference>(
-             model::Setting::motor_right_y_mm, model::Setting::motor_left_y_mm, r.value, r.sigma);
-       }},
   };
   return kReadings;
 }
@@ -160,14 +142,13 @@ Machine with_readings(Machine machine, const std::vector<ExtraReading>& readings
   return machine;
 }
 
-std::vector<std::shared_ptr<const model::Observation>> setting_observations(
-    const std::vector<ExtraReading>& readings) {
-  std::vector<std::shared_ptr<const model::Observation>> observations;
+std::vector<ExtraReading> setting_readings(const std::vector<ExtraReading>& readings) {
+  std::vector<ExtraReading> result;
   for (const ExtraReading& reading : readings) {
-    const auto make = setting_readings().find(reading.what);
-    if (make != setting_readings().end()) observations.push_back(make->second(reading));
+    if (reading.what == "motor_spacing_mm" || reading.what == "beam_rise_mm")
+      result.push_back(reading);
   }
-  return observations;
+  return result;
 }
 
 }  // namespace chaintrue::grid

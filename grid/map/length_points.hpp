@@ -4,14 +4,20 @@
 /// starts from.
 #pragma once
 
-#include <memory>
+#include <cstddef>
 #include <tl/expected.hpp>
 #include <vector>
 
 #include "grid/map/fit.hpp"
-#include "grid/map/joint_fit.hpp"
 
 namespace chaintrue::grid {
+
+/// A point with its lengths, however they were given.
+struct LengthPoint {
+  std::size_t index = 0;  ///< into the grid's points
+  model::BedPoint mark;
+  model::ChainLengths lengths;
+};
 
 /// Every point's lengths. A point that gives a command has the lengths that the machine's
 /// controller pays out for it.
@@ -31,8 +37,7 @@ inline constexpr double kRepeatDistanceMm = 25.0;
 [[nodiscard]] model::Machine with_readings(model::Machine machine,
                                            const std::vector<ExtraReading>& readings);
 
-/// Readings that the settings predict: motor_spacing_mm and beam_rise_mm.
-[[nodiscard]] std::vector<std::shared_ptr<const model::Observation>> setting_observations(
-    const std::vector<ExtraReading>& readings);
+/// Those readings that the settings predict: motor_spacing_mm and beam_rise_mm.
+[[nodiscard]] std::vector<ExtraReading> setting_readings(const std::vector<ExtraReading>& readings);
 
 }  // namespace chaintrue::grid

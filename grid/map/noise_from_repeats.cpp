@@ -8,7 +8,8 @@
 
 namespace chaintrue::grid {
 
-std::optional<RepeatNoise> noise_from_repeats(const JointFit& fit, const model::PointNoise& noise) {
+std::optional<RepeatNoise> noise_from_repeats(const PointsFit& fit,
+                                              const observation::PointNoise& noise) {
   std::vector<LengthPoint> good;
   std::vector<Eigen::Vector2d> whitened;
   for (const FittedPoint& point : fit.points) {

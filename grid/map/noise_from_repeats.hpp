@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "grid/map/joint_fit.hpp"
+#include "grid/map/points_fit.hpp"
 
 namespace chaintrue::grid {
 
@@ -18,7 +18,7 @@ struct RepeatNoise {
 /// From the scatter of a fit's residuals within each group of repeats; outliers do not count.
 /// Empty where there are fewer than four degrees of freedom (two repeats): that is too little to go
 /// by.
-[[nodiscard]] std::optional<RepeatNoise> noise_from_repeats(const JointFit& fit,
-                                                            const model::PointNoise& noise);
+[[nodiscard]] std::optional<RepeatNoise> noise_from_repeats(const PointsFit& fit,
+                                                            const observation::PointNoise& noise);
 
 }  // namespace chaintrue::grid

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "grid/map/joint_fit.hpp"
+#include "grid/map/length_points.hpp"
 
 namespace chaintrue::grid {
 

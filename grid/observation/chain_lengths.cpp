@@ -11,7 +11,28 @@ namespace chaintrue::grid::observation {
 
 const Kind chain_lengths{"chain_lengths", "point", "points", "point", true};
 
+namespace {
+
+std::vector<Place> sorted(std::vector<Place> places) {
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.order, a.mark.x_mm, a.mark.y_mm, a.lengths.left_mm, a.lengths.right_mm) <
+           std::tie(b.order, b.mark.x_mm, b.mark.y_mm, b.lengths.left_mm, b.lengths.right_mm);
+  });
+  return places;
+}
+
+}  // namespace
+
 ChainLengthReadings::ChainLengthReadings(std::vector<Place> places,
+                                         bool ordered,
+                                         PointNoise noise,
+                                         double noise_dof,
+                                         std::optional<SheetPrior> sheet)
+    : ChainLengthReadings(
+          GivenOrder{}, sorted(std::move(places)), ordered, noise, noise_dof, sheet) {}
+
+ChainLengthReadings::ChainLengthReadings(GivenOrder,
+                                         std::vector<Place> places,
                                          bool ordered,
                                          PointNoise noise,
                                          double noise_dof,
@@ -30,16 +51,12 @@ ChainLengthReadings::ChainLengthReadings(std::vector<Place> places,
   }
 }
 
-ChainLengthReadings ChainLengthReadings::of(std::vector<Place> places,
-                                            bool ordered,
-                                            PointNoise noise,
-                                            double noise_dof,
-                                            std::optional<SheetPrior> sheet) {
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-    return std::tie(a.order, a.mark.x_mm, a.mark.y_mm, a.lengths.left_mm, a.lengths.right_mm) <
-           std::tie(b.order, b.mark.x_mm, b.mark.y_mm, b.lengths.left_mm, b.lengths.right_mm);
-  });
-  return {std::move(places), ordered, noise, noise_dof, sheet};
+ChainLengthReadings ChainLengthReadings::in_given_order(std::vector<Place> places,
+                                                        bool ordered,
+                                                        PointNoise noise,
+                                                        double noise_dof,
+                                                        std::optional<SheetPrior> sheet) {
+  return {GivenOrder{}, std::move(places), ordered, noise, noise_dof, sheet};
 }
 
 tl::expected<Eigen::VectorXd, Unreachable> ChainLengthReadings::predicted(const View& view) const {
@@ -82,6 +99,7 @@ tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
       const auto corrected = view.correction->at(places_[i].mark, lengths, state.by_mark);
       lengths = corrected.lengths;
       state.by_mark = corrected.by_mark;
+      state.by_length = corrected.by_length;
     }
     const auto row = 2 * static_cast<Eigen::Index>(i);
     line.predicted(row) = lengths.left_mm;
@@ -89,10 +107,12 @@ tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
     const Eigen::Matrix<double, 2, 3> by_sheet =
         reading->position_jacobian * view.sheet.sensitivity(place);
     for (std::size_t s = 0; s < settings.size(); ++s) {
-      line.by_setting.block<2, 1>(row, static_cast<Eigen::Index>(s)) =
+      const Eigen::Vector2d by_setting =
           model::is_of_sheet(settings[s])
               ? Eigen::Vector2d(by_sheet.col(model::sheet_column(settings[s])))
               : view.model.sensitivity(*reading, settings[s]);
+      line.by_setting.block<2, 1>(row, static_cast<Eigen::Index>(s)) =
+          state.by_length.cwiseProduct(by_setting);
     }
     UnitState unit;
     unit.covariance = std::pow(noise_.length_mm, 2) * Eigen::Matrix2d::Identity() +

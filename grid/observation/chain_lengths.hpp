@@ -19,17 +19,17 @@ struct PointNoise {
 class ChainLengthReadings final : public Observation {
  public:
   /// Sorts the places: by visit where the order is known, else by mark and lengths.
-  [[nodiscard]] static ChainLengthReadings of(std::vector<Place> places,
-                                              bool ordered,
-                                              PointNoise noise,
-                                              double noise_dof,
-                                              std::optional<SheetPrior> sheet);
-  /// The same in the order given.
   ChainLengthReadings(std::vector<Place> places,
                       bool ordered,
                       PointNoise noise,
                       double noise_dof,
                       std::optional<SheetPrior> sheet);
+  /// The same in the order of `places`.
+  [[nodiscard]] static ChainLengthReadings in_given_order(std::vector<Place> places,
+                                                          bool ordered,
+                                                          PointNoise noise,
+                                                          double noise_dof,
+                                                          std::optional<SheetPrior> sheet);
 
   [[nodiscard]] const Kind& kind() const override { return chain_lengths; }
   [[nodiscard]] Eigen::Index rows() const override { return measured_.size(); }
@@ -52,6 +52,14 @@ class ChainLengthReadings final : public Observation {
   [[nodiscard]] const PointNoise& noise() const { return noise_; }
 
  private:
+  struct GivenOrder {};
+  ChainLengthReadings(GivenOrder,
+                      std::vector<Place> places,
+                      bool ordered,
+                      PointNoise noise,
+                      double noise_dof,
+                      std::optional<SheetPrior> sheet);
+
   std::vector<Place> places_;
   std::vector<Unit> units_;
   Eigen::VectorXd measured_;

@@ -84,6 +84,8 @@ class LengthCorrection {
   struct At {
     model::ChainLengths lengths;  ///< corrected
     Eigen::Matrix2d by_mark;      ///< d(corrected)/d(mark)
+    /// d(corrected)/d(the machine's own), a chain each.
+    Eigen::Vector2d by_length = Eigen::Vector2d::Ones();
   };
   /// At a mark where the machine alone has `lengths` and their derivative by the mark.
   [[nodiscard]] virtual At at(model::BedPoint mark,
@@ -103,6 +105,8 @@ struct PlaceState {
   model::PointReading reading;  ///< of the machine alone
   model::BedPoint mark;         ///< on the sheet; of a hole where the machine puts it
   Eigen::Matrix2d by_mark;      ///< d(L, R)/d(mark), corrected
+  /// d(corrected)/d(the machine's own lengths), a chain each.
+  Eigen::Vector2d by_length = Eigen::Vector2d::Ones();
 };
 
 /// What a unit sees of the chains at a place: D_i, rows x 2.
@@ -145,6 +149,9 @@ class Observation {
   [[nodiscard]] virtual const Eigen::VectorXd& measured() const = 0;
   /// One sigma of each nuisance.
   [[nodiscard]] virtual const Eigen::VectorXd& nuisance_sigma() const = 0;
+  /// The last so many of the nuisances belong to the noise: what is said of the noise's size holds
+  /// for theirs as well. Those before them are known as well as is stated.
+  [[nodiscard]] virtual Eigen::Index nuisances_of_noise() const { return 0; }
   /// Absent: the marks' frame is the bed's.
   [[nodiscard]] virtual const std::optional<SheetPrior>& sheet() const = 0;
   /// The visits' order is known.

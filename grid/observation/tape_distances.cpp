@@ -284,7 +284,9 @@ tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const V
                      view.sheet.to_mark(reading->pose.position),
                      reading->position_jacobian * view.sheet.rotation()};
     if (view.correction != nullptr) {
-      state.by_mark = view.correction->at(state.mark, reading->lengths, state.by_mark).by_mark;
+      const auto corrected = view.correction->at(state.mark, reading->lengths, state.by_mark);
+      state.by_mark = corrected.by_mark;
+      state.by_length = corrected.by_length;
     }
     states.push_back(std::move(state));
   }
@@ -295,11 +297,15 @@ Eigen::Vector2d TapeDistances::mark_by_setting(const View& view,
                                                const PlaceState& place,
                                                model::Setting setting) {
   // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
-  const Eigen::Matrix2d to_mark = place.by_mark.inverse();
-  if (!model::is_of_sheet(setting)) return -to_mark * view.model.sensitivity(place.reading, setting);
-  const Eigen::Matrix<double, 2, 3> by_sheet =
-      place.reading.position_jacobian * view.sheet.sensitivity(place.mark);
-  return -to_mark * by_sheet.col(model::sheet_column(setting));
+  Eigen::Vector2d by_setting;
+  if (model::is_of_sheet(setting)) {
+    const Eigen::Matrix<double, 2, 3> by_sheet =
+        place.reading.position_jacobian * view.sheet.sensitivity(place.mark);
+    by_setting = by_sheet.col(model::sheet_column(setting));
+  } else {
+    by_setting = view.model.sensitivity(place.reading, setting);
+  }
+  return -place.by_mark.inverse() * place.by_length.cwiseProduct(by_setting);
 }
 
 tl::expected<Eigen::VectorXd, Unreachable> TapeDistances::predicted(const View& view) const {

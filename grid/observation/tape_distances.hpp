@@ -97,6 +97,9 @@ class TapeDistances final : public Observation {
   /// The readings less the hook.
   [[nodiscard]] const Eigen::VectorXd& measured() const override { return measured_; }
   [[nodiscard]] const Eigen::VectorXd& nuisance_sigma() const override { return nuisance_sigma_; }
+  [[nodiscard]] Eigen::Index nuisances_of_noise() const override {
+    return 2 * static_cast<Eigen::Index>(places_.size());
+  }
   [[nodiscard]] const std::optional<SheetPrior>& sheet() const override { return sheet_; }
   [[nodiscard]] bool ordered() const override { return false; }
   [[nodiscard]] double noise_dof() const override { return set_.noise_dof; }

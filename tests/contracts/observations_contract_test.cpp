@@ -57,7 +57,7 @@ std::shared_ptr<const Observation> marks(const Wanted& wanted) {
   if (wanted.slip) places[kSpoilt].mark.x_mm += 20.0;
   turn_over(places, wanted);
   return std::make_shared<ChainLengthReadings>(
-      ChainLengthReadings::of(std::move(places), true, {0.2, 0.3}, 15.0, SheetPrior{20.0, 0.01}));
+      std::move(places), true, PointNoise{0.2, 0.3}, 15.0, SheetPrior{20.0, 0.01});
 }
 
 MeasuredHoles holes_design() {

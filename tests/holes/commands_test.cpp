@@ -61,14 +61,29 @@ TEST_F(HolesCommands, FitTakesSeveralSetsOfOneMachine) {
   ASSERT_EQ(run(simulate + "--seed 4 -o second.json").code, 0);
   const Outcome fit = run("fit first.json --with second.json --hook-sigma-mm 0.5 -o map.json");
   ASSERT_EQ(fit.code, 0) << fit.err;
-  EXPECT_THAT(fit.err, AllOf(HasSubstr("40 distances between 18 holes"), HasSubstr("A (2)-")));
-  const Outcome grid =
-      run("fit first.json --with " + fixtures_ + "/grids/seven_by_four.json -o none.json");
-  EXPECT_EQ(grid.code, 3);
-  EXPECT_THAT(grid.err, HasSubstr("--with takes sets of holes"));
-  const Outcome other =
-      run("fit " + fixtures_ + "/grids/seven_by_four.json --with first.json " + "-o none.json");
+  EXPECT_THAT(fit.err,
+              AllOf(HasSubstr("40 distances between 18 holes"),
+                    HasSubstr("20 distances between 9 holes of second.json")));
+  const Outcome other = run("fit first.json --with other.json -o none.json");
   EXPECT_EQ(other.code, 3);
+  EXPECT_FALSE(exists("none.json"));
+}
+
+TEST_F(HolesCommands, FitTakesPointsAndDistancesTogether) {
+  const std::string grid = fixtures_ + "/grids/seven_by_four.json";
+  for (const std::string& files : {grid + " --with " + holes_, holes_ + " --with " + grid}) {
+    const Outcome fit = run("fit " + files + " -o map.json");
+    ASSERT_EQ(fit.code, 0) << fit.err;
+    EXPECT_THAT(fit.err,
+                AllOf(HasSubstr("Fitted together"),
+                      HasSubstr("20 distances between 9 holes"),
+                      HasSubstr("Chain scales")));
+    EXPECT_EQ(run("query map.json 0 0").code, 0);
+    EXPECT_EQ(run("report map.json -o report.html").code, 0);
+  }
+  const Outcome direct = run("fit " + grid + " --with " + holes_ + " --surface direct -o none.json");
+  EXPECT_EQ(direct.code, 2);
+  EXPECT_THAT(direct.err, HasSubstr("leave --surface or --with out"));
   EXPECT_FALSE(exists("none.json"));
 }
 

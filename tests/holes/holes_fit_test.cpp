@@ -60,7 +60,7 @@ TEST(HolesFit, WithoutNoiseTheMapIsTheTruth) {
   ASSERT_TRUE(fit);
   for (const FittedDistance& distance : fit->distances)
     EXPECT_NEAR(distance.measured_mm, distance.predicted_mm, 0.005) << "some sigmas of 0.001 mm";
-  EXPECT_NEAR(spacing(fit->machine), spacing(made->truth), 0.1);
+  EXPECT_NEAR(spacing(fit->estimate.machine), spacing(made->truth), 0.1);
 }
 
 TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
@@ -77,7 +77,8 @@ TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
     made->set.distances[k].distance_mm = on_sheet.predicted_mm[static_cast<Eigen::Index>(k)];
   const auto fit = fit_holes(made->set);
   ASSERT_TRUE(fit);
-  EXPECT_TRUE(fit->sheet_measured.knows_x && fit->sheet_measured.knows_y && fit->sheet_measured.knows_rotation);
+  EXPECT_TRUE(fit->sheet_measured.knows_x && fit->sheet_measured.knows_y &&
+              fit->sheet_measured.knows_rotation);
   for (std::size_t i = 0; i < marks.size(); ++i) {
     // The tape's 0.5 mm at two readings an edge, four sigmas.
     EXPECT_NEAR(fit->holes[i].place.x_mm, marks[i].x_mm, 1.5);
@@ -150,15 +151,15 @@ Tally tally(const MeasuredHoles& design, int sets) {
       continue;
     }
     constexpr double kTwoSided95 = 1.95996;
-    const Eigen::MatrixXd& c = fit->posterior.covariance;
-    const double error = spacing(fit->machine) - spacing(made->truth);
+    const Eigen::MatrixXd& c = fit->estimate.knowledge.covariance;
+    const double error = spacing(fit->estimate.machine) - spacing(made->truth);
     result.covered_spacing +=
         std::abs(error) < kTwoSided95 * std::sqrt(c(0, 0) + c(2, 2) - 2.0 * c(0, 2));
     result.spacing2 += error * error;
     for (Eigen::Index side = 0; side < 2; ++side) {
       const double elongation =
           made->truth.effects[static_cast<std::size_t>(side)].parameters.at("elongation");
-      const double off = fit->posterior.mean[6 + side] - (1.0 / (1.0 + elongation) - 1.0);
+      const double off = fit->estimate.knowledge.mean[6 + side] - (1.0 / (1.0 + elongation) - 1.0);
       result.covered_scale += std::abs(off) < kTwoSided95 * std::sqrt(c(6 + side, 6 + side));
       result.scale2 += off * off;
     }

@@ -11,7 +11,7 @@
 
 #include "grid/holes/passes.hpp"
 #include "grid/holes/seen_effects.hpp"
-#include "grid/map/joint_fit.hpp"
+#include "grid/estimation/estimate.hpp"
 #include "grid/synthetic/random.hpp"
 #include "tests/holes/hole_sets.hpp"
 
@@ -43,10 +43,10 @@ TEST(HolesPlan, PromisesWhatAFitReaches) {
   const auto made = synthetic::simulate_holes(plan->set, testing_support::usual_holes(2));
   const auto fit = fit_holes(made->set);
   ASSERT_TRUE(fit);
-  const double reached = tool_sigma_mm(classic(), fit->posterior.covariance);
+  const double reached = tool_sigma_mm(classic(), fit->estimate.knowledge.covariance);
   // The fit is linear about the true machine and weighs by the noise it finds, 15 degrees of
   // freedom: a fifth either way.
-  EXPECT_NEAR(reached / plan->expected_rms_mm, fit->noise_factor, 0.2);
+  EXPECT_NEAR(reached / plan->expected_rms_mm, fit->estimate.noise_factor, 0.2);
 }
 
 TEST(HolesPlan, WithEdgesTheSheetsPlaceIsMeasured) {
@@ -142,7 +142,7 @@ TEST(HolesPlan, BeatsALatticeOfTheSameSize) {
   const auto fit = fit_holes(lattice);
   ASSERT_TRUE(fit);
   EXPECT_LT(plan->expected_rms_mm,
-            tool_sigma_mm(classic(), fit->posterior.covariance) / fit->noise_factor);
+            tool_sigma_mm(classic(), fit->estimate.knowledge.covariance) / fit->estimate.noise_factor);
 }
 
 TEST(HolesPlan, MoreDistancesAndABetterTapeTellMore) {

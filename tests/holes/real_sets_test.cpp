@@ -180,7 +180,7 @@ TEST_F(RealSets, DistancesArePredictedLeftOut) {
                set.name,
                fit->left_out_all.rms_mm,
                fit->left_out_good.rms_mm,
-               fit->noise_factor);
+               fit->estimate.noise_factor);
   }
   Pool together;
   for (const MeasuredHoles& set : {first_frame(kHoleSigmaMm), second_frame(kHoleSigmaMm)}) {
@@ -191,8 +191,8 @@ TEST_F(RealSets, DistancesArePredictedLeftOut) {
                set.name,
                fit->left_out_all.rms_mm,
                fit->left_out_good.rms_mm,
-               fit->noise_factor,
-               fit->has_surface ? ", bed bends" : "");
+               fit->estimate.noise_factor,
+               fit->estimate.has_surface ? ", bed bends" : "");
     for (const FoundHook& hook : fit->hooks)
       fmt::print("  hook {:+.2f} +- {:.2f} mm\n", hook.mm, hook.sigma_mm);
     for (std::size_t k = 0; k < set.distances.size(); ++k) {
@@ -292,14 +292,14 @@ TEST_F(RealSets, WhatTheFrameDoesBeyondItsSettingsIsSeenAndNotNamed) {
   // chains' scales nor the places of the motors are known better than beforehand.
   const auto fit = fit_holes(first_frame(kHoleSigmaMm));
   ASSERT_TRUE(fit);
-  EXPECT_TRUE(fit->has_surface);
-  EXPECT_GT(fit->surface_log_evidence, kSurfaceEvidence);
-  const Eigen::MatrixXd& c = fit->posterior.covariance;
+  EXPECT_TRUE(fit->estimate.has_surface);
+  EXPECT_GT(fit->estimate.surface_log_evidence, estimation::kSurfaceEvidence);
+  const Eigen::MatrixXd& c = fit->estimate.knowledge.covariance;
   for (const Eigen::Index scale : {6, 7}) {
     fmt::print("scale {:+.3f} +- {:.3f} %\n",
-               100.0 * fit->posterior.mean[scale],
+               100.0 * fit->estimate.knowledge.mean[scale],
                100.0 * std::sqrt(c(scale, scale)));
-    EXPECT_LT(std::abs(fit->posterior.mean[scale]), 2.0 * std::sqrt(c(scale, scale)));
+    EXPECT_LT(std::abs(fit->estimate.knowledge.mean[scale]), 2.0 * std::sqrt(c(scale, scale)));
   }
   EXPECT_GT(std::sqrt(c(1, 1)), 0.95 * 5.0) << "mm, as stated";
 }

@@ -72,7 +72,7 @@ TEST(SetsTogether, TwoSetsTellMoreThanEither) {
   const auto all = sets_together({first->set, second->set});
   const auto sigma_of_fit = [](const MeasuredHoles& set) {
     const auto fit = fit_holes(set);
-    return tool_sigma_mm(*set.machine, fit->posterior.covariance) / fit->noise_factor;
+    return tool_sigma_mm(*set.machine, fit->estimate.knowledge.covariance) / fit->estimate.noise_factor;
   };
   EXPECT_LT(sigma_of_fit(*all), std::min(sigma_of_fit(first->set), sigma_of_fit(second->set)));
 }

@@ -279,5 +279,24 @@ TEST(ScatteredFit, TheSameInputGivesTheSameBytes) {
   EXPECT_EQ(a->fit().corrected_covariance, b->fit().corrected_covariance);
 }
 
+TEST(ScatteredFit, AnIntervalCountGivenAloneIsKept) {
+  SCOPED_TRACE(kSeed);
+  truths::Random random(kSeed);
+  const auto points = measured(random, 5, 8, 0.1, unmodelled_left);
+  ScatteredOptions both = over_the_bed();
+  both.intervals_x = 11;
+  both.intervals_y = 5;
+  ScatteredOptions x_alone = over_the_bed();
+  x_alone.intervals_x = 11;
+  ScatteredOptions y_alone = over_the_bed();
+  y_alone.intervals_y = 5;
+  // Three more coefficients than intervals on each axis.
+  EXPECT_EQ(fit_scattered(points, both)->basis().size(), 14 * 8);
+  EXPECT_EQ(fit_scattered(points, x_alone)->basis().size() % 14, 0);
+  EXPECT_EQ(fit_scattered(points, y_alone)->basis().size() % 8, 0);
+  EXPECT_NE(fit_scattered(points, over_the_bed())->basis().size() % 14, 0)
+      << "eight intervals where nothing is given";
+}
+
 }  // namespace
 }  // namespace chaintrue::interp

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "grid/files/check_file.hpp"
 #include "grid/files/map_file.hpp"
@@ -22,6 +23,8 @@ struct CheckCommand {
   std::string map;
   GridInput input;
   TapeInput tape;
+  /// Further files of new points.
+  std::vector<std::string> with;
   bool json = false;
   std::string output = "-";
 };
@@ -47,9 +50,16 @@ std::string in_words(const grid::MapCheck& check) {
 
 int run_check(const CheckCommand& command) {
   const grid::CompensationMap map = grid::files::read_map(command.map);
-  const auto input = read_measured_input(command.input, command.tape, MeasuredUse::check);
-  const auto check =
-      std::visit([&map](const auto& measured) { return grid::check_map(map, measured); }, input);
+  std::vector<grid::MeasuredFile> files;
+  std::vector<std::string> names = {command.input.grid};
+  names.insert(names.end(), command.with.begin(), command.with.end());
+  for (const std::string& name : names) {
+    GridInput input = command.input;
+    input.grid = name;
+    files.push_back({grid::files::name_in_messages(name),
+                     read_measured_input(input, command.tape, MeasuredUse::check)});
+  }
+  const auto check = grid::check_map(map, files);
   if (!check) {
     fmt::print(
         stderr, "{}: {}\n", grid::files::name_in_messages(command.input.grid), check.error());
@@ -69,6 +79,8 @@ void add_check(CLI::App& app, Run& run) {
   verb->add_option("map", command->map, "A chaintrue_map file")->required();
   add_grid_options(*verb, command->input);
   add_tape_options(*verb, command->tape);
+  verb->add_option(
+      "--with", command->with, "More new points, or holes and distances: all are held against the map");
   verb->add_flag("--json", command->json, "All numbers, for scripts");
   verb->add_option("-o,--output", command->output, "- is standard output")->capture_default_str();
   verb->footer(

@@ -10,8 +10,7 @@
 
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/holes/holes_fit.hpp"
-#include "grid/holes/sets_together.hpp"
+#include "grid/holes/fit_together.hpp"
 #include "grid/map/fit.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/holes_words.hpp"
@@ -25,7 +24,7 @@ namespace {
 struct FitCommand {
   GridInput input;
   TapeInput tape;
-  /// Further sets of holes of the same machine.
+  /// Further files of the same machine.
   std::vector<std::string> with;
   std::string output;
   std::string surface = "residual";
@@ -77,41 +76,49 @@ int fit_the_holes(const FitCommand& command, const grid::MeasuredHoles& set) {
   }
   const auto fit = grid::fit_holes(set);
   if (!fit) return finish(command, tl::unexpected(fit.error()), "");
-  return finish(command, grid::map_of(set, *fit), distances_in_words(set, *fit));
+  return finish(command,
+                grid::map_of(set, *fit),
+                distances_in_words(set, *fit) + distances_legend(fit->estimate.knowledge));
 }
 
-/// The sets of --with beside the first.
-tl::expected<grid::MeasuredHoles, std::string> with_further_sets(const FitCommand& command,
-                                                                 const grid::MeasuredHoles& first) {
-  std::vector<grid::MeasuredHoles> sets = {first};
-  for (const std::string& file : command.with) {
-    GridInput input = command.input;
-    input.grid = file;
-    const auto read = read_measured_input(input, command.tape, MeasuredUse::fit);
-    const auto* holes = std::get_if<grid::MeasuredHoles>(&read);
-    if (holes == nullptr) {
-      return tl::unexpected(grid::files::name_in_messages(file) + ": --with takes sets of holes");
-    }
-    sets.push_back(*holes);
+/// The file and those of --with in one estimate.
+int fit_all(const FitCommand& command, std::variant<grid::MeasuredGrid, grid::MeasuredHoles> first) {
+  if (command.surface == "direct") {
+    fmt::print(stderr,
+               "chaintrue fit: a direct surface is of one grid alone: leave --surface or --with "
+               "out\n");
+    return kUsage;
   }
-  return grid::sets_together(sets);
+  std::vector<grid::MeasuredFile> files;
+  files.push_back({grid::files::name_in_messages(command.input.grid), std::move(first)});
+  for (const std::string& name : command.with) {
+    GridInput input = command.input;
+    input.grid = name;
+    files.push_back({grid::files::name_in_messages(name),
+                     read_measured_input(input, command.tape, MeasuredUse::fit)});
+  }
+  const auto fit = grid::fit_together(files);
+  if (!fit) {
+    fmt::print(stderr, "chaintrue fit: {}\n", fit.error().sentence);
+    return kBadInput;
+  }
+  std::string words;
+  for (const grid::HolesAmongFiles& one : fit->holes) {
+    words += fmt::format("\n{}:", files[one.file].name) +
+             distances_in_words(std::get<grid::MeasuredHoles>(files[one.file].measured), one.fit);
+  }
+  if (!fit->holes.empty()) words += distances_legend(fit->estimate.knowledge);
+  grid::CompensationMap map = fit->map;
+  const grid::OutsideRule rule = rule_of(command.outside, {});
+  if (rule.way != grid::Outside::continued) map = map.with_outside(rule);
+  return finish(command, map, words);
 }
 
 int run_fit(const FitCommand& command) {
   const auto input = read_measured_input(command.input, command.tape, MeasuredUse::fit);
-  if (const auto* holes = std::get_if<grid::MeasuredHoles>(&input)) {
-    if (command.with.empty()) return fit_the_holes(command, *holes);
-    const auto all = with_further_sets(command, *holes);
-    if (all) return fit_the_holes(command, *all);
-    fmt::print(stderr, "chaintrue fit: {}\n", all.error());
-    return kBadInput;
-  }
-  if (!command.with.empty()) {
-    fmt::print(stderr,
-               "{}: --with takes sets of holes, and this is a grid\n",
-               grid::files::name_in_messages(command.input.grid));
-    return kBadInput;
-  }
+  if (!command.with.empty()) return fit_all(command, input);
+  if (const auto* holes = std::get_if<grid::MeasuredHoles>(&input))
+    return fit_the_holes(command, *holes);
   const auto& measured = std::get<grid::MeasuredGrid>(input);
   grid::FitOptions options;
   options.surface =
@@ -131,8 +138,8 @@ void add_fit(CLI::App& app, Run& run) {
   add_tape_options(*verb, command->tape);
   verb->add_option("--with",
                    command->with,
-                   "More chaintrue_holes files of the same machine, cut with other controller "
-                   "settings in force: all are fitted at once");
+                   "More files of the same machine, grids or chaintrue_holes: all are fitted at once, "
+                   "in the frame of the first");
   verb->add_option("-o,--output", command->output, "The map file; - is standard output")
       ->required();
   verb->add_option("--surface",
@@ -149,7 +156,9 @@ void add_fit(CLI::App& app, Run& run) {
   verb->footer(
       "The fit is told on standard error.\n\nExample:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
-      "  build/chaintrue fit fixtures/holes/nine_holes.json -o map.json");
+      "  build/chaintrue fit fixtures/holes/nine_holes.json -o map.json\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json --with fixtures/holes/nine_holes.json "
+      "-o map.json");
   verb->callback([command, &run] {
     if (command->surface == "direct" && command->outside.way == "fade") {
       throw CLI::ValidationError(

@@ -27,7 +27,7 @@ std::string listed(const std::vector<std::string>& words) {
 
 }  // namespace
 
-std::string distances_in_words(const grid::MeasuredHoles& set, const grid::HolesFit& fit) {
+std::string distances_in_words(const grid::MeasuredHoles& set, const grid::FittedDistances& fit) {
   std::string text = "\nDistance                  measured  commanded   left out    sigmas\n";
   for (std::size_t k = 0; k < fit.distances.size(); ++k) {
     const grid::FittedDistance& distance = fit.distances[k];
@@ -40,16 +40,18 @@ std::string distances_in_words(const grid::MeasuredHoles& set, const grid::Holes
                    distance.sigmas(),
                    distance.set_aside ? "  set aside" : "");
   }
-  const Eigen::MatrixXd& covariance = fit.posterior.covariance;
-  fmt::format_to(std::back_inserter(text),
-                 "Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % (readings over "
-                 "the model's lengths).\n",
-                 100.0 * fit.posterior.mean[6],
-                 100.0 * std::sqrt(covariance(6, 6)),
-                 100.0 * fit.posterior.mean[7],
-                 100.0 * std::sqrt(covariance(7, 7)));
-  text += "Left out: measured less what a fit without this reading makes of it, mm.\n";
   return text;
+}
+
+std::string distances_legend(const grid::estimation::MachineKnowledge& knowledge) {
+  return fmt::format(
+      "Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % (readings over "
+      "the model's lengths).\n"
+      "Left out: measured less what a fit without this reading makes of it, mm.\n",
+      100.0 * knowledge.mean[6],
+      100.0 * std::sqrt(knowledge.covariance(6, 6)),
+      100.0 * knowledge.mean[7],
+      100.0 * std::sqrt(knowledge.covariance(7, 7)));
 }
 
 std::string distances_in_number(const grid::MeasuredHoles& set) {

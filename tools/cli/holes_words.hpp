@@ -12,7 +12,9 @@ namespace chaintrue::cli {
 
 /// Each distance: measured, commanded, and what the others make of it.
 [[nodiscard]] std::string distances_in_words(const grid::MeasuredHoles& set,
-                                             const grid::HolesFit& fit);
+                                             const grid::FittedDistances& fit);
+/// What is known of the chains' scales, and what the last column is.
+[[nodiscard]] std::string distances_legend(const grid::estimation::MachineKnowledge& knowledge);
 /// "20 distances", "18 distances and 6 to the sheet's edges".
 [[nodiscard]] std::string distances_in_number(const grid::MeasuredHoles& set);
 /// The holes and what to measure, as a list for the workshop.

@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/estimation/estimate.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "grid/estimation/joint_problem.hpp"
+#include "grid/estimation/left_out.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid::estimation {
+namespace {
+
+using model::Side;
+using Reason = EstimationFailure::Reason;
+
+constexpr auto kMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
+/// A weight that changes by this much moves nothing by more than a few hundredths of its sigma.
+constexpr double kSettledWeight = 1e-2;
+/// Passes with soft weights only, so that several bad units cannot hide each other.
+constexpr int kSoftPasses = 4;
+
+/// When the passes end.
+struct Settling {
+  int most_passes;
+  double step_sigmas;  ///< of the stated sigmas
+  bool scales_count;
+  int fewest_passes;
+};
+
+/// A step of 3e-3 stated sigmas changes no length by more than some 1e-3 mm. Where places follow
+/// from what is estimated, holes lie where the last step put them; distances settle more slowly, one
+/// of them being set aside at a time.
+Settling settling_of(const EstimationInput& input, bool places_move) {
+  if (input.fixed_weights) return {12, 1e-6, true, 0};
+  return places_move ? Settling{40, 1e-3, true, kSoftPasses + 2}
+                     : Settling{25, 3e-3, false, kSoftPasses + 2};
+}
+
+class Estimator {
+ public:
+  explicit Estimator(const EstimationInput& input)
+      : input_(input),
+        problem_(std::make_unique<JointProblem>(input, input.surface == SurfaceUse::smoothed)),
+        state_(problem_->stated()) {}
+
+  tl::expected<Estimate, EstimationFailure> run();
+
+ private:
+  /// Choosing the smoothing costs some twenty times a solution.
+  enum class Smoothing { choose, keep };
+  using Fit = tl::expected<interp::PenalisedFit, EstimationFailure>;
+  [[nodiscard]] Fit solve(const Eigen::VectorXd& weights,
+                          Smoothing smoothing,
+                          bool correct_covariance) const;
+  tl::expected<void, EstimationFailure> settle();
+  [[nodiscard]] double step_to(const State& next, const Settling& settling) const;
+  [[nodiscard]] bool update_weights(int pass);
+  [[nodiscard]] std::optional<std::size_t> worst_alone() const;
+  tl::expected<void, EstimationFailure> choose_surface();
+  [[nodiscard]] tl::expected<Estimate, EstimationFailure> result() const;
+  void fill_units(Estimate& estimate) const;
+  tl::expected<void, EstimationFailure> fill_observations(Estimate& estimate) const;
+  void fill_covariances(Estimate& estimate) const;
+
+  const EstimationInput& input_;
+  std::unique_ptr<JointProblem> problem_;
+  State state_;
+  Eigen::VectorXd weights_;
+  Eigen::VectorXd distances_;
+  interp::PenalisedFit fit_;
+  std::vector<std::vector<model::BedPoint>> as_stated_;
+  bool settled_ = false;
+  double surface_log_evidence_ = 0.0;
+};
+
+EstimationFailure failure_of(const interp::FitRefusal& refusal) {
+  return {refusal.reason == interp::FitFailure::kRankDeficient ? Reason::rank_deficient
+                                                               : Reason::not_converged,
+          refusal.sentence};
+}
+
+Estimator::Fit Estimator::solve(const Eigen::VectorXd& weights,
+                                Smoothing smoothing,
+                                bool correct_covariance) const {
+  const interp::PenalisedProblem problem = problem_->weighted(weights);
+  interp::FitOptions options;
+  options.correct_covariance = correct_covariance;
+  const bool nothing_to_choose =
+      problem.penalties.empty() && problem.noise.knowledge == interp::NoiseKnowledge::kExact;
+  auto fit = nothing_to_choose ? interp::fit_with_smoothing(problem, Eigen::VectorXd(0), 1.0)
+             : smoothing == Smoothing::choose
+                 ? interp::fit_penalised(problem, options)
+                 : interp::fit_with_smoothing(problem, fit_.lambda, fit_.sigma2);
+  if (!fit) return tl::unexpected(failure_of(fit.error()));
+  return *std::move(fit);
+}
+
+double Estimator::step_to(const State& next, const Settling& settling) const {
+  double step = 0.0;
+  const Unknowns& unknowns = problem_->unknowns();
+  for (Eigen::Index i = 0; i < unknowns.settings(); ++i) {
+    if (unknowns.sigma(i) <= kKnownSigma) continue;
+    step = std::max(step, std::abs(next.settings[i] - state_.settings[i]) / unknowns.sigma(i));
+  }
+  for (const Side side : model::kSides) {
+    if (!settling.scales_count) break;
+    step = std::max(
+        step, std::abs(next.surface.scale[side] - state_.surface.scale[side]) / kScaleSigma);
+  }
+  return step;
+}
+
+/// The unit of one row that fits worst, where the others alone put it too far out.
+std::optional<std::size_t> Estimator::worst_alone() const {
+  constexpr double kSuspect = 2.5;
+  std::optional<std::size_t> worst;
+  std::size_t candidates = 0;
+  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    const auto at = static_cast<Eigen::Index>(u);
+    if (weights_[at] == 0.0 || !rule_of(problem_->units()[u].rows).worst_first) continue;
+    ++candidates;
+    if (distances_[at] <= kSuspect) continue;
+    if (!worst || distances_[at] > distances_[static_cast<Eigen::Index>(*worst)]) worst = u;
+  }
+  if (!worst || candidates <= kFewestSingleRows) return std::nullopt;
+  Eigen::VectorXd without = weights_;
+  without[static_cast<Eigen::Index>(*worst)] = 0.0;
+  const Fit fit = solve(without, Smoothing::choose, false);
+  if (!fit) return std::nullopt;
+  const bool bad =
+      LeftOut(*problem_, *fit, without).distance(*worst) > rule_of(1).set_aside_beyond;
+  return bad ? worst : std::nullopt;
+}
+
+/// True where the weights changed enough to fit again.
+bool Estimator::update_weights(int pass) {
+  const LeftOut left_out(*problem_, fit_, weights_);
+  for (Eigen::Index u = 0; u < distances_.size(); ++u)
+    distances_[u] = left_out.distance(static_cast<std::size_t>(u));
+  if (input_.fixed_weights) return false;
+  double change = 0.0;
+  Eigen::VectorXd next = weights_;
+  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    const UnitRule rule = rule_of(problem_->units()[u].rows);
+    const auto at = static_cast<Eigen::Index>(u);
+    if (rule.worst_first && weights_[at] == 0.0) continue;
+    const bool bad = !rule.worst_first && pass >= kSoftPasses &&
+                     distances_[at] > rule.set_aside_beyond;
+    next[at] =
+        bad ? 0.0 : std::min(1.0, rule.full_weight_within / std::max(distances_[at], 1e-12));
+    change = std::max(change, std::abs(next[at] - weights_[at]));
+  }
+  weights_ = std::move(next);
+  if (pass >= kSoftPasses) {
+    if (const auto worst = worst_alone()) {
+      weights_[static_cast<Eigen::Index>(*worst)] = 0.0;
+      return true;
+    }
+  }
+  return change > kSettledWeight;
+}
+
+tl::expected<void, EstimationFailure> Estimator::settle() {
+  Settling settling = settling_of(input_, problem_->places_move());
+  if (input_.most_passes > 0) settling.most_passes = input_.most_passes;
+  settled_ = false;
+  Smoothing smoothing = Smoothing::choose;
+  for (int pass = 0; pass < settling.most_passes; ++pass) {
+    // Once all but the smoothing has settled, the pass that chooses it may be the last.
+    const bool last = pass + 1 == settling.most_passes;
+    const bool perhaps_last = settled_ || last || !problem_->has_surface();
+    if (perhaps_last) smoothing = Smoothing::choose;
+    if (auto done = problem_->linearise(state_); !done) return tl::unexpected(done.error());
+    if (weights_.size() == 0) {
+      const auto units = static_cast<Eigen::Index>(problem_->units().size());
+      weights_ = input_.fixed_weights.value_or(Eigen::VectorXd::Ones(units));
+      distances_ = Eigen::VectorXd::Zero(units);
+    }
+    if (as_stated_.empty()) {
+      for (std::size_t k = 0; k < input_.observations.size(); ++k)
+        as_stated_.push_back(problem_->marks(k));
+    }
+    Fit fit = solve(weights_, smoothing, perhaps_last && problem_->has_surface());
+    if (!fit) return tl::unexpected(fit.error());
+    fit_ = *std::move(fit);
+    State next = problem_->state_of(fit_);
+    const double step = step_to(next, settling);
+    state_ = std::move(next);
+    const Eigen::VectorXd solved_with = weights_;
+    settled_ = !update_weights(pass) && step < settling.step_sigmas &&
+               pass + 1 >= settling.fewest_passes;
+    if (perhaps_last && (settled_ || last)) {
+      // What is told of the units belongs to the weights that the fit was solved with.
+      weights_ = solved_with;
+      break;
+    }
+    // Otherwise chosen anew only when the bad units are first set aside.
+    smoothing = pass == kSoftPasses ? Smoothing::choose : Smoothing::keep;
+  }
+  return {};
+}
+
+/// A surface as smooth as the readings ask for, where they speak for one.
+tl::expected<void, EstimationFailure> Estimator::choose_surface() {
+  interp::FitOptions plain;
+  plain.prior = interp::SmoothingPrior::kNone;
+  plain.correct_covariance = false;
+  const auto without = interp::fit_penalised(problem_->weighted(weights_), plain);
+  if (!without) return tl::unexpected(failure_of(without.error()));
+  auto bent = std::make_unique<JointProblem>(input_, true);
+  State state = bent->stated();
+  state.settings = state_.settings;
+  state.surface.scale = state_.surface.scale;
+  if (auto done = bent->linearise(state); !done) return done;
+  const auto with = interp::fit_penalised(bent->weighted(weights_), plain);
+  if (!with) return {};  // what the readings do not determine they do not ask for
+  // The polynomials' prior, a constant beside V.
+  const double prior = 2.0 * static_cast<double>(bent->unknowns().surface().polynomials) *
+                       std::log(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
+  surface_log_evidence_ =
+      0.5 * (without->minus_two_log_reml - (with->minus_two_log_reml - prior));
+  if (surface_log_evidence_ < kSurfaceEvidence) return {};
+  problem_ = std::move(bent);
+  state_ = std::move(state);
+  weights_.resize(0);
+  return settle();
+}
+
+void Estimator::fill_units(Estimate& estimate) const {
+  const LeftOut left_out(*problem_, fit_, weights_);
+  for (std::size_t u = 0; u < problem_->units().size(); ++u) {
+    const SystemUnit& unit = problem_->units()[u];
+    const auto at = static_cast<Eigen::Index>(u);
+    const Eigen::MatrixXd back = unwhitening_of(unit.whitening);
+    const Eigen::MatrixXd rows = problem_->design().middleRows(unit.first_row, unit.rows);
+    UnitEstimate own{unit.observation, unit.unit, weights_[at], distances_[at], {}, {}, {}, {}};
+    own.residual = back * (problem_->response().segment(unit.first_row, unit.rows) -
+                           rows * fit_.coefficients);
+    own.left_out = back * left_out.residuals({u}).front();
+    own.left_out_covariance = back * left_out.covariance(u) * back.transpose();
+    estimate.units.push_back(std::move(own));
+  }
+  for (const UnitGroup& group : input_.held_out_together) {
+    const auto residuals = left_out.residuals(group);
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      estimate.units[group[k]].left_out_with_group =
+          unwhitening_of(problem_->units()[group[k]].whitening) * residuals[k];
+    }
+  }
+}
+
+tl::expected<void, EstimationFailure> Estimator::fill_observations(Estimate& estimate) const {
+  const Unknowns& unknowns = problem_->unknowns();
+  const Eigen::VectorXd coefficients = problem_->coefficients(fit_);
+  const Eigen::VectorXd variance = problem_->covariance(fit_).diagonal();
+  const auto corrections = problem_->corrections_of(state_);
+  const model::ReadingModel model(estimate.machine);
+  for (std::size_t k = 0; k < input_.observations.size(); ++k) {
+    const observation::Observation& observation = *input_.observations[k];
+    ObservationEstimate own;
+    own.sheet = unknowns.sheet_at(coefficients, k);
+    const auto line = observation.linearise({model, own.sheet, &corrections[k]}, {});
+    if (!line) return tl::unexpected(problem_->unreachable(k, line.error()));
+    own.predicted = line->predicted;
+    for (std::size_t i = 0; i < line->places.size(); ++i) {
+      const observation::PlaceState& place = line->places[i];
+      own.places.push_back({as_stated_[k][i], place.mark, place.by_mark, place.reading.lengths});
+    }
+    const Eigen::Index count = observation.nuisance_sigma().size();
+    own.nuisance = coefficients.segment(unknowns.nuisance(k), count);
+    own.nuisance_sigma = variance.segment(unknowns.nuisance(k), count).cwiseMax(0.0).cwiseSqrt();
+    estimate.observations.push_back(std::move(own));
+  }
+  return {};
+}
+
+void Estimator::fill_covariances(Estimate& estimate) const {
+  const Unknowns& unknowns = problem_->unknowns();
+  estimate.columns = {unknowns.settings(), estimate.surface.basis.size()};
+  estimate.covariance = problem_->map_covariance(fit_, estimate.columns);
+  std::vector<Eigen::Index> own;
+  for (Eigen::Index i = 0; i < kMachine; ++i) own.push_back(i);
+  own.insert(own.end(), {unknowns.scale(Side::left), unknowns.scale(Side::right)});
+  const Eigen::VectorXd coefficients = problem_->coefficients(fit_);
+  estimate.map_unknowns = coefficients.head(unknowns.settings() + 2);
+  estimate.knowledge.mean = coefficients(own);
+  estimate.knowledge.covariance = problem_->covariance(fit_)(own, own);
+}
+
+tl::expected<Estimate, EstimationFailure> Estimator::result() const {
+  Estimate estimate{problem_->unknowns().machine_at(problem_->coefficients(fit_)),
+                    settings_of(*input_.observations.front()),
+                    {},
+                    {},
+                    state_.surface,
+                    problem_->has_surface(),
+                    surface_log_evidence_,
+                    {},
+                    {},
+                    std::sqrt(fit_.sigma2),
+                    fit_.edf,
+                    {},
+                    {},
+                    settled_};
+  fill_covariances(estimate);
+  fill_units(estimate);
+  if (auto done = fill_observations(estimate); !done) return tl::unexpected(done.error());
+  return estimate;
+}
+
+tl::expected<Estimate, EstimationFailure> Estimator::run() {
+  if (auto done = settle(); !done) return tl::unexpected(done.error());
+  if (input_.surface == SurfaceUse::on_evidence) {
+    if (auto done = choose_surface(); !done) return tl::unexpected(done.error());
+  }
+  return result();
+}
+
+}  // namespace
+
+MachineKnowledge stated_knowledge(const model::Machine& machine) {
+  MachineKnowledge knowledge;
+  knowledge.covariance = Eigen::MatrixXd::Zero(kMachineUnknowns, kMachineUnknowns);
+  for (Eigen::Index i = 0; i < kMachine; ++i) {
+    const double sigma = std::max(
+        model::stated_sigma(machine, model::kMachineSettings[static_cast<std::size_t>(i)]),
+        kKnownSigma);
+    knowledge.covariance(i, i) = sigma * sigma;
+  }
+  knowledge.covariance(kMachine, kMachine) = knowledge.covariance(kMachine + 1, kMachine + 1) =
+      kScaleSigma * kScaleSigma;
+  return knowledge;
+}
+
+tl::expected<Estimate, EstimationFailure> estimate(const EstimationInput& input) {
+  if (input.observations.empty()) throw std::invalid_argument("an estimate without an observation");
+  return Estimator(input).run();
+}
+
+}  // namespace chaintrue::grid::estimation

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The one joint estimate: the machine's settings, each sheet's placement, both chains' scales and
+/// the residual surface from any mix of observations of one machine.
+///
+/// Each stated setting enters as a datum with its stated sigma; the chains' scales and the
+/// surfaces' polynomials have weak priors of their own, so that what a setting can explain is
+/// explained by the setting. Nuisances that belong to the noise (a hole's own error) are as large
+/// beside the readings' noise as was stated, whatever the noise turns out to be; the others (a
+/// hook, a sheet's size) are data of known sigma, and so are readings that nobody can slip at.
+///
+///   y = f(theta, s) + B b + W^-1 e,   e ~ N(0, s^2 I),   b_noise ~ N(0, s^2 sigma_b^2)        (1)
+///
+/// s, one noise factor over what was stated, and the surfaces' smoothness are chosen by restricted
+/// maximum likelihood (interp/reml.hpp); of readings stated with different degrees of freedom the
+/// fewest count. The model is linearised anew until it settles.
+///
+/// A frame that nothing was measured to is free: in each direction in which an observation's
+/// readings do not notice where its sheet lies, it is laid so that the places, as a whole, lie where
+/// they were commanded. These directions are eliminated, exactly.
+///
+/// Readings that do not fit the rest are first weighted down, then set aside, unit by unit: by the
+/// distance of a unit's residual, seen from a fit without it, in sigmas. A unit of one row beyond
+/// kBadDistanceSigmas of what the others make of it, with the noise that they alone show, is set
+/// aside, the worst first: among few single numbers a bad one raises the noise found and hides
+/// itself. A unit of two rows is set aside beyond kBadPointDistance.
+///
+/// Sources: S. Wood, Generalized Additive Models (2017), sections 4.2 and 6.2, for the mixed model;
+/// P. Huber and E. Ronchetti, Robust Statistics (2009), section 7.7, for the weights; C. Rasmussen
+/// and C. Williams, Gaussian Processes for Machine Learning (2006), equations 5.8 and 5.12, for
+/// evidence and left-out predictions.
+///
+/// \code
+///   EstimationInput input{machine, {points, holes}};
+///   input.domain = bed;
+///   const auto estimate = estimation::estimate(input);
+///   if (estimate) use(estimate->machine, estimate->surface);
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/map/residual_surface.hpp"
+#include "grid/observation/observation.hpp"
+#include "interp/reml.hpp"
+#include "model/calibration/sheet_placement.hpp"
+
+namespace chaintrue::grid::estimation {
+
+/// One sigma of a chain's length scale beforehand: twice a new chain's usual error, 0.0005 to
+/// 0.0015.
+inline constexpr double kScaleSigma = 0.002;
+/// One sigma beforehand of what the penalty leaves free in the residual surfaces: their height at
+/// the bed's centre, the rise from there to its edge and, for order 3, the bow.
+inline constexpr double kFreePartSigmaMm = 1.0;
+/// Chance 4e-5 for a good point: 1 in 900 grids of 28 good points loses one.
+inline constexpr double kBadPointDistance = 4.5;
+/// Chance 1.5e-3 for a good reading (Student's t, some 30 degrees of freedom): one set of twenty
+/// readings in thirty-five loses one.
+inline constexpr double kBadDistanceSigmas = 3.5;
+/// Of a surface over none, in natural units, where the readings have to ask for it: twenty to one.
+inline constexpr double kSurfaceEvidence = 3.0;
+/// With fewer units of one row than these none is set aside.
+inline constexpr std::size_t kFewestSingleRows = 5;
+
+/// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
+inline constexpr Eigen::Index kMachineUnknowns = 8;
+
+/// What is known of the machine: deviations from the stated settings, scales beside none.
+struct MachineKnowledge {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(kMachineUnknowns);
+  Eigen::MatrixXd covariance;  ///< kMachineUnknowns squared
+};
+/// The machine's stated uncertainty, and kScaleSigma of each scale.
+[[nodiscard]] MachineKnowledge stated_knowledge(const model::Machine& machine);
+
+enum class SurfaceUse {
+  none,
+  smoothed,     ///< always, as smooth as the readings ask for
+  on_evidence,  ///< where the readings speak for it (kSurfaceEvidence)
+};
+
+/// Units whose left-out residuals are wanted with all of them left out together.
+using UnitGroup = std::vector<std::size_t>;
+
+struct EstimationInput {
+  model::Machine machine;  ///< as stated
+  /// The marks' frame of the first is that of the surface and of the map.
+  observation::Observations observations;
+  interp::NoiseScale noise;
+  SurfaceUse surface = SurfaceUse::smoothed;
+  /// Order of the derivatives that the surfaces' penalty squares: 2, a thin plate, or 3, smoother
+  /// still.
+  int bending_order = 2;
+  interp::Rectangle domain;  ///< of the surface, all places within
+  /// The splines' intervals; 0: from the places' own spacing.
+  int intervals_x = 0;
+  int intervals_y = 0;
+  /// In place of what the machine states.
+  std::optional<MachineKnowledge> knowledge;
+  /// Of each unit, 0: set aside; no reweighting then, and settings settle to 1e-6 sigmas.
+  std::optional<Eigen::VectorXd> fixed_weights;
+  std::vector<UnitGroup> held_out_together;
+  int most_passes = 0;  ///< 0: as many as such readings need
+};
+
+/// A unit after the estimate. Residuals are measured less predicted, in the readings' own unit.
+struct UnitEstimate {
+  std::size_t observation = 0;
+  std::size_t unit = 0;   ///< into the observation's
+  double weight = 1.0;    ///< in the fit that all else here is told of; 0: set aside
+  double distance = 0.0;  ///< of the left-out residual, in sigmas
+  Eigen::VectorXd residual;
+  Eigen::VectorXd left_out;             ///< seen from a fit without the unit
+  Eigen::MatrixXd left_out_covariance;  ///< of that, the unit's own noise in it
+  Eigen::VectorXd left_out_with_group;  ///< empty where no group has the unit
+  [[nodiscard]] bool is_set_aside() const { return weight == 0.0; }
+};
+
+struct PlaceEstimate {
+  /// Where the machine as stated has it, a free sheet laid as its frame is defined.
+  model::BedPoint as_stated;
+  model::BedPoint mark;
+  Eigen::Matrix2d by_mark;  ///< d(L, R)/d(mark), corrected
+  model::ChainLengths lengths;  ///< of the machine alone
+};
+
+/// What belongs to one observation.
+struct ObservationEstimate {
+  model::SheetPlacement sheet;
+  Eigen::VectorXd predicted;  ///< in the order of the observation's rows
+  std::vector<PlaceEstimate> places;
+  Eigen::VectorXd nuisance;
+  Eigen::VectorXd nuisance_sigma;
+};
+
+struct Estimate {
+  model::Machine machine;  ///< calibrated
+  std::vector<model::Setting> settings;  ///< of the machine, and of the first sheet
+  /// Deviations of the settings from what was stated, then the scales.
+  Eigen::VectorXd map_unknowns;
+  FitColumns columns;
+  ResidualSurface surface;  ///< without one: scales, and splines of nothing
+  bool has_surface = false;
+  double surface_log_evidence = 0.0;  ///< of the surface over none, where it was asked for
+  Eigen::MatrixXd covariance;         ///< of all that a map is made of, columns.total() squared
+  MachineKnowledge knowledge;         ///< of the machine's own unknowns, afterwards
+  double noise_factor = 1.0;          ///< the noise found, as a multiple of the one that went in
+  double effective_parameters = 0.0;
+  std::vector<UnitEstimate> units;  ///< of readings that somebody may slip at
+  std::vector<ObservationEstimate> observations;
+  /// False where settings or weights still moved after the last pass.
+  bool settled = true;
+};
+
+struct EstimationFailure {
+  enum class Reason { place_unreachable, rank_deficient, not_converged } reason;
+  std::string sentence;
+};
+
+/// Deterministic: same input, same bytes. \throws std::invalid_argument without an observation.
+[[nodiscard]] tl::expected<Estimate, EstimationFailure> estimate(const EstimationInput& input);
+
+}  // namespace chaintrue::grid::estimation

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Notation as in the header.
+#include "grid/estimation/free_sheet.hpp"
+
+#include <Eigen/LU>
+
+namespace chaintrue::grid::estimation {
+namespace {
+
+using model::BedPoint;
+
+/// M
+Eigen::MatrixXd whole_motion(const std::vector<BedPoint>& commanded) {
+  const auto count = static_cast<Eigen::Index>(commanded.size());
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const BedPoint& c : commanded)
+    middle += Eigen::Vector2d(c.x_mm, c.y_mm) / static_cast<double>(count);
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, 2 * count);
+  double squares = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const BedPoint c = commanded[static_cast<std::size_t>(i)];
+    const double x = c.x_mm - middle.x();
+    const double y = c.y_mm - middle.y();
+    motion(0, 2 * i) = motion(1, 2 * i + 1) = 1.0 / static_cast<double>(count);
+    motion(2, 2 * i) = -y;
+    motion(2, 2 * i + 1) = x;
+    squares += x * x + y * y;
+  }
+  motion.row(2) /= squares;
+  return motion;
+}
+
+/// m - c
+Eigen::VectorXd beside(const PlacesOnSheet& places) {
+  Eigen::VectorXd all(2 * static_cast<Eigen::Index>(places.marks.size()));
+  for (std::size_t i = 0; i < places.marks.size(); ++i) {
+    const auto at = 2 * static_cast<Eigen::Index>(i);
+    all[at] = places.marks[i].x_mm - places.commanded[i].x_mm;
+    all[at + 1] = places.marks[i].y_mm - places.commanded[i].y_mm;
+  }
+  return all;
+}
+
+}  // namespace
+
+void add_free_directions(const PlacesOnSheet& places, FreeDirections& free) {
+  if (places.free_columns.empty()) return;
+  const Eigen::MatrixXd motion = whole_motion(places.commanded)(places.free_rows, Eigen::all);
+  const Eigen::MatrixXd by_unknown = motion * places.by_unknown;
+  const Eigen::MatrixXd inverse =
+      Eigen::MatrixXd(by_unknown(Eigen::all, places.free_columns)).inverse();
+  Eigen::MatrixXd following = -inverse * by_unknown;
+  following(Eigen::all, places.free_columns).setZero();
+  const Eigen::Index before = free.constant.size();
+  const Eigen::Index more = following.rows();
+  free.columns.insert(free.columns.end(), places.free_columns.begin(), places.free_columns.end());
+  free.constant.conservativeResize(before + more);
+  free.constant.tail(more) = -inverse * (motion * (beside(places) - places.moved));
+  free.following.conservativeResize(before + more, following.cols());
+  free.following.bottomRows(more) = following;
+}
+
+std::vector<BedPoint> laid_as_a_whole(const PlacesOnSheet& places) {
+  std::vector<BedPoint> marks = places.marks;
+  if (places.free_columns.empty()) return marks;
+  const Eigen::MatrixXd motion = whole_motion(places.commanded)(places.free_rows, Eigen::all);
+  const Eigen::MatrixXd by_free = places.by_unknown(Eigen::all, places.free_columns);
+  const Eigen::MatrixXd of_whole = motion * by_free;
+  const Eigen::VectorXd shift = -by_free * of_whole.inverse() * (motion * beside(places));
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const auto at = 2 * static_cast<Eigen::Index>(i);
+    marks[i].x_mm += shift[at];
+    marks[i].y_mm += shift[at + 1];
+  }
+  return marks;
+}
+
+}  // namespace chaintrue::grid::estimation

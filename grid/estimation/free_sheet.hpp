@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A sheet in the directions in which the readings do not notice where it lies: there its frame is
+/// defined by laying it so that the places, as a whole, lie where they were commanded. That tells
+/// nothing of the machine. Private to grid/estimation.
+///
+/// Notation: m_i marks of the places, c_i where they were commanded; G, d(all m)/d(unknowns); g,
+/// what the unknowns have moved the marks by where they stand now; M, 3 x 2N, how places lie beside
+/// their commands as a whole: shift x, shift y, turn (small). Free directions x_f follow from the
+/// other unknowns x_r:
+///
+///   M (m - c + G x - g) = 0   =>   x_f = a + F x_r,
+///   F = -(M G_f)^-1 M G_r,   a = -(M G_f)^-1 M (m - c - g)                                  (1)
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/coordinates.hpp"
+
+namespace chaintrue::grid::estimation {
+
+/// Free directions of all sheets.
+struct FreeDirections {
+  std::vector<Eigen::Index> columns;  ///< x_f
+  Eigen::VectorXd constant;           ///< a
+  Eigen::MatrixXd following;          ///< F by all unknowns, nothing by x_f
+};
+
+/// The places of one observation.
+struct PlacesOnSheet {
+  std::vector<model::BedPoint> commanded;
+  std::vector<model::BedPoint> marks;
+  Eigen::MatrixXd by_unknown;  ///< G
+  Eigen::VectorXd moved;       ///< g
+  std::vector<Eigen::Index> free_columns;
+  std::vector<Eigen::Index> free_rows;  ///< of M, in the same order
+};
+
+/// (1) of one observation, added to what others have.
+void add_free_directions(const PlacesOnSheet& places, FreeDirections& free);
+
+/// Where the marks would be with the free directions put right and all else as it is.
+[[nodiscard]] std::vector<model::BedPoint> laid_as_a_whole(const PlacesOnSheet& places);
+
+}  // namespace chaintrue::grid::estimation

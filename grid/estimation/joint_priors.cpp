@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The problem that a fit is asked: weighted rows, and what is known beforehand.
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "grid/estimation/joint_problem.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid::estimation {
+
+using model::Side;
+using observation::Observation;
+
+namespace {
+constexpr auto kMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
+}
+
+void JointProblem::add_rows(interp::PenalisedProblem& problem,
+                            const Eigen::VectorXd& weights) const {
+  Eigen::MatrixXd design(design_.rows(), design_.cols());
+  Eigen::VectorXd response(design_.rows());
+  Eigen::Index rows = 0;
+  for (std::size_t u = 0; u < units_.size(); ++u) {
+    const double weight = weights[static_cast<Eigen::Index>(u)];
+    if (weight == 0.0) continue;
+    const double root = std::sqrt(weight);
+    const SystemUnit& unit = units_[u];
+    design.middleRows(rows, unit.rows) = root * design_.middleRows(unit.first_row, unit.rows);
+    response.segment(rows, unit.rows) = root * response_.segment(unit.first_row, unit.rows);
+    rows += unit.rows;
+  }
+  problem.add_rows(design.topRows(rows), response.head(rows));
+}
+
+/// What is known of the settings and scales, and readings of the machine itself: data of known
+/// sigma, which the noise factor does not scale.
+void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
+  const Eigen::Index count = unknowns_->settings() + 2;
+  Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(count, count);
+  Eigen::VectorXd pull = Eigen::VectorXd::Zero(count);
+  for (Eigen::Index i = 0; i < unknowns_->settings(); ++i)
+    precision(i, i) = 1.0 / (unknowns_->sigma(i) * unknowns_->sigma(i));
+  precision.diagonal().tail<2>().setConstant(1.0 / (kScaleSigma * kScaleSigma));
+  if (input_.knowledge) {
+    std::vector<Eigen::Index> own;
+    for (Eigen::Index i = 0; i < kMachine; ++i) own.push_back(i);
+    own.insert(own.end(), {count - 2, count - 1});
+    const Eigen::MatrixXd inverse = input_.knowledge->covariance.llt().solve(
+        Eigen::MatrixXd::Identity(kMachineUnknowns, kMachineUnknowns));
+    precision(own, own) = inverse;
+    pull(own) = inverse * input_.knowledge->mean;
+  }
+  for (Eigen::Index i = 0; i < sure_design_.rows(); ++i) {
+    const Eigen::RowVectorXd row = sure_design_.row(i).head(count);
+    precision += row.transpose() * row;
+    pull += row.transpose() * sure_response_[i];
+  }
+  problem.prior_precision.topLeftCorner(count, count) = precision;
+  // No reading of the machine touches the scales: without more knowledge they stand apart.
+  const Eigen::Index coupled = input_.knowledge ? count : unknowns_->settings();
+  problem.prior_mean.head(coupled) =
+      precision.topLeftCorner(coupled, coupled).ldlt().solve(pull.head(coupled));
+}
+
+/// Sheets beside the first, and nuisances. Those of the noise are rows of data: the noise factor
+/// scales them.
+void JointProblem::add_nuisance_prior(interp::PenalisedProblem& problem) const {
+  Eigen::Index of_noise = 0;
+  for (const auto& observation : input_.observations) of_noise += observation->nuisances_of_noise();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(of_noise, unknowns_->total());
+  Eigen::Index row = 0;
+  for (std::size_t k = 0; k < input_.observations.size(); ++k) {
+    const Observation& observation = *input_.observations[k];
+    for (Eigen::Index i = 0; k > 0 && unknowns_->sheet(k) >= 0 && i < 3; ++i) {
+      const Eigen::Index column = unknowns_->sheet(k) + i;
+      problem.prior_precision(column, column) =
+          1.0 / (unknowns_->sigma(column) * unknowns_->sigma(column));
+    }
+    const Eigen::VectorXd& sigma = observation.nuisance_sigma();
+    const Eigen::Index known = sigma.size() - observation.nuisances_of_noise();
+    for (Eigen::Index i = 0; i < sigma.size(); ++i) {
+      const Eigen::Index column = unknowns_->nuisance(k) + i;
+      if (i < known) {
+        problem.prior_precision(column, column) = 1.0 / (sigma[i] * sigma[i]);
+      } else {
+        rows(row++, column) = 1.0 / sigma[i];
+      }
+    }
+  }
+  if (of_noise > 0) problem.add_rows(rows, Eigen::VectorXd::Zero(of_noise));
+}
+
+void JointProblem::add_surface_prior(interp::PenalisedProblem& problem,
+                                     const Eigen::VectorXd& weights) const {
+  const SurfaceColumns& surface = unknowns_->surface();
+  problem.prior_precision.diagonal()
+      .segment(unknowns_->polynomial(Side::left), 2 * surface.polynomials)
+      .setConstant(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
+  // One smoothness for both chains: what bends one surface bends the other.
+  interp::Penalty penalty;
+  penalty.first_column = unknowns_->bend(Side::left);
+  penalty.matrix = Eigen::MatrixXd::Identity(2 * surface.bends, 2 * surface.bends);
+  penalty.rank = 2 * surface.bends;
+  // Where the splines' own penalty would weigh as much as the data.
+  for (std::size_t u = 0; u < units_.size(); ++u) {
+    const double weight = weights[static_cast<Eigen::Index>(u)];
+    for (const observation::PlaceColumns& place : units_[u].places) {
+      const double square = observed_->squares()[static_cast<Eigen::Index>(place.place)];
+      penalty.balance += weight * square * place.by_chain.squaredNorm() /
+                         (2.0 * observed_->penalty_trace());
+    }
+  }
+  problem.penalties = {std::move(penalty)};
+}
+
+interp::PenalisedProblem JointProblem::weighted(const Eigen::VectorXd& weights) const {
+  const Eigen::Index total = unknowns_->total();
+  interp::PenalisedProblem problem(total);
+  problem.keeps_rows = true;
+  problem.prior_precision = Eigen::MatrixXd::Zero(total, total);
+  problem.prior_mean = Eigen::VectorXd::Zero(total);
+  problem.noise = input_.noise;
+  add_rows(problem, weights);
+  add_settings_prior(problem);
+  add_nuisance_prior(problem);
+  if (has_surface_) add_surface_prior(problem, weights);
+  return problem;
+}
+
+}  // namespace chaintrue::grid::estimation

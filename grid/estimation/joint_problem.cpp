@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/estimation/joint_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "grid/estimation/surface_correction.hpp"
+#include "grid/map/measured_area.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid::estimation {
+namespace {
+
+using model::BedPoint;
+using model::Side;
+using observation::Observation;
+
+constexpr auto kMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
+
+std::vector<BedPoint> stated_marks(const observation::Observations& observations) {
+  std::vector<BedPoint> marks;
+  for (const auto& observation : observations) {
+    for (const observation::Place& place : observation->places()) marks.push_back(place.mark);
+  }
+  return marks;
+}
+
+/// Intervals a little wider than the square that each place has to itself: three more coefficients
+/// than intervals on each axis still let noise-free points be met; the penalty makes what is too
+/// many of them harmless, and beyond some 200 a surface more would only cost time. The smoother
+/// surface is for points that are met closely, and closer ones show.
+interp::BsplineBasis basis_for(const EstimationInput& input, bool has_surface) {
+  if (!has_surface) return {input.domain, 1, 1};
+  if (input.intervals_x > 0 && input.intervals_y > 0)
+    return {input.domain, input.intervals_x, input.intervals_y};
+  const double widening = input.bending_order == 2 ? 1.2 : 0.8;
+  const double spacing_mm =
+      widening * 2.0 * MeasuredArea(stated_marks(input.observations), input.domain).edge_mm();
+  const auto intervals = [spacing_mm](double length_mm, int most) {
+    return std::clamp(static_cast<int>(std::ceil(length_mm / spacing_mm)), 3, most);
+  };
+  return {input.domain, intervals(input.domain.width(), 12), intervals(input.domain.height(), 8)};
+}
+
+/// Chain lengths at given marks are linear in the correction, whatever it is, so that it can be left
+/// out of what the passes linearise about; where the tool went follows from the correction.
+bool is_linear_in_correction(const Observation& observation) {
+  return observation.places().empty() || observation.kind().reads_chains;
+}
+
+Eigen::Index column_of(Side side) { return side == Side::left ? 0 : 1; }
+
+double length_of(model::ChainLengths lengths, Side side) {
+  return side == Side::left ? lengths.left_mm : lengths.right_mm;
+}
+
+}  // namespace
+
+JointProblem::JointProblem(const EstimationInput& input, bool has_surface)
+    : input_(input), has_surface_(has_surface), basis_(basis_for(input, has_surface)) {
+  for (const auto& observation : input.observations)
+    places_move_ = places_move_ || !is_linear_in_correction(*observation);
+}
+
+EstimationFailure JointProblem::unreachable(std::size_t observation,
+                                            const observation::Unreachable& place) const {
+  const Observation& readings = *input_.observations[observation];
+  const observation::Place& there = readings.places()[place.place];
+  return {EstimationFailure::Reason::place_unreachable,
+          fmt::format("{} {} at ({:.1f}, {:.1f}): {}",
+                      readings.kind().place,
+                      there.name,
+                      there.mark.x_mm,
+                      there.mark.y_mm,
+                      model::explain(place.reason))};
+}
+
+State JointProblem::stated() const {
+  const Unknowns unknowns(input_.machine, input_.observations, {});
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(basis_.size());
+  return {Eigen::VectorXd::Zero(unknowns.total()), {basis_, {0.0, 0.0}, {nothing, nothing}}};
+}
+
+tl::expected<void, EstimationFailure> JointProblem::linearise(const State& state) {
+  // Sheets and settings keep their place among the unknowns but for the surface's columns, which
+  // the places decide.
+  const Unknowns layout(input_.machine, input_.observations, {});
+  const std::vector<SurfaceCorrection> corrections = corrections_of(state);
+  const model::ReadingModel model(layout.machine_at(state.settings));
+  std::vector<ObservedFrom> from;
+  for (std::size_t k = 0; k < input_.observations.size(); ++k) {
+    const bool about_none =
+        is_linear_in_correction(*input_.observations[k]) && !input_.fixed_weights;
+    from.push_back(
+        {{model, layout.sheet_at(state.settings, k), about_none ? nullptr : &corrections[k]},
+         state.settings(layout.columns_of(k))});
+  }
+  const auto system = estimation::linearise(input_.observations, from);
+  if (!system) return tl::unexpected(unreachable(system.error().observation, system.error().place));
+  std::vector<BedPoint> marks;
+  for (const SystemPlace& place : system->places) {
+    marks.push_back(corrections[place.observation].to_surface(place.state.mark));
+  }
+  observe(std::move(marks));
+  fill_design(*system, state);
+  eliminate_free_directions(*system, from, state);
+  return {};
+}
+
+std::vector<SurfaceCorrection> JointProblem::corrections_of(const State& state) const {
+  const Unknowns layout(input_.machine, input_.observations, {});
+  const model::SheetPlacement first = layout.sheet_at(state.settings, 0);
+  std::vector<SurfaceCorrection> corrections{SurfaceCorrection(state.surface)};
+  for (std::size_t k = 1; k < input_.observations.size(); ++k)
+    corrections.emplace_back(state.surface, first, layout.sheet_at(state.settings, k));
+  return corrections;
+}
+
+/// What the places observe of the surface; where they stay, once.
+void JointProblem::observe(std::vector<BedPoint> places) {
+  surface_marks_ = std::move(places);
+  if (unknowns_ && !places_move_) return;
+  SurfaceColumns surface;
+  if (has_surface_) {
+    observed_.emplace(basis_, input_.bending_order, surface_marks_);
+    surface = {observed_->polynomials(), observed_->bends()};
+  }
+  unknowns_.emplace(input_.machine, input_.observations, surface);
+}
+
+/// e f + s, as the state has it.
+Eigen::Vector2d JointProblem::correction_at(std::size_t place,
+                                            const SystemPlace& at,
+                                            const State& state) const {
+  const model::ChainLengths own = at.state.reading.lengths;
+  const model::ChainLengths corrected =
+      state.surface.apply(surface_marks_[place], own, Eigen::Matrix2d::Zero()).lengths;
+  return {corrected.left_mm - own.left_mm, corrected.right_mm - own.right_mm};
+}
+
+void JointProblem::fill_design(const LinearisedSystem& system, const State& state) {
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(system.response.size(), unknowns_->total());
+  Eigen::VectorXd response = system.response;
+  design.leftCols(unknowns_->settings()) = system.by_setting.leftCols(unknowns_->settings());
+  Eigen::Index sheet = unknowns_->settings();
+  Eigen::Index nuisance = 0;
+  for (std::size_t k = 0; k < input_.observations.size(); ++k) {
+    if (k > 0 && unknowns_->sheet(k) >= 0) {
+      design.middleCols<3>(unknowns_->sheet(k)) = system.by_setting.middleCols<3>(sheet);
+      sheet += 3;
+    }
+    const Eigen::Index count = input_.observations[k]->nuisance_sigma().size();
+    design.middleCols(unknowns_->nuisance(k), count) = system.by_nuisance.middleCols(nuisance, count);
+    nuisance += count;
+  }
+  units_.clear();
+  std::vector<Eigen::Index> rows;
+  std::vector<Eigen::Index> sure_rows;
+  for (const SystemUnit& unit : system.units) {
+    auto own = design.middleRows(unit.first_row, unit.rows);
+    const Observation& observation = *input_.observations[unit.observation];
+    for (const observation::PlaceColumns& place : unit.places) {
+      const SystemPlace& at = system.places[place.place];
+      for (const Side side : model::kSides) {
+        const Eigen::VectorXd by_chain = place.by_chain.col(column_of(side));
+        own.col(unknowns_->scale(side)) += by_chain * length_of(at.state.reading.lengths, side);
+        if (!has_surface_) continue;
+        const auto row = static_cast<Eigen::Index>(place.place);
+        own.middleCols(unknowns_->polynomial(side), observed_->polynomials()) +=
+            by_chain * observed_->polynomial_rows().row(row);
+        own.middleCols(unknowns_->bend(side), observed_->bends()) +=
+            by_chain * observed_->bend_rows().row(row);
+      }
+      if (!is_linear_in_correction(observation) || input_.fixed_weights)
+        response.segment(unit.first_row, unit.rows) +=
+            place.by_chain * correction_at(place.place, at, state);
+    }
+    auto& list = observation.may_slip() ? rows : sure_rows;
+    if (observation.may_slip()) {
+      units_.push_back(unit);
+      units_.back().first_row = static_cast<Eigen::Index>(rows.size());
+    }
+    for (Eigen::Index i = 0; i < unit.rows; ++i) list.push_back(unit.first_row + i);
+  }
+  design_ = design(rows, Eigen::all);
+  response_ = response(rows);
+  sure_design_ = design(sure_rows, Eigen::all);
+  sure_response_ = response(sure_rows);
+}
+
+/// d(corrected lengths at a mark)/d(unknowns), 2 x total.
+Eigen::MatrixXd JointProblem::lengths_by_unknown(std::size_t place,
+                                                 const SystemPlace& at,
+                                                 const observation::View& view) const {
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, unknowns_->total());
+  for (Eigen::Index i = 0; i < kMachine; ++i) {
+    rows.col(i) = at.state.by_length.cwiseProduct(view.model.sensitivity(
+        at.state.reading, model::kMachineSettings[static_cast<std::size_t>(i)]));
+  }
+  if (const Eigen::Index sheet = unknowns_->sheet(at.observation); sheet >= 0) {
+    rows.middleCols<3>(sheet) = at.state.by_length.asDiagonal() *
+                                (at.state.reading.position_jacobian *
+                                 view.sheet.sensitivity(at.state.mark));
+  }
+  for (const Side side : model::kSides) {
+    const Eigen::Index row = column_of(side);
+    rows(row, unknowns_->scale(side)) = length_of(at.state.reading.lengths, side);
+    if (!has_surface_) continue;
+    const auto own = static_cast<Eigen::Index>(place);
+    rows.row(row).segment(unknowns_->polynomial(side), observed_->polynomials()) =
+        observed_->polynomial_rows().row(own);
+    rows.row(row).segment(unknowns_->bend(side), observed_->bends()) =
+        observed_->bend_rows().row(own);
+  }
+  return rows;
+}
+
+void JointProblem::eliminate_free_directions(const LinearisedSystem& system,
+                                             const std::vector<ObservedFrom>& from,
+                                             const State& state) {
+  free_ = {};
+  laid_marks_.assign(input_.observations.size(), {});
+  for (std::size_t k = 0; k < input_.observations.size(); ++k) {
+    const Observation& observation = *input_.observations[k];
+    PlacesOnSheet places;
+    for (std::size_t i = 0; observation.sheet() && i < model::kSheetSettings.size(); ++i) {
+      if (observation.sheet()->knows(model::kSheetSettings[i])) continue;
+      places.free_rows.push_back(static_cast<Eigen::Index>(i));
+      places.free_columns.push_back(unknowns_->sheet(k) + static_cast<Eigen::Index>(i));
+    }
+    const Eigen::Index rows = 2 * static_cast<Eigen::Index>(observation.places().size());
+    places.by_unknown = Eigen::MatrixXd::Zero(rows, unknowns_->total());
+    places.moved = Eigen::VectorXd::Zero(rows);
+    for (std::size_t p = 0; p < system.places.size(); ++p) {
+      const SystemPlace& at = system.places[p];
+      if (at.observation != k) continue;
+      places.commanded.push_back(observation.places()[at.place].mark);
+      places.marks.push_back(at.state.mark);
+      if (places.free_columns.empty()) continue;
+      const Eigen::Matrix2d to_mark = -at.state.by_mark.inverse();
+      const auto row = 2 * static_cast<Eigen::Index>(at.place);
+      const Eigen::MatrixXd lengths = lengths_by_unknown(p, at, from[k].view);
+      places.by_unknown.middleRows<2>(row) = to_mark * lengths;
+      Eigen::VectorXd now = Eigen::VectorXd::Zero(unknowns_->total());
+      now(unknowns_->columns_of(k)) = from[k].settings;
+      places.moved.segment<2>(row) = to_mark * (lengths * now + correction_at(p, at, state));
+    }
+    laid_marks_[k] = laid_as_a_whole(places);
+    add_free_directions(places, free_);
+  }
+  if (free_.columns.empty()) return;
+  const Eigen::MatrixXd by_free = design_(Eigen::all, free_.columns);
+  response_ -= by_free * free_.constant;
+  design_ += by_free * free_.following;
+  design_(Eigen::all, free_.columns).setZero();
+}
+
+Eigen::VectorXd JointProblem::coefficients(const interp::PenalisedFit& fit) const {
+  Eigen::VectorXd all = fit.coefficients;
+  if (!free_.columns.empty()) {
+    const Eigen::VectorXd free = free_.constant + free_.following * all;
+    all(free_.columns) = free;
+  }
+  return all;
+}
+
+Eigen::MatrixXd JointProblem::covariance(const interp::PenalisedFit& fit) const {
+  if (free_.columns.empty()) return fit.corrected_covariance;
+  Eigen::MatrixXd follows = Eigen::MatrixXd::Identity(unknowns_->total(), unknowns_->total());
+  follows(free_.columns, Eigen::all) = free_.following;
+  return follows * fit.corrected_covariance * follows.transpose();
+}
+
+State JointProblem::state_of(const interp::PenalisedFit& fit) const {
+  const Eigen::VectorXd all = coefficients(fit);
+  State state = stated();
+  const Unknowns layout(input_.machine, input_.observations, {});
+  state.settings.head(unknowns_->settings()) = all.head(unknowns_->settings());
+  for (std::size_t k = 1; k < input_.observations.size(); ++k) {
+    if (layout.sheet(k) >= 0)
+      state.settings.segment<3>(layout.sheet(k)) = all.segment<3>(unknowns_->sheet(k));
+  }
+  for (const Side side : model::kSides) {
+    state.surface.scale[side] = all[unknowns_->scale(side)];
+    if (!has_surface_) continue;
+    state.surface.coefficients[side] =
+        observed_->polynomial_coefficients() *
+            all.segment(unknowns_->polynomial(side), observed_->polynomials()) +
+        observed_->bend_coefficients() * all.segment(unknowns_->bend(side), observed_->bends());
+  }
+  return state;
+}
+
+Eigen::MatrixXd JointProblem::map_covariance(const interp::PenalisedFit& fit,
+                                             const FitColumns& columns) const {
+  const Eigen::Index plain = unknowns_->settings() + 2;
+  Eigen::MatrixXd to_splines = Eigen::MatrixXd::Zero(columns.total(), unknowns_->total());
+  to_splines.topLeftCorner(plain, plain).setIdentity();
+  for (const Side side : model::kSides) {
+    if (!has_surface_) break;
+    to_splines.block(columns.spline(side),
+                     unknowns_->polynomial(side),
+                     columns.basis,
+                     observed_->polynomials()) = observed_->polynomial_coefficients();
+    to_splines.block(columns.spline(side), unknowns_->bend(side), columns.basis, observed_->bends()) =
+        observed_->bend_coefficients();
+  }
+  Eigen::MatrixXd result = to_splines * covariance(fit) * to_splines.transpose();
+  if (!has_surface_) return result;
+  const Eigen::MatrixXd unobserved = fit.inverse_lambda[0] * observed_->null_space_coefficients() *
+                                     observed_->null_space_coefficients().transpose();
+  for (const Side side : model::kSides) {
+    result.block(columns.spline(side), columns.spline(side), columns.basis, columns.basis) +=
+        unobserved;
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid::estimation

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Readings and what is known beforehand as one penalised problem at one linearisation, and the way
+/// back from its unknowns to settings and splines. Private to grid/estimation.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "grid/estimation/estimate.hpp"
+#include "grid/estimation/free_sheet.hpp"
+#include "grid/estimation/linearised_system.hpp"
+#include "grid/estimation/surface_correction.hpp"
+#include "grid/estimation/unknowns.hpp"
+#include "grid/map/observed_subspace.hpp"
+
+namespace chaintrue::grid::estimation {
+
+/// Where the iteration stands.
+struct State {
+  Eigen::VectorXd settings;  ///< unknowns of machine and sheets; all others are nothing
+  ResidualSurface surface;   ///< with the scales
+};
+
+class JointProblem {
+ public:
+  /// `input` outlives the problem.
+  JointProblem(const EstimationInput& input, bool has_surface);
+
+  [[nodiscard]] State stated() const;
+  /// In words.
+  [[nodiscard]] EstimationFailure unreachable(std::size_t observation,
+                                              const observation::Unreachable& place) const;
+  /// Fails where the machine has no pose at a place.
+  tl::expected<void, EstimationFailure> linearise(const State& state);
+  /// With a weight for each unit; 0 sets it aside.
+  [[nodiscard]] interp::PenalisedProblem weighted(const Eigen::VectorXd& weights) const;
+  /// Of each observation, as the state has the surface. The state outlives them.
+  [[nodiscard]] std::vector<SurfaceCorrection> corrections_of(const State& state) const;
+  /// The state that a fit of the problem leads to.
+  [[nodiscard]] State state_of(const interp::PenalisedFit& fit) const;
+
+  [[nodiscard]] const Unknowns& unknowns() const { return *unknowns_; }
+  [[nodiscard]] bool has_surface() const { return has_surface_; }
+  /// Some places follow from the machine: they move with what is estimated.
+  [[nodiscard]] bool places_move() const { return places_move_; }
+  /// Units that may be set aside, and their whitened rows by all unknowns.
+  [[nodiscard]] const std::vector<SystemUnit>& units() const { return units_; }
+  [[nodiscard]] const Eigen::MatrixXd& design() const { return design_; }
+  [[nodiscard]] const Eigen::VectorXd& response() const { return response_; }
+  /// Marks of an observation's places, a free sheet laid as its frame is defined.
+  [[nodiscard]] const std::vector<model::BedPoint>& marks(std::size_t observation) const {
+    return laid_marks_[observation];
+  }
+  /// What of a map's unknowns the places observe, and what keeps its prior.
+  [[nodiscard]] Eigen::MatrixXd map_covariance(const interp::PenalisedFit& fit,
+                                               const FitColumns& columns) const;
+  /// Of all unknowns, free directions with what they follow from.
+  [[nodiscard]] Eigen::VectorXd coefficients(const interp::PenalisedFit& fit) const;
+  [[nodiscard]] Eigen::MatrixXd covariance(const interp::PenalisedFit& fit) const;
+
+ private:
+  void observe(std::vector<model::BedPoint> places);
+  void fill_design(const LinearisedSystem& system, const State& state);
+  void eliminate_free_directions(const LinearisedSystem& system,
+                                 const std::vector<ObservedFrom>& from,
+                                 const State& state);
+  [[nodiscard]] Eigen::MatrixXd lengths_by_unknown(std::size_t place,
+                                                   const SystemPlace& at,
+                                                   const observation::View& view) const;
+  [[nodiscard]] Eigen::Vector2d correction_at(std::size_t place,
+                                              const SystemPlace& at,
+                                              const State& state) const;
+  void add_rows(interp::PenalisedProblem& problem, const Eigen::VectorXd& weights) const;
+  void add_settings_prior(interp::PenalisedProblem& problem) const;
+  void add_nuisance_prior(interp::PenalisedProblem& problem) const;
+  void add_surface_prior(interp::PenalisedProblem& problem, const Eigen::VectorXd& weights) const;
+
+  const EstimationInput& input_;
+  bool has_surface_;
+  bool places_move_ = false;
+  interp::BsplineBasis basis_;
+  std::optional<ObservedSubspace> observed_;
+  std::optional<Unknowns> unknowns_;
+  std::vector<model::BedPoint> surface_marks_;  ///< of all places, in the first sheet's frame
+  std::vector<std::vector<model::BedPoint>> laid_marks_;
+  std::vector<SystemUnit> units_;
+  Eigen::MatrixXd design_;
+  Eigen::VectorXd response_;
+  /// Rows of readings that nobody slips at.
+  Eigen::MatrixXd sure_design_;
+  Eigen::VectorXd sure_response_;
+  FreeDirections free_;
+};
+
+}  // namespace chaintrue::grid::estimation

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Units seen from a fit without them, and what weight that leaves them. Private to
+/// grid/estimation.
+///
+/// With weights w, whitened rows X and residuals r of a unit, C the covariance of the unknowns and
+/// s^2 the noise of a fit that has the unit, without it
+///
+///   r_out = (I - w X C X' / s^2)^-1 r,   cov r_out = s^2 I + X C_out X'                        (1)
+///   X C_out X' = s^2 (s^2 I - w X C X')^-1 X C X'
+///
+/// The distance is sqrt(r_out' (cov r_out)^-1 r_out).
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "grid/estimation/joint_problem.hpp"
+
+namespace chaintrue::grid::estimation {
+
+/// A fit of a problem with these weights. All outlive this.
+class LeftOut {
+ public:
+  LeftOut(const JointProblem& problem,
+          const interp::PenalisedFit& fit,
+          const Eigen::VectorXd& weights)
+      : problem_(problem), fit_(fit), weights_(weights) {}
+
+  /// Whitened residuals of a group of units with all of them left out. What is set aside is not in
+  /// the fit.
+  [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const UnitGroup& group) const;
+  /// (1), whitened, the unit's noise at its full weight.
+  [[nodiscard]] Eigen::MatrixXd covariance(std::size_t unit) const;
+  [[nodiscard]] double distance(std::size_t unit) const;
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd rows_of(std::size_t unit) const;
+  [[nodiscard]] Eigen::VectorXd response_of(std::size_t unit) const;
+
+  const JointProblem& problem_;
+  const interp::PenalisedFit& fit_;
+  const Eigen::VectorXd& weights_;
+};
+
+/// What happens to a unit at a distance.
+struct UnitRule {
+  double full_weight_within;  ///< 95 % of good units
+  double set_aside_beyond;
+  bool worst_first;  ///< one at a time, by what the others make of it with their own noise
+};
+[[nodiscard]] UnitRule rule_of(Eigen::Index rows);
+
+}  // namespace chaintrue::grid::estimation

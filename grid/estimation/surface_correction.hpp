@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A residual surface as a correction of what an observation's machine gives, in the frame of that
+/// observation's marks. Private to grid/estimation.
+#pragma once
+
+#include <optional>
+
+#include "grid/map/residual_surface.hpp"
+#include "grid/observation/observation.hpp"
+#include "model/calibration/sheet_placement.hpp"
+
+namespace chaintrue::grid::estimation {
+
+/// The surface outlives this.
+class SurfaceCorrection final : public observation::LengthCorrection {
+ public:
+  /// Of marks in the surface's own frame.
+  explicit SurfaceCorrection(const ResidualSurface& surface) : surface_(surface) {}
+  /// Of marks on another sheet than that whose marks the surface goes by.
+  SurfaceCorrection(const ResidualSurface& surface,
+                    model::SheetPlacement surface_sheet,
+                    model::SheetPlacement own_sheet)
+      : surface_(surface), sheets_(Sheets{surface_sheet, own_sheet}) {}
+
+  [[nodiscard]] At at(model::BedPoint mark,
+                      model::ChainLengths lengths,
+                      const Eigen::Matrix2d& by_mark) const override {
+    const auto corrected = surface_.apply(to_surface(mark), lengths, Eigen::Matrix2d::Zero());
+    const Eigen::Vector2d by_length(1.0 + surface_.scale.left, 1.0 + surface_.scale.right);
+    Eigen::Matrix2d gradient = corrected.mark_jacobian;
+    if (sheets_) gradient *= sheets_->surface.rotation().transpose() * sheets_->own.rotation();
+    return {corrected.lengths, by_length.asDiagonal() * by_mark + gradient, by_length};
+  }
+  /// The same place in the surface's frame.
+  [[nodiscard]] model::BedPoint to_surface(model::BedPoint mark) const {
+    return sheets_ ? sheets_->surface.to_mark(sheets_->own.to_bed(mark)) : mark;
+  }
+
+ private:
+  struct Sheets {
+    model::SheetPlacement surface;
+    model::SheetPlacement own;
+  };
+  const ResidualSurface& surface_;
+  std::optional<Sheets> sheets_;
+};
+
+}  // namespace chaintrue::grid::estimation

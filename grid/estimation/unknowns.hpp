@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The unknowns of a joint estimate, in this order:
+///
+///   settings      of the machine (6); of the first observation's sheet (3), where it has one
+///   scales        of either chain
+///   polynomials   of either chain's surface, as the places observe it (observed_subspace.hpp)
+///   bends         the same
+///   the rest      of each observation: its sheet where it has one of its own, its nuisances
+///
+/// What stands before the rest is what a map is made of. Settings of the machine and placements of
+/// sheets are deviations from what was stated.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "grid/observation/observation.hpp"
+#include "model/calibration/sheet_placement.hpp"
+
+namespace chaintrue::grid::estimation {
+
+/// What is stated without any uncertainty is taken as known this well, in mm or rad.
+inline constexpr double kKnownSigma = 1e-7;
+
+/// How many columns a surface has for each chain: polynomials and bends.
+struct SurfaceColumns {
+  Eigen::Index polynomials = 0;
+  Eigen::Index bends = 0;
+};
+
+class Unknowns {
+ public:
+  Unknowns(const model::Machine& stated,
+           const observation::Observations& observations,
+           SurfaceColumns surface);
+
+  /// How many settings there are: of the machine and of the first sheet.
+  [[nodiscard]] Eigen::Index settings() const { return settings_; }
+  [[nodiscard]] Eigen::Index scale(model::Side side) const { return settings_ + second(side); }
+  [[nodiscard]] Eigen::Index polynomial(model::Side side) const {
+    return settings_ + 2 + second(side) * surface_.polynomials;
+  }
+  [[nodiscard]] Eigen::Index bend(model::Side side) const {
+    return settings_ + 2 + 2 * surface_.polynomials + second(side) * surface_.bends;
+  }
+  [[nodiscard]] const SurfaceColumns& surface() const { return surface_; }
+  /// Where the columns of an observation's sheet begin; -1: it has none.
+  [[nodiscard]] Eigen::Index sheet(std::size_t observation) const { return sheet_[observation]; }
+  /// Where the columns of its nuisances begin.
+  [[nodiscard]] Eigen::Index nuisance(std::size_t observation) const {
+    return nuisance_[observation];
+  }
+  [[nodiscard]] Eigen::Index total() const { return total_; }
+
+  /// One sigma beforehand of a setting's or a sheet's column; 0 of the others.
+  [[nodiscard]] double sigma(Eigen::Index column) const { return sigma_[column]; }
+  /// Columns of an observation's own settings: the machine's, then its sheet's.
+  [[nodiscard]] std::vector<Eigen::Index> columns_of(std::size_t observation) const;
+
+  /// The machine and the sheets that a vector of all unknowns stands for.
+  [[nodiscard]] model::Machine machine_at(const Eigen::VectorXd& unknowns) const;
+  [[nodiscard]] model::SheetPlacement sheet_at(const Eigen::VectorXd& unknowns,
+                                               std::size_t observation) const;
+
+ private:
+  static Eigen::Index second(model::Side side) { return side == model::Side::left ? 0 : 1; }
+
+  model::Machine stated_;
+  SurfaceColumns surface_;
+  Eigen::Index settings_ = 0;
+  std::vector<Eigen::Index> sheet_;
+  std::vector<Eigen::Index> nuisance_;
+  Eigen::Index total_ = 0;
+  Eigen::VectorXd sigma_;
+};
+
+/// An observation's own settings: the machine's, and its sheet's where it has one.
+[[nodiscard]] std::vector<model::Setting> settings_of(const observation::Observation& observation);
+
+}  // namespace chaintrue::grid::estimation

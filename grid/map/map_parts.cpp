@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/map_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "grid/map/map_accuracy.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+/// C = F F'; rounding may leave C not quite semidefinite, so jitter on the diagonal lets it be
+/// factorised.
+Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& covariance) {
+  constexpr double kJitter = 1e-12;
+  Eigen::MatrixXd lifted = 0.5 * (covariance + covariance.transpose());
+  lifted.diagonal() *= 1.0 + kJitter;
+  lifted.diagonal().array() += 1e-18;
+  return lifted.llt().matrixL();
+}
+
+}  // namespace
+
+ModelSurface model_surface(const estimation::Estimate& estimate) {
+  return {estimate.machine,
+          estimate.observations.front().sheet,
+          estimate.surface,
+          estimate.columns,
+          estimate.settings,
+          lower_factor(estimate.covariance),
+          {}};
+}
+
+std::vector<SettingResult> setting_results(const model::Machine& stated,
+                                           const estimation::Estimate& estimate,
+                                           const std::optional<SheetUncertainty>& sheet) {
+  constexpr double kOffSigmas = 3.0;
+  const model::SheetPlacement& placed = estimate.observations.front().sheet;
+  const double placement[] = {placed.x_mm, placed.y_mm, placed.rotation_rad};
+  std::vector<SettingResult> results;
+  for (std::size_t i = 0; i < estimate.settings.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    SettingResult result{
+        estimate.settings[i], 0.0, 0.0, std::sqrt(estimate.covariance(at, at)), false};
+    if (i < model::kMachineSettings.size()) {
+      result.stated = model::stated_value(stated, result.setting);
+      result.calibrated = model::stated_value(estimate.machine, result.setting);
+      const double sigma = model::stated_sigma(stated, result.setting);
+      result.off = std::abs(result.calibrated - result.stated) > kOffSigmas * sigma;
+    } else {
+      const std::size_t which = i - model::kMachineSettings.size();
+      result.calibrated = placement[which];
+      if (sheet) {
+        const double sigma = which < 2 ? sheet->shift_mm : 1e-3 * sheet->rotation_mrad;
+        result.off = std::abs(result.calibrated) > kOffSigmas * sigma;
+      }
+    }
+    results.push_back(result);
+  }
+  return results;
+}
+
+void note_settings_off(const std::vector<SettingResult>& settings,
+                       std::vector<std::string>& notes) {
+  for (const SettingResult& setting : settings) {
+    if (!setting.off) continue;
+    notes.push_back(fmt::format(
+        "{} ended {:+.3f} from what was stated, more than three times its stated uncertainty: "
+        "measure it again, or something else imitates it.",
+        model::name(setting.setting),
+        setting.calibrated - setting.stated));
+  }
+}
+
+CompensationMap with_expected_error(MapContents contents) {
+  const CompensationMap map(std::move(contents));
+  MapAccuracy accuracy = map.contents().accuracy;
+  measure_expected_error(map, accuracy);
+  return map.with_accuracy(accuracy);
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What every map that stands on an estimate is assembled from. Nothing is fitted here.
+#pragma once
+
+#include <vector>
+
+#include "grid/estimation/estimate.hpp"
+#include "grid/map/compensation_map.hpp"
+
+namespace chaintrue::grid {
+
+/// The estimate's machine, its surface and what is known of both.
+[[nodiscard]] ModelSurface model_surface(const estimation::Estimate& estimate);
+/// `stated` is the machine that the estimate began with, `sheet` what was known of the first sheet:
+/// without one its placement is told and never off.
+[[nodiscard]] std::vector<SettingResult> setting_results(
+    const model::Machine& stated,
+    const estimation::Estimate& estimate,
+    const std::optional<SheetUncertainty>& sheet);
+/// A sentence for each setting that is off.
+void note_settings_off(const std::vector<SettingResult>& settings,
+                       std::vector<std::string>& notes);
+/// The map with what it says of its own error, which it is asked for itself.
+[[nodiscard]] CompensationMap with_expected_error(MapContents contents);
+
+/// A noise that the readings contradict by this much is worth a sentence.
+inline constexpr double kNoiseDisagreement = 1.5;
+
+}  // namespace chaintrue::grid

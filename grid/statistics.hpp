@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Medians, root mean squares and sums of exponentials.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace chaintrue::grid {
+
+/// The middle value, of an even number the mean of the two middle ones. \throws
+/// std::invalid_argument for no values.
+[[nodiscard]] double median(std::vector<double> values);
+
+/// sqrt(mean(v^2)); of nothing 0.
+[[nodiscard]] double rms(const std::vector<double>& values);
+/// Of all components alike; of nothing 0.
+[[nodiscard]] double rms(const std::vector<Eigen::Vector2d>& values);
+
+/// log(exp(a) + exp(b)), without overflow; minus infinity stands for nothing.
+[[nodiscard]] double log_sum(double a, double b);
+/// log(sum exp(t)); of nothing minus infinity.
+[[nodiscard]] double log_sum(const std::vector<double>& terms);
+
+}  // namespace chaintrue::grid

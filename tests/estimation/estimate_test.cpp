@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The joint estimate: any mix of observations, one loop of reweighting.
+#include "grid/estimation/estimate.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "grid/holes/fit_together.hpp"
+#include "grid/holes/passes.hpp"
+#include "grid/map/points_map.hpp"
+#include "tests/holes/hole_sets.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::classic;
+using testing_support::nine_holes;
+using testing_support::usual_holes;
+
+/// One machine, whose owner measured twelve points and cut nine holes.
+struct Owner {
+  MeasuredGrid points;
+  MeasuredHoles holes;
+  model::Machine truth;
+  model::SheetPlacement sheet;  ///< of the points
+};
+
+Owner owner(std::uint64_t seed) {
+  synthetic::SyntheticSpec spec = testing_support::usual_spec(seed);
+  spec.design.columns = 4;
+  spec.design.rows = 3;
+  spec.repeats = 0;
+  const double elongation = 0.0005 * (static_cast<double>(seed % 5) - 2.0);
+  spec.hidden = {{"chain_pitch_error", "left", {{"elongation", elongation}}},
+                 {"chain_pitch_error", "right", {{"elongation", -elongation}}}};
+  const auto session = synthetic::generate(classic(), spec);
+  const auto cut =
+      synthetic::simulate_holes(nine_holes(), usual_holes(seed), session->answer.machine);
+  return {session->grid, cut->set, session->answer.machine, session->answer.sheet};
+}
+
+/// Of the two lengths over the bed: the share of truths within 1.96 of the map's sigmas.
+double covered(const CompensationMap& map, const Owner& owner) {
+  const model::ReadingModel truth(owner.truth);
+  int all = 0;
+  int within = 0;
+  for (double x = -1100.0; x <= 1100.0; x += 200.0) {
+    for (double y = -500.0; y <= 500.0; y += 200.0) {
+      const auto told = map.query({x, y});
+      const auto reading = truth.at(owner.sheet.to_bed({x, y}));
+      if (!told || !reading) continue;
+      within += std::abs(told->lengths.left_mm - reading->lengths.left_mm) <
+                1.96 * told->sigma.left_mm;
+      within += std::abs(told->lengths.right_mm - reading->lengths.right_mm) <
+                1.96 * told->sigma.right_mm;
+      all += 2;
+    }
+  }
+  return static_cast<double>(within) / all;
+}
+
+TEST(Estimate, PointsAndDistancesTogetherBeatEither) {
+  constexpr int kSeeds = 24;
+  double points2 = 0.0;
+  double holes2 = 0.0;
+  double both2 = 0.0;
+  double covered_share = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    SCOPED_TRACE(seed);
+    const Owner own = owner(seed);
+    const auto points = fit(own.points);
+    const auto holes = fit_holes(own.holes);
+    const auto both = fit_together({{"points", own.points}, {"holes", own.holes}});
+    ASSERT_TRUE(points && holes && both);
+    const auto error = [&own](const CompensationMap& map) {
+      return true_error_mm(own.truth, classic(), &map);
+    };
+    const double alone = error(*points);
+    const double cut = error(map_of(own.holes, *holes));
+    const double together = error(both->map);
+    points2 += alone * alone / kSeeds;
+    holes2 += cut * cut / kSeeds;
+    both2 += together * together / kSeeds;
+    covered_share += covered(both->map, own) / kSeeds;
+  }
+  fmt::print(
+      "true error of the tool over the bed, {} machines: {:.3f} mm with 12 points, {:.3f} mm with 20 "
+      "distances, {:.3f} mm with both; {:.1f} % within 1.96 sigmas\n",
+      kSeeds,
+      std::sqrt(points2),
+      std::sqrt(holes2),
+      std::sqrt(both2),
+      100.0 * covered_share);
+  EXPECT_LT(both2, points2);
+  EXPECT_LT(both2, holes2);
+  // 95 % with every bed one draw of some five independent errors: three of its deviations.
+  EXPECT_GT(covered_share, 0.90);
+}
+
+TEST(Estimate, TheOrderOfTheFilesMovesTheFrameAlone) {
+  const Owner own = owner(3);
+  const auto one = fit_together({{"points", own.points}, {"holes", own.holes}});
+  const auto other = fit_together({{"holes", own.holes}, {"points", own.points}});
+  ASSERT_TRUE(one && other);
+  const auto& a = one->estimate.knowledge;
+  const auto& b = other->estimate.knowledge;
+  for (Eigen::Index i = 0; i < estimation::kMachineUnknowns; ++i) {
+    // Each settles to 1e-3 of what was stated; the surface stands in the first one's frame, which
+    // lies a millimetre beside.
+    EXPECT_NEAR(a.mean[i], b.mean[i], 0.05 * std::sqrt(a.covariance(i, i))) << i;
+  }
+  // The frame of a sheet without edges: its holes lie, as a whole, where they were commanded.
+  double x = 0.0;
+  for (std::size_t i = 0; i < own.holes.holes.size(); ++i)
+    x += other->holes.front().fit.holes[i].predicted.x_mm - own.holes.holes[i].commanded.x_mm;
+  EXPECT_NEAR(x, 0.0, 0.02) << "the last pass moved less than 1e-3 sigmas";
+}
+
+estimation::EstimationInput of_distances(const MeasuredHoles& set) {
+  estimation::EstimationInput input;
+  input.machine = *set.machine;
+  input.observations = {std::make_shared<const observation::TapeDistances>(
+      *observation::TapeDistances::in_given_order(set))};
+  input.noise = {interp::NoiseKnowledge::kFromRepeats, set.noise_dof};
+  input.surface = estimation::SurfaceUse::none;
+  input.domain = holes_domain(set.machine->bed);
+  return input;
+}
+
+TEST(Estimate, WhatIsToldOfTheUnitsBelongsToTheWeightsOfTheFitAlsoUnsettled) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    SCOPED_TRACE(seed);
+    auto made = synthetic::simulate_holes(nine_holes(), usual_holes(seed));
+    made->set.distances[3].distance_mm += 10.0;
+    estimation::EstimationInput input = of_distances(made->set);
+    // The fifth pass is the first that may set a reading aside.
+    input.most_passes = 5;
+    const auto cut_short = estimation::estimate(input);
+    ASSERT_TRUE(cut_short);
+    EXPECT_FALSE(cut_short->settled);
+    EXPECT_FALSE(cut_short->units[3].is_set_aside()) << "the fit has it";
+    // A fit with the very weights that are told finds the same, to what was left to settle.
+    Eigen::VectorXd weights(static_cast<Eigen::Index>(cut_short->units.size()));
+    for (Eigen::Index u = 0; u < weights.size(); ++u)
+      weights[u] = cut_short->units[static_cast<std::size_t>(u)].weight;
+    input.most_passes = 0;
+    input.fixed_weights = weights;
+    const auto again = estimation::estimate(input);
+    ASSERT_TRUE(again);
+    EXPECT_NEAR(again->noise_factor, cut_short->noise_factor, 1e-3);
+    for (std::size_t u = 0; u < again->units.size(); ++u)
+      EXPECT_NEAR(again->units[u].left_out[0], cut_short->units[u].left_out[0], 0.02);
+  }
+}
+
+TEST(Estimate, AUnitLeftOutIsSeenAsByAFitWithoutIt) {
+  const Owner own = owner(8);
+  estimation::EstimationInput input = of_distances(own.holes);
+  const auto observation = std::make_shared<const observation::ChainLengthReadings>(
+      chain_length_readings(*length_points(own.points), {0.2, 0.3}, 15.0, std::nullopt));
+  input.observations.insert(input.observations.begin(), observation);
+  input.noise = {interp::NoiseKnowledge::kExact, 0.0};
+  const auto units = static_cast<Eigen::Index>(observation->units().size() +
+                                               own.holes.distances.size());
+  input.fixed_weights = Eigen::VectorXd::Ones(units);
+  const auto whole = estimation::estimate(input);
+  ASSERT_TRUE(whole);
+  for (const Eigen::Index out : {Eigen::Index{0}, Eigen::Index{7}, units - 3}) {
+    input.fixed_weights = Eigen::VectorXd::Ones(units);
+    (*input.fixed_weights)[out] = 0.0;
+    const auto without = estimation::estimate(input);
+    ASSERT_TRUE(without);
+    const auto& told = whole->units[static_cast<std::size_t>(out)];
+    const auto& seen = without->units[static_cast<std::size_t>(out)];
+    // The two differ by the curvature of the model over what one unit moves, a few 1e-3 mm.
+    EXPECT_LT((told.left_out - seen.left_out).cwiseAbs().maxCoeff(), 0.01);
+    EXPECT_NEAR(told.distance, seen.distance, 0.02);
+  }
+}
+
+TEST(FitTogether, AnotherMachineIsRefusedInWords) {
+  Owner own = owner(2);
+  own.holes.machine->motors.left.x_mm -= 5.0;
+  const auto fit = fit_together({{"points.json", own.points}, {"holes.json", own.holes}});
+  ASSERT_FALSE(fit);
+  EXPECT_THAT(fit.error().sentence,
+              testing::AllOf(HasSubstr("holes.json"), HasSubstr("motor_left_x_mm is")));
+  own.holes.machine.reset();
+  const auto none = fit_together({{"points.json", own.points}, {"holes.json", own.holes}});
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().sentence, HasSubstr("holes.json names no machine"));
+  EXPECT_THROW((void)fit_together({}), std::invalid_argument);
+}
+
+TEST(FitTogether, TheMapSaysWhatCameFromWhere) {
+  Owner own = owner(4);
+  own.holes.distances[5].distance_mm += 12.0;
+  const auto fit = fit_together({{"points.json", own.points}, {"holes.json", own.holes}});
+  ASSERT_TRUE(fit);
+  const auto& notes = fit->map.contents().notes;
+  EXPECT_THAT(notes, testing::Contains(HasSubstr("12 points of points.json")));
+  EXPECT_THAT(notes, testing::Contains(HasSubstr("20 distances between 9 holes of holes.json (1 set aside)")));
+  EXPECT_THAT(notes,
+              testing::Contains(HasSubstr("holes.json: " + words_of(own.holes, own.holes.distances[5]))));
+}
+
+}  // namespace
+}  // namespace chaintrue::grid
