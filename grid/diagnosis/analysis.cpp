@@ -77,10 +77,6 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
   return {};
 }
 
-/// Strength below which no point plan names a cause: what cannot get there is left out of the
-/// comparison, where it would only take probability from the others.
-constexpr double kLeastReach = 4.0;
-
 /// Takes effects out that could not show at any size that they may have.
 void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
   const auto reach = [&](const CauseId& cause) {
@@ -141,11 +137,6 @@ void speak_of_leaders(const LinearisedSystem& system,
 }
 
 }  // namespace
-
-/// Share of what noise does not explain that causes named beside a model discrepancy must explain.
-constexpr double kExplained = 0.93;
-/// From this probability of a discrepancy on; below it what noise leaves would decide.
-constexpr double kDiscrepancyLikely = 0.5;
 
 Decision decide_beside_discrepancy(const LinearisedSystem& system,
                                    const ModelComparison& comparison,

@@ -12,10 +12,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Probability that anything acts at all from which causes are spoken of.
-constexpr double kCaused = 0.65;
-constexpr double kNeededBesideDiscrepancy = 0.98;
-constexpr double kLikelierThanNot = 0.5;
 constexpr double kAbsorbed = 1e-3;
 
 /// The most telling regressor of each cause: the longest, and the nearest to the data among those

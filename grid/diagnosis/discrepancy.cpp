@@ -10,8 +10,7 @@ double bell(double square) { return std::exp(-0.5 * square); }
 
 /// Density of a half-Cauchy over the logarithm of the strength, but for a constant.
 double cauchy_weight(double strength) {
-  constexpr double kScale = 10.0;
-  return strength / (1.0 + std::pow(strength / kScale, 2));
+  return strength / (1.0 + std::pow(strength / kDiscrepancyScale, 2));
 }
 
 }  // namespace

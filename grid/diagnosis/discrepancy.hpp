@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/linearised_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -31,8 +32,6 @@ inline constexpr DiscrepancyKernel kDiscrepancyKernels[] = {
     {DiscrepancyKind::chains, 800.0},
     {DiscrepancyKind::along_axes, 180.0},
 };
-/// Strengths at which each kernel is tried, in units of noise.
-inline constexpr double kDiscrepancyStrengths[] = {4.0, 6.5, 10.0, 16.0, 25.0, 60.0};
 inline constexpr int kDiscrepancies =
     static_cast<int>(std::size(kDiscrepancyKernels) * std::size(kDiscrepancyStrengths));
 

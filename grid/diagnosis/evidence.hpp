@@ -27,19 +27,11 @@
 #include <span>
 #include <vector>
 
+#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
-inline constexpr double kUsualSignalToNoise = 12.0;
-inline constexpr double kWideSignalToNoise = 60.0;
-inline constexpr double kWideSignalToNoisePrior = 0.15;
-inline constexpr double kLargerNoise[] = {1.5, 2.0, 2.7};
-inline constexpr double kLargerNoisePrior = 0.06;  ///< shared by all of them
-/// An outlier's whitened reading is spread this wide, in sigmas.
-inline constexpr double kOutlierSpread = 40.0;
-/// Chance beforehand that a point is an outlier.
-inline constexpr double kOutlierPrior = 0.01;
 /// The data's density as a function of their quadratic form, the noise averaged out.
 class NoiseDensity {
  public:

@@ -1,92 +1,115 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/linearised_system.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+
+#include "grid/estimation/linearised_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-void add_places(const Session& session,
-                const SessionPart& part,
-                const observation::Linearisation& line,
-                LinearisedSystem& system) {
-  for (std::size_t i = 0; i < line.places.size(); ++i) {
-    const SessionPlace& own = session.places[part.first_place + i];
-    system.places.push_back({line.places[i].reading,
-                             own.mark,
-                             line.places[i].by_mark,
-                             own.order,
-                             part.reads_chains() && part.observation->ordered()});
+/// For each observation one whitening in place of its units' own, of the mean variance of a row.
+std::vector<double> sigmas_alike(const estimation::LinearisedSystem& line, std::size_t parts) {
+  std::vector<double> variance(parts, 0.0);
+  std::vector<double> rows(parts, 0.0);
+  for (const estimation::SystemUnit& unit : line.units) {
+    variance[unit.observation] += estimation::unwhitening_of(unit.whitening).squaredNorm();
+    rows[unit.observation] += static_cast<double>(unit.rows);
   }
+  for (std::size_t k = 0; k < parts; ++k) variance[k] = std::sqrt(variance[k] / rows[k]);
+  return variance;
 }
 
-/// One whitening for all, of the mean variance of a row.
-void whiten_alike(std::size_t first_unit, LinearisedSystem& system) {
-  double variance = 0.0;
-  double rows = 0.0;
-  for (std::size_t u = first_unit; u < system.units.size(); ++u) {
-    const SystemUnit& unit = system.units[u];
-    variance += unit.rows == 1 ? unit.sigma * unit.sigma
-                               : (unit.whitening.transpose() * unit.whitening).inverse().trace();
-    rows += static_cast<double>(unit.rows);
-  }
-  const double sigma = std::sqrt(variance / rows);
-  for (std::size_t u = first_unit; u < system.units.size(); ++u) {
-    system.units[u].sigma = sigma;
-    system.units[u].whitening = Eigen::Matrix2d::Identity() / sigma;
-  }
-}
-
-void add_units(const SessionPart& part,
-               const observation::Linearisation& line,
-               const Steps& steps,
-               LinearisedSystem& system) {
-  const std::size_t first = system.units.size();
-  for (std::size_t u = 0; u < line.units.size(); ++u) {
-    const observation::Unit& own = part.observation->units()[u];
-    SystemUnit unit;
-    unit.first_row = part.first_row + own.first_row;
-    unit.rows = own.rows;
-    unit.reads_chains = part.reads_chains();
-    const Eigen::MatrixXd& covariance = line.units[u].covariance;
-    if (own.rows == 1) {
-      unit.sigma = std::sqrt(covariance(0, 0));
-    } else {
-      unit.whitening = Eigen::Matrix2d(Eigen::Matrix2d(covariance).llt().matrixL()).inverse();
+void whiten_alike(const std::vector<double>& sigma, estimation::LinearisedSystem& line) {
+  for (estimation::SystemUnit& unit : line.units) {
+    const Eigen::MatrixXd change =
+        estimation::unwhitening_of(unit.whitening) / sigma[unit.observation];
+    const auto renew = [&](Eigen::MatrixXd& columns) {
+      columns.middleRows(unit.first_row, unit.rows) =
+          (change * columns.middleRows(unit.first_row, unit.rows)).eval();
+    };
+    renew(line.by_setting);
+    renew(line.by_nuisance);
+    for (observation::PlaceColumns& place : unit.places) {
+      place.by_chain = (change * place.by_chain).eval();
     }
-    system.units.push_back(std::move(unit));
-  }
-  if (!steps.whiten) whiten_alike(first, system);
-  for (std::size_t u = 0; u < line.units.size(); ++u) {
-    SystemUnit& unit = system.units[first + u];
-    for (const observation::PlaceColumns& columns : line.units[u].places) {
-      SeenPlace seen{part.first_place + columns.place, Eigen::Matrix2d::Zero()};
-      if (unit.rows == 1) {
-        seen.by_chain.row(0) = columns.by_chain.row(0) / unit.sigma;
-      } else {
-        seen.by_chain = unit.whitening * columns.by_chain;
-      }
-      unit.places.push_back(seen);
-    }
+    unit.whitening =
+        Eigen::MatrixXd::Identity(unit.rows, unit.rows) / sigma[unit.observation];
   }
 }
 
-void add_columns(const Session& session,
-                 const SessionPart& part,
-                 const observation::Linearisation& line,
-                 LinearisedSystem& system) {
-  const Eigen::Index rows = line.by_setting.rows();
-  auto block = system.by_setting.middleRows(part.first_row, rows);
+/// A row each: one that never slips is no unit.
+void add_unit(const SessionPart& part,
+              const estimation::SystemUnit& own,
+              LinearisedSystem& system) {
+  SystemUnit unit;
+  unit.first_row = own.first_row;
+  unit.rows = own.rows;
+  unit.reads_chains = part.reads_chains();
+  if (own.rows == 1) unit.sigma = 1.0 / own.whitening(0, 0);
+  if (own.rows == 2) unit.whitening = own.whitening;
+  for (const observation::PlaceColumns& columns : own.places) {
+    SeenPlace seen{columns.place, Eigen::Matrix2d::Zero()};
+    seen.by_chain.topRows(own.rows) = columns.by_chain;
+    unit.places.push_back(seen);
+  }
+  system.units.push_back(std::move(unit));
+}
+
+/// Columns from where the observations have them to where the session does.
+void place_columns(const Session& session,
+                   const estimation::LinearisedSystem& line,
+                   LinearisedSystem& system) {
   constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
-  block.leftCols(kOfMachine) = line.by_setting.leftCols(kOfMachine);
-  if (part.sheet) {
-    block.middleCols<3>(session.sheet_column(*part.sheet)) = line.by_setting.rightCols<3>();
+  system.by_setting = Eigen::MatrixXd::Zero(session.rows, system.setting.size());
+  system.by_setting.leftCols(kOfMachine) = line.by_setting.leftCols(kOfMachine);
+  Eigen::Index sheet = kOfMachine;
+  Eigen::Index nuisance = 0;
+  for (const SessionPart& part : session.parts) {
+    const Eigen::Index rows = part.observation->rows();
+    auto block = system.by_setting.middleRows(part.first_row, rows);
+    if (part.observation->sheet()) {
+      block.middleCols<3>(Session::sheet_column(*part.sheet)) =
+          line.by_setting.block(part.first_row, sheet, rows, 3);
+      sheet += 3;
+    }
+    for (const Eigen::Index column : part.nuisance_columns) {
+      block.col(column) = line.by_nuisance.col(nuisance++).segment(part.first_row, rows);
+    }
   }
-  for (std::size_t q = 0; q < part.nuisance_columns.size(); ++q) {
-    block.col(part.nuisance_columns[q]) = line.by_nuisance.col(static_cast<Eigen::Index>(q));
+}
+
+/// What was read less what the state predicts, visit by visit.
+tl::expected<Eigen::VectorXd, observation::Unreachable> residual_of(const Session& session,
+                                                                    const State& state) {
+  Eigen::VectorXd residual(session.rows);
+  for (const SessionPart& part : session.parts) {
+    const auto predicted = part.observation->predicted(state.view(part));
+    if (!predicted) {
+      return tl::unexpected(observation::Unreachable{part.first_place + predicted.error().place,
+                                                     predicted.error().reason});
+    }
+    residual.segment(part.first_row, part.observation->rows()) =
+        part.observation->measured() - *predicted;
   }
+  return residual;
+}
+
+tl::expected<estimation::LinearisedSystem, observation::Unreachable> lines_of(
+    const Session& session, const State& state) {
+  observation::Observations observations;
+  std::vector<estimation::ObservedFrom> from;
+  for (const SessionPart& part : session.parts) {
+    observations.push_back(part.observation);
+    const Eigen::Index settings = part.observation->sheet() ? 9 : 6;
+    from.push_back({state.view(part), Eigen::VectorXd::Zero(settings)});
+  }
+  auto line = estimation::linearise(observations, from);
+  if (line) return *std::move(line);
+  return tl::unexpected(observation::Unreachable{
+      session.parts[line.error().observation].first_place + line.error().place.place,
+      line.error().place.reason});
 }
 
 }  // namespace
@@ -114,6 +137,11 @@ Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all) {
 tl::expected<LinearisedSystem, observation::Unreachable> linearise(const Session& session,
                                                                    const State& state,
                                                                    const Steps& steps) {
+  auto line = lines_of(session, state);
+  if (!line) return tl::unexpected(line.error());
+  auto residual = residual_of(session, state);
+  if (!residual) return tl::unexpected(residual.error());
+  if (!steps.whiten) whiten_alike(sigmas_alike(*line, session.parts.size()), *line);
   LinearisedSystem system;
   system.setting = setting_values(session, state);
   system.expected_change = session.stated_value - system.setting;
@@ -121,54 +149,36 @@ tl::expected<LinearisedSystem, observation::Unreachable> linearise(const Session
   system.nuisances = session.nuisances();
   system.noise_dof = session.noise_dof;
   system.fewest_units = session.fewest_units;
-  system.by_setting = Eigen::MatrixXd::Zero(session.rows, system.setting.size());
-  Eigen::VectorXd residual(session.rows);
-  std::vector<model::Setting> settings(model::kMachineSettings.begin(),
-                                       model::kMachineSettings.end());
-  settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-  for (const SessionPart& part : session.parts) {
-    const observation::View view = state.view(part);
-    const auto line = part.observation->linearise(view, settings);
-    if (!line) {
-      return tl::unexpected(observation::Unreachable{part.first_place + line.error().place,
-                                                     line.error().reason});
-    }
-    const auto predicted = part.observation->predicted(view);
-    if (!predicted) {
-      return tl::unexpected(observation::Unreachable{part.first_place + predicted.error().place,
-                                                     predicted.error().reason});
-    }
-    residual.segment(part.first_row, part.observation->rows()) =
-        part.observation->measured() - *predicted;
-    add_columns(session, part, *line, system);
-    if (part.observation->may_slip()) {
-      add_places(session, part, *line, system);
-      add_units(part, *line, steps, system);
-    } else {
-      const Eigen::Index before = system.reading_sigma.size();
-      system.reading_sigma.conservativeResize(before + part.observation->rows());
-      for (std::size_t u = 0; u < line->units.size(); ++u) {
-        system.reading_sigma(before + static_cast<Eigen::Index>(u)) =
-            std::sqrt(line->units[u].covariance(0, 0));
-      }
-    }
+  for (const estimation::SystemPlace& own : line->places) {
+    const SessionPart& part = session.parts[own.observation];
+    const SessionPlace& place = session.places[part.first_place + own.place];
+    system.places.push_back({own.state.reading,
+                             place.mark,
+                             own.state.by_mark,
+                             place.order,
+                             part.reads_chains() && part.observation->ordered()});
   }
   system.unit_of_row.assign(static_cast<std::size_t>(session.rows), -1);
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
-    for (Eigen::Index k = 0; k < system.units[u].rows; ++k) {
-      system.unit_of_row[static_cast<std::size_t>(system.units[u].first_row + k)] =
-          static_cast<int>(u);
+  for (const estimation::SystemUnit& own : line->units) {
+    const SessionPart& part = session.parts[own.observation];
+    if (!part.observation->may_slip()) {
+      system.reading_sigma.conservativeResize(system.reading_sigma.size() + 1);
+      system.reading_sigma.tail<1>()(0) = 1.0 / own.whitening(0, 0);
+      continue;
     }
+    const auto number = static_cast<int>(system.units.size());
+    for (Eigen::Index k = 0; k < own.rows; ++k) {
+      system.unit_of_row[static_cast<std::size_t>(own.first_row + k)] = number;
+    }
+    add_unit(part, own, system);
   }
-  system.e = whitened(system, std::move(residual));
-  for (Eigen::Index k = 0; k < system.setting.size(); ++k) {
-    system.by_setting.col(k) = whitened(system, system.by_setting.col(k));
-  }
+  place_columns(session, *line, system);
+  system.e = whitened(system, *std::move(residual));
   return system;
 }
 
-std::vector<std::pair<Eigen::Index, std::size_t>> units_in(
-    const LinearisedSystem& system, const std::vector<Eigen::Index>& kept) {
+std::vector<std::pair<Eigen::Index, std::size_t>> units_in(const LinearisedSystem& system,
+                                                           const std::vector<Eigen::Index>& kept) {
   std::vector<std::pair<Eigen::Index, std::size_t>> result;
   for (std::size_t a = 0; a < kept.size(); ++a) {
     const int unit = system.unit_of_row[static_cast<std::size_t>(kept[a])];

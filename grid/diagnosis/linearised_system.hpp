@@ -4,6 +4,8 @@
 /// and nuisances move them, and a regressor for every effect of the catalogue at every place where
 /// it may set in. Everything from here on knows units and places, and not how they were measured.
 ///
+/// The rows are those of estimation/linearised_system.hpp, with the session's columns.
+///
 /// Notation (observation.hpp has the equation of an observation)
 ///   r    what was read less what the state predicts, in the readings' own units
 ///   W_u  whitening of unit u: W_u C_u W_u' = I

@@ -6,10 +6,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// A slip stands beside any number of causes. Odds that a visit bears one, before they are shared
-/// among the effects of the catalogue: one reading in a thousand, for each kind of slip.
-constexpr double kSlipOddsOfVisit = 0.5 / 34.0;
-
 /// Of whole numbers of links, one is the rule.
 double share_of_links(double links) { return std::pow(0.25, std::abs(links) - 1.0); }
 

@@ -16,14 +16,16 @@ namespace {
 
 constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
-/// Beforehand: nothing, one cause, two, three, four; and how much rarer each is with a model
-/// discrepancy beside it.
-constexpr std::array<double, kMostCauses + 1> kPriorOfCount = {0.50, 0.25, 0.05, 0.02, 0.01};
-constexpr double kDiscrepancyPrior = 0.10;
 /// A set of outliers so much less probable than the best is not tried beside discrepancies.
 constexpr double kWorthDiscrepancies = 6.0;
 /// Sets of outliers in one comparison.
 constexpr std::size_t kMostOutlierSets = 8;
+
+double prior_of_count(std::size_t causes) {
+  const std::array<double, kMostCauses + 1> prior = {
+      kPriorOfNothing, kPriorOfOne, kPriorOfTwo, kPriorOfThree, kPriorOfFour};
+  return prior.at(causes);
+}
 
 double log_sum(const std::vector<double>& terms) {
   double high = kMinusInfinity;
@@ -66,7 +68,7 @@ double log_prior(const std::vector<Regressor>& regressors,
     value += d.log_prior - std::log(effects);
     if (!d.slip) ++lasting;
   }
-  return value + std::log(kPriorOfCount[lasting]) + std::lgamma(1.0 + static_cast<double>(lasting));
+  return value + std::log(prior_of_count(lasting)) + std::lgamma(1.0 + static_cast<double>(lasting));
 }
 
 SingleScores single_scores(const LinearisedSystem& system,

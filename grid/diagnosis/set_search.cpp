@@ -159,7 +159,7 @@ class SetSearch::Search {
     double cb = equations_.ge(j);
     const double ab = equations_.gg(i, j);
     double occam = 0.0;
-    constexpr double kPrecision = 1.0 / (kWideSignalToNoise * kWideSignalToNoise);
+    const double precision = 1.0 / (kWideSignalToNoise * kWideSignalToNoise);
     if (a.fixed && b.fixed) {
       q += aa + bb + 2.0 * (ab - ca - cb);
     } else if (a.fixed || b.fixed) {
@@ -167,13 +167,13 @@ class SetSearch::Search {
       const double cf = a.fixed ? ca : cb;
       const double oo = a.fixed ? bb : aa;
       const double co = (a.fixed ? cb : ca) - ab;
-      q += ff - 2.0 * cf - co * co / (oo * (1.0 + kPrecision));
+      q += ff - 2.0 * cf - co * co / (oo * (1.0 + precision));
       occam = std::log(kUsualSignalToNoise);
     } else {
       ca /= std::sqrt(aa);
       cb /= std::sqrt(bb);
       const double collinearity = ab / std::sqrt(aa * bb);
-      const double one = 1.0 + kPrecision;
+      const double one = 1.0 + precision;
       const double det = one * one - collinearity * collinearity;
       q -= (one * (ca * ca + cb * cb) - 2.0 * collinearity * ca * cb) / det;
       occam = 2.0 * std::log(kUsualSignalToNoise) + 0.5 * std::log(det);
