@@ -20,10 +20,10 @@ int run_gcode_compensate(const GcodeOptions& options) {
   report::PathReport picture;
   if (!options.report.empty()) {
     settings.on_command =
-        [&picture](const gcode::Move& move, const gcode::Station& from, const gcode::Station& to) {
-          const auto correction = [](const gcode::Station& station) {
-            return report::ToolVector{station.command.x_mm - station.target.x_mm,
-                                      station.command.y_mm - station.target.y_mm};
+        [&picture](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
+          const auto correction = [](const gcode::PathSample& sample) {
+            return report::ToolVector{sample.command.x_mm - sample.target.x_mm,
+                                      sample.command.y_mm - sample.target.y_mm};
           };
           picture.add({move.line,
                        move.kind == gcode::MoveKind::rapid,

@@ -25,8 +25,8 @@ constexpr double kShortest_mm = 0.002;
 }  // namespace
 
 tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& curve,
-                                                                const Station& a,
-                                                                const Station& b,
+                                                                const PathSample& a,
+                                                                const PathSample& b,
                                                                 double length_mm) const {
   const int checks = std::max(
       kFewestChecks, static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEvery_mm))));
@@ -35,9 +35,9 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
   for (int i = 0; i < checks; ++i) {
     // Unequal spacing, so that no wave of the surface falls between all checks.
     const double share = (i + 0.5 + 0.118 * (i % 3 - 1)) / checks;
-    const auto station = curve(a.t + share * (b.t - a.t));
-    if (!station) return tl::unexpected(station.error());
-    const double u = nearest_on_line(a.command, b.command, station->command);
+    const auto sample = curve(a.t + share * (b.t - a.t));
+    if (!sample) return tl::unexpected(sample.error());
+    const double u = nearest_on_line(a.command, b.command, sample->command);
     Point on_way = between(a.command, b.command, u);
     if (own_way) {
       const auto place = on_the_way(corrector_.firmware(),
@@ -49,23 +49,23 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
       on_way.x_mm = place->x_mm;
       on_way.y_mm = place->y_mm;
     }
-    worst = std::max(worst, distance_mm(station->command, on_way));
+    worst = std::max(worst, distance_mm(sample->command, on_way));
   }
   return worst;
 }
 
 tl::expected<void, CorrectionFailure> Segmenter::run(
     const Curve& curve,
-    const Station& start,
+    const PathSample& start,
     double end,
     double length_mm,
-    const std::function<void(const Station&)>& visit) {
+    const std::function<void(const PathSample&)>& visit) {
   const double per_mm = length_mm > 0.0 ? (end - start.t) / length_mm : 0.0;
-  Station a = start;
+  PathSample a = start;
   while (a.t < end) {
     double reach = per_mm > 0.0 ? std::min(end, a.t + last_step_mm_ * per_mm) : end;
-    // What remains behind a station is not worth one of its own.
-    Station best;
+    // What remains behind a sample is not worth one of its own.
+    PathSample best;
     double best_share = 0.0;
     for (int trial = 0; trial < kMostTrials; ++trial) {
       const auto b = curve(reach);
