@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace chaintrue::gcode {
@@ -22,9 +23,18 @@ constexpr double kCurvatureSafety = 2.0;
 /// Between nearer points rounding makes slopes of its own.
 constexpr double kSlopeBase_mm = 1.0;
 
-double chord_tolerance(const CompensateOptions& options) {
-  const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -options.decimals);
-  const double left = (options.tolerance_mm - rounding) / kStretch;
+/// What verify's own errors take of the tolerance, and a little of the chords' between the places
+/// where they are checked.
+constexpr double kSpare = 0.04;
+/// Half a unit of single precision below 2048 mm, in X and Y.
+constexpr double kSinglePrecision_mm = 0.5 * 1.25e-4 * 1.5;
+/// A circle keeps its shape even where the tolerance would let it become a point.
+constexpr double kMostTurn_rad = 0.25 * std::numbers::pi;
+
+double chord_tolerance(const CompensateOptions& options, bool single_precision) {
+  const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -options.decimals) +
+                          (single_precision ? kSinglePrecision_mm : 0.0);
+  const double left = ((1.0 - kSpare) * options.tolerance_mm - rounding) / kStretch;
   if (!(left > 0.0)) {
     throw std::invalid_argument(
         fmt::format("a tolerance of {} mm leaves nothing beside rounding to {} decimals",
@@ -56,12 +66,14 @@ Compensator::Compensator(const Corrector& corrector, CompensateOptions options, 
     : corrector_(corrector),
       options_(std::move(options)),
       emitter_(std::move(out), options_.decimals),
-      segmenter_(corrector, chord_tolerance(options_)) {
+      segmenter_(corrector,
+                 chord_tolerance(options_, corrector.firmware().single_precision)) {
   const double curvature = kCurvatureSafety * corrector.sampled_curvature_per_mm();
   const bool straight = corrector.firmware().chain_linear_piece_mm == 0.0;
   if (straight) {
     unchecked_length_mm_ =
-        std::sqrt(8.0 * kUncheckedShare * chord_tolerance(options_) / std::max(curvature, 1e-9));
+        std::sqrt(8.0 * kUncheckedShare *
+                  chord_tolerance(options_, corrector.firmware().single_precision) / std::max(curvature, 1e-9));
   }
 }
 
@@ -242,7 +254,9 @@ Result<void> Compensator::piece(
     visit(*end);
     return outcome;
   }
-  const auto done = segmenter_.run(commands, *start, to, length, visit);
+  const double turn = move.arc ? std::fabs(move.arc->sweep_rad) * (to - from) : 0.0;
+  const double longest = turn > kMostTurn_rad ? length * kMostTurn_rad / turn : length;
+  const auto done = segmenter_.run(commands, *start, to, {length, longest}, visit);
   if (!done) {
     const Point place = here_ ? here_->target : at(move, from);
     object(move, done.error(), place.x_mm, place.y_mm);

@@ -18,7 +18,7 @@ constexpr double kAim = 0.93;
 constexpr int kMostTrials = 12;
 /// Chords are checked at least this densely: measured residual surfaces have no shorter waves.
 constexpr double kCheckEvery_mm = 30.0;
-constexpr int kFewestChecks = 5;
+constexpr int kFewestChecks = 6;
 /// Below this a chord is not cut further: output has three decimals.
 constexpr double kShortest_mm = 0.002;
 
@@ -32,12 +32,15 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
       kFewestChecks, static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEvery_mm))));
   const bool own_way = corrector_.firmware().chain_linear_piece_mm > 0.0;
   double worst = 0.0;
+  double behind = 0.0;
   for (int i = 0; i < checks; ++i) {
     // Unequal spacing, so that no wave of the surface falls between all checks.
     const double share = (i + 0.5 + 0.118 * (i % 3 - 1)) / checks;
     const auto sample = curve(a.t + share * (b.t - a.t));
     if (!sample) return tl::unexpected(sample.error());
-    const double u = nearest_on_line(a.command, b.command, sample->command);
+    // The tool does not go back along its chord: where the curve does, that counts.
+    const double u = std::max(behind, nearest_on_line(a.command, b.command, sample->command));
+    behind = u;
     Point on_way = between(a.command, b.command, u);
     if (own_way) {
       const auto place = on_the_way(corrector_.firmware(),
@@ -58,12 +61,16 @@ tl::expected<void, CorrectionFailure> Segmenter::run(
     const Curve& curve,
     const PathSample& start,
     double end,
-    double length_mm,
+    Extent extent,
     const std::function<void(const PathSample&)>& visit) {
+  const double length_mm = extent.length_mm;
   const double per_mm = length_mm > 0.0 ? (end - start.t) / length_mm : 0.0;
   PathSample a = start;
   while (a.t < end) {
-    double reach = per_mm > 0.0 ? std::min(end, a.t + last_step_mm_ * per_mm) : end;
+    // The furthest that this command may go.
+    const double furthest =
+        per_mm > 0.0 ? std::min(end, a.t + extent.longest_mm * per_mm * (1.0 + 1e-9)) : end;
+    double reach = per_mm > 0.0 ? std::min(furthest, a.t + last_step_mm_ * per_mm) : end;
     // What remains behind a sample is not worth one of its own.
     PathSample best;
     double best_share = 0.0;
@@ -78,9 +85,9 @@ tl::expected<void, CorrectionFailure> Segmenter::run(
       if (share <= 1.0 || step_mm <= kShortest_mm) {
         best = *b;
         best_share = share;
-        if (reach >= end || share >= kGoodEnough || step_mm <= kShortest_mm) break;
+        if (reach >= furthest || share >= kGoodEnough || step_mm <= kShortest_mm) break;
         if (trial + 4 >= kMostTrials) break;
-        reach = std::min(end, a.t + (reach - a.t) * std::min(factor, 4.0));
+        reach = std::min(furthest, a.t + (reach - a.t) * std::min(factor, 4.0));
       } else {
         const double shrunk = a.t + (reach - a.t) * std::clamp(factor, 0.2, 0.97);
         if (best.t > a.t && shrunk <= best.t) break;

@@ -33,14 +33,19 @@ class Segmenter {
   Segmenter(const Corrector& corrector, double tolerance_mm)
       : corrector_(corrector), tolerance_mm_(tolerance_mm) {}
 
+  struct Extent {
+    double length_mm = 0.0;
+    double longest_mm = 0.0;
+  };
+
   /// Visits the samples behind `start` up to t = `end`, in order.
-  /// \param length_mm of the curve from start to end; only a first guess and the density of checks
-  /// depend on it.
+  /// \param extent the curve's length from start to end, which only a first guess and the density
+  /// of checks depend on, and how much of it one command may cover.
   [[nodiscard]] tl::expected<void, CorrectionFailure> run(
       const Curve& curve,
       const PathSample& start,
       double end,
-      double length_mm,
+      Extent extent,
       const std::function<void(const PathSample&)>& visit);
 
   /// The largest distance from the curve between two samples to the way between their commands.
