@@ -127,74 +127,74 @@ INSTANTIATE_TEST_SUITE_P(
     Tampered,
     testing::Values(
         Tampering{"every_cut_a_rapid",
-                  [](const std::string& t) { return replaced(t, "\nG1 ", "\nG0 "); },
+                  [](const std::string& good) { return replaced(good, "\nG1 ", "\nG0 "); },
                   "moves at a rapid where"},
         Tampering{"one_cut_a_rapid",
-                  [](const std::string& t) {
-                    std::string text = t;
+                  [](const std::string& good) {
+                    std::string text = good;
                     return text.replace(text.find("\nG1 X"), 4, "\nG0 ");
                   },
                   "moves at a rapid where"},
         Tampering{"every_rapid_a_cut",
-                  [](const std::string& t) { return replaced(t, "\nG0 Z5\nT2", "\nG1 Z5\nT2"); },
+                  [](const std::string& good) { return replaced(good, "\nG0 Z5\nT2", "\nG1 Z5\nT2"); },
                   "another motion or feed"},
         Tampering{"feeds_times_100",
-                  [](const std::string& t) {
-                    return replaced(replaced(t, " F1000", " F100000"), " F400", " F40000");
+                  [](const std::string& good) {
+                    return replaced(replaced(good, " F1000", " F100000"), " F400", " F40000");
                   },
                   "moves at F100000 where"},
         Tampering{"feed_9_for_1000",
-                  [](const std::string& t) { return replaced(t, " F1000", " F9"); },
+                  [](const std::string& good) { return replaced(good, " F1000", " F9"); },
                   "moves at F9 where"},
         Tampering{"feed_one_tenth_up",
-                  [](const std::string& t) { return replaced(t, " F400", " F440"); },
+                  [](const std::string& good) { return replaced(good, " F400", " F440"); },
                   "another motion or feed"},
         Tampering{"spindle_off_before_the_cut",
-                  [](const std::string& t) { return moved_line(t, "M5", "G1 Z-3"); },
+                  [](const std::string& good) { return moved_line(good, "M5", "G1 Z-3"); },
                   "M5 on line"},
         Tampering{"spindle_on_after_the_plunge",
-                  [](const std::string& t) { return moved_line(t, "S9000 M3", "M8"); },
-                  "S9000 of line 4 of the original does not come at its place"},
+                  [](const std::string& good) { return moved_line(good, "S9000 M3", "M8"); },
+                  "has G4 P1 where line 4 of the original has S9000"},
         Tampering{"coolant_a_corner_late",
-                  [](const std::string& t) { return moved_line(t, "M8", "M9"); },
+                  [](const std::string& good) { return moved_line(good, "M8", "M9"); },
                   "M8 of line 9 of the original does not come at its place"},
         Tampering{"tool_change_left_out",
-                  [](const std::string& t) { return replaced(t, "T2 M6\n", ""); },
+                  [](const std::string& good) { return replaced(good, "T2 M6\n", ""); },
                   "T2 of line 17 of the original does not come"},
         Tampering{"another_tool",
-                  [](const std::string& t) { return replaced(t, "T2 M6", "T3 M6"); },
+                  [](const std::string& good) { return replaced(good, "T2 M6", "T3 M6"); },
                   "has T3 where line 17 of the original has T2"},
         Tampering{"another_speed",
-                  [](const std::string& t) { return replaced(t, "S9000", "S900"); },
+                  [](const std::string& good) { return replaced(good, "S9000", "S900"); },
                   "has S900 where"},
         Tampering{"a_shorter_dwell",
-                  [](const std::string& t) { return replaced(t, "G4 P1", "G4 P0.1"); },
+                  [](const std::string& good) { return replaced(good, "G4 P1", "G4 P0.1"); },
                   "has G4 P0.1 where"},
         Tampering{"another_end",
-                  [](const std::string& t) { return replaced(t, "\nM2\n", "\nM30\n"); },
+                  [](const std::string& good) { return replaced(good, "\nM2\n", "\nM30\n"); },
                   "has M30 where"},
         Tampering{"too_deep",
-                  [](const std::string& t) { return replaced(t, " Z-3", " Z-3.1"); },
+                  [](const std::string& good) { return replaced(good, " Z-3", " Z-3.1"); },
                   "moves the tool to"},
         Tampering{"a_move_twice",
-                  [](const std::string& t) {
-                    const std::size_t at = t.find("\nM9\n");
-                    const std::size_t line = t.rfind("\nG1 ", at - 1);
-                    const std::size_t other = t.rfind("\nG1 ", line - 1);
+                  [](const std::string& good) {
+                    const std::size_t at = good.find("\nM9\n");
+                    const std::size_t line = good.rfind("\nG1 ", at - 1);
+                    const std::size_t other = good.rfind("\nG1 ", line - 1);
                     // On, half back, and on again: every place lies on the path.
-                    std::string text = t;
-                    return text.insert(at, t.substr(other, line - other) + t.substr(line, at - line));
+                    std::string text = good;
+                    return text.insert(at, good.substr(other, line - other) + good.substr(line, at - line));
                   },
-                  "away from line 13 of the original"},
+                  "M9 of line 14 of the original does not come at its place"},
         Tampering{"cut_short",
-                  [](const std::string& t) {
-                    const std::size_t at = t.find("\nG0 Z5\nM5");
-                    const std::size_t line = t.rfind("\nG1 ", at - 1);
-                    std::string text = t;
+                  [](const std::string& good) {
+                    const std::size_t at = good.find("\nG0 Z5\nM5");
+                    const std::size_t line = good.rfind("\nG1 ", at - 1);
+                    std::string text = good;
                     return text.erase(line, at - line);
                   },
                   "away from line 20 of the original"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& tampering) { return std::string(tampering.param.name); });
 
 /// Where the tool is exactly on its path there is no fault, however small the path.
 TEST(VerifyFaults, SmallCirclesAndShortMovesAreNoFaults) {

@@ -13,12 +13,16 @@
 namespace chaintrue::cli {
 namespace {
 
-/// Runs what has been written on the simulated controller and machine; kDone where it holds.
-int verified(const GcodeOptions& options,
-             const GcodeMachine& machine,
-             const GcodeText& text,
-             PendingFile& output,
-             gcode::VerifySummary& summary) {
+/// What running the output on the simulated controller and machine came to.
+struct Proof {
+  std::string fault;  ///< empty where it holds
+  double largest_mm = 0.0;
+};
+
+Proof prove(const GcodeOptions& options,
+            const GcodeMachine& machine,
+            const GcodeText& text,
+            PendingFile& output) {
   auto original = text.open();
   auto written = output.written();
   const auto outcome = gcode::verify(original,
@@ -26,24 +30,28 @@ int verified(const GcodeOptions& options,
                                      machine.corrector(),
                                      options.dialect(),
                                      verify_options(options, machine));
-  std::string fault;
-  if (!outcome) {
-    fault = outcome.error().problem.message();
-  } else if (!outcome->holds()) {
-    fault = outcome->fault;
-  } else {
-    summary = *outcome;
-    return kDone;
+  if (!outcome) return {outcome.error().problem.message(), 0.0};
+  return {outcome->fault, outcome->largest_mm()};
+}
+
+/// For the page: whether the file is safe to run, in a sentence.
+std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, const Proof& proof) {
+  const char* controller = machine.corrector().firmware().name;
+  if (options.no_verify) {
+    return "Whether the file is safe to run is not known: it was written without having been run "
+           "on the simulated machine (--no-verify). Run gcode verify before cutting.";
   }
-  fmt::print(stderr,
-             "{}: the compensated program was run on a simulated {} and does not hold {} mm: {}\n"
-             "nothing is written; another --tolerance-mm may hold, and --no-verify writes the file "
-             "for a look at that line\n",
-             grid::files::name_in_messages(options.program),
-             machine.corrector().firmware().name,
-             options.tolerance_mm,
-             fault);
-  return kCheckFailed;
+  if (!proof.fault.empty()) {
+    return fmt::format("Not safe to run, and not written: on a simulated {}, {}.",
+                       controller,
+                       proof.fault);
+  }
+  return fmt::format(
+      "The file is safe to run: on a simulated {} the tool stays within {:.3f} mm of the path "
+      "(tolerance {:g} mm), at the intended feeds, with every word at its place.",
+      controller,
+      proof.largest_mm,
+      options.tolerance_mm);
 }
 
 }  // namespace
@@ -82,12 +90,10 @@ int run_gcode_compensate(const GcodeOptions& options) {
     fmt::print(stderr, "nothing is written\n");
     return code;
   }
-  gcode::VerifySummary proof;
-  if (!options.no_verify) {
-    const int held = verified(options, machine, text, output, proof);
-    if (held != kDone) return held;
-  }
-  output.commit();
+  Proof proof;
+  if (!options.no_verify) proof = prove(options, machine, text, output);
+  const bool holds = proof.fault.empty();
+  if (holds) output.commit();
   const std::string words = fmt::format(
       "{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
       "line {}",
@@ -99,27 +105,42 @@ int run_gcode_compensate(const GcodeOptions& options) {
       summary->largest_correction_mm,
       summary->largest_correction_line);
   fmt::print(stderr, "{}\n", words);
-  if (!options.no_verify) {
+  if (!holds) {
     fmt::print(stderr,
-               "run on a simulated {}: the tool stays within {:.4f} mm of the path, tolerance {} mm\n",
+               "{}: run on a simulated {}, the compensated program does not hold {} mm: {}\n"
+               "the program is not written; try another --tolerance-mm, or --no-verify for a look "
+               "at that line\n",
+               grid::files::name_in_messages(options.program),
                machine.corrector().firmware().name,
-               proof.largest_mm(),
+               options.tolerance_mm,
+               proof.fault);
+  } else if (!options.no_verify) {
+    fmt::print(stderr,
+               "run on a simulated {}: the tool stays within {:.4f} mm of the path, tolerance {} "
+               "mm\n",
+               machine.corrector().firmware().name,
+               proof.largest_mm,
                options.tolerance_mm);
   }
   if (!options.report.empty()) {
     const model::Bed& bed = machine.machine().bed;
     picture.name = options.program;
-    picture.verdict = words + ".";
+    picture.verdict = verdict(options, machine, proof);
     picture.sheet = {
         -0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
     picture.figures = {
         {fmt::format("{:.2f} mm", summary->largest_correction_mm), "largest correction"},
         {fmt::format("{:g} mm", options.tolerance_mm), "tolerance of the path"},
         {fmt::format("{:.1f} m", summary->path_mm / 1000.0), "path"},
-        {fmt::format("{}", summary->commands), "commands written"}};
+        {fmt::format("{}", summary->commands), holds ? "commands written" : "commands"}};
+    if (!options.no_verify) {
+      picture.figures.insert(
+          picture.figures.begin(),
+          {fmt::format("{:.3f} mm", proof.largest_mm), "largest distance from the path"});
+    }
     grid::files::write_whole_file(options.report, report::render(report::page_of(picture)));
   }
-  return kDone;
+  return holds ? kDone : kCheckFailed;
 }
 
 }  // namespace chaintrue::cli

@@ -10,6 +10,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "tools/gcode/arc_curve.hpp"
+
 namespace chaintrue::gcode {
 namespace {
 
@@ -20,14 +22,14 @@ constexpr double kStretch = 1.05;
 /// a safety of two.
 constexpr double kUncheckedShare = 0.25;
 constexpr double kCurvatureSafety = 2.0;
-/// Between nearer points rounding makes slopes of its own.
-constexpr double kSlopeBase_mm = 1.0;
 
 /// What verify's own errors take of the tolerance, and a little of the chords' between the places
 /// where they are checked.
-constexpr double kSpare = 0.04;
+constexpr double kSpare = 0.045;
 /// Half a unit of single precision below 2048 mm, in X and Y.
 constexpr double kSinglePrecision_mm = 0.5 * 1.25e-4 * 1.5;
+/// Share of the tolerance that interpolating an arc's correction may cost.
+constexpr double kArcShare = 0.005;
 /// A circle keeps its shape even where the tolerance would let it become a point.
 constexpr double kMostTurn_rad = 0.25 * std::numbers::pi;
 
@@ -51,16 +53,6 @@ bool stays(const Move& move) {
 int sign(double value, int otherwise) { return value > 0.0 ? 1 : value < 0.0 ? -1 : otherwise; }
 
 }  // namespace
-
-void Findings::add(Problem problem) {
-  ++problem_count;
-  if (problems.size() < kMostKept) problems.push_back(std::move(problem));
-}
-
-void Findings::add(Note note) {
-  ++note_count;
-  if (notes.size() < kMostKept) notes.push_back(std::move(note));
-}
 
 Compensator::Compensator(const Corrector& corrector, CompensateOptions options, ByteSink out)
     : corrector_(corrector),
@@ -111,86 +103,6 @@ Curve Compensator::curve(const Move& move, ChainDirections directions) const {
     if (!command) return tl::unexpected(command.error());
     return PathSample{t, target, {command->x_mm, command->y_mm, target.z_mm}};
   };
-}
-
-void Compensator::object(const Move& move, CorrectionFailure failure, double x_mm, double y_mm) {
-  if (objected_line_ == move.line) return;
-  objected_line_ = move.line;
-  findings_.add(Problem{failure == CorrectionFailure::controller ? ProblemName::outside_controller
-                                                                 : ProblemName::outside_map,
-                        {move.line, 0},
-                        fmt::format("X{:.3f} Y{:.3f} {}", x_mm, y_mm, explain(failure))});
-}
-
-/// Holds a sample against the limits.
-void Compensator::examine(const Move& move, const PathSample& sample) {
-  const double dx = sample.command.x_mm - sample.target.x_mm;
-  const double dy = sample.command.y_mm - sample.target.y_mm;
-  const double size = std::hypot(dx, dy);
-  if (size > summary_.largest_correction_mm) {
-    summary_.largest_correction_mm = size;
-    summary_.largest_correction_line = move.line;
-  }
-  const auto once_a_line = [&](ProblemName name, std::string sentence) {
-    if (objected_line_ == move.line) return;
-    objected_line_ = move.line;
-    findings_.add(Problem{name, {move.line, 0}, std::move(sentence)});
-  };
-  if (size > options_.largest_correction_mm) {
-    once_a_line(
-        ProblemName::correction_too_large,
-        fmt::format(
-            "X{:.3f} Y{:.3f} would be corrected by {:.2f} mm, more than the {} mm that are allowed",
-            sample.target.x_mm,
-            sample.target.y_mm,
-            size,
-            options_.largest_correction_mm));
-  }
-  if (const auto& box = options_.clamp_box) {
-    const double beyond = std::max(std::fabs(sample.command.x_mm) - box->half_width_mm,
-                                   std::fabs(sample.command.y_mm) - box->half_height_mm);
-    if (beyond > 0.0) {
-      once_a_line(
-          ProblemName::outside_controller,
-          fmt::format("X{:.3f} Y{:.3f} needs the command X{:.3f} Y{:.3f}, {:.2f} mm beyond the bed "
-                      "that the controller "
-                      "clamps to without a word; enlarge the bed in its settings by {:.0f} mm",
-                      sample.target.x_mm,
-                      sample.target.y_mm,
-                      sample.command.x_mm,
-                      sample.command.y_mm,
-                      beyond,
-                      std::ceil(2.0 * beyond)));
-    }
-  }
-  if (here_) {
-    const double way = std::hypot(sample.target.x_mm - here_->target.x_mm,
-                                  sample.target.y_mm - here_->target.y_mm);
-    if (way >= kSlopeBase_mm && !has_play()) {
-      const double slope = std::hypot(dx - (here_->command.x_mm - here_->target.x_mm),
-                                      dy - (here_->command.y_mm - here_->target.y_mm)) /
-                           way;
-      summary_.steepest_correction = std::max(summary_.steepest_correction, slope);
-      if (slope > options_.steepest_correction) {
-        once_a_line(ProblemName::correction_too_steep,
-                    fmt::format("before X{:.3f} Y{:.3f} the correction changes by {:.3f} mm per "
-                                "mm, more than the {} that are allowed",
-                                sample.target.x_mm,
-                                sample.target.y_mm,
-                                slope,
-                                options_.steepest_correction));
-      }
-    }
-  }
-  if (corrector_.map().status({sample.target.x_mm, sample.target.y_mm}) ==
-      TargetStatus::extrapolated) {
-    findings_.add(Note{move.line,
-                       "extrapolated",
-                       fmt::format("X{:.3f} Y{:.3f} lies outside the measured points: the "
-                                   "correction there is extrapolated",
-                                   sample.target.x_mm,
-                                   sample.target.y_mm)});
-  }
 }
 
 Result<void> Compensator::emit(const Move& move, double feed, const PathSample& sample) {
@@ -256,12 +168,38 @@ Result<void> Compensator::piece(
   }
   const double turn = move.arc ? std::fabs(move.arc->sweep_rad) * (to - from) : 0.0;
   const double longest = turn > kMostTurn_rad ? length * kMostTurn_rad / turn : length;
-  const auto done = segmenter_.run(commands, *start, to, {length, longest}, visit);
+  const auto done = move.arc && !has_play()
+                        ? along_arc(move, feed, commands, *start, {length, longest}, outcome)
+                        : segmenter_.run(commands, *start, to, {length, longest}, visit);
   if (!done) {
     const Point place = here_ ? here_->target : at(move, from);
     object(move, done.error(), place.x_mm, place.y_mm);
   }
   return outcome;
+}
+
+/// The places of the commands are found on the interpolated curve; what is written is exact.
+tl::expected<void, CorrectionFailure> Compensator::along_arc(const Move& move,
+                                                             double feed,
+                                                             const Curve& exact,
+                                                             const PathSample& start,
+                                                             Segmenter::Extent extent,
+                                                             Result<void>& outcome) {
+  ArcCurve arc(move, exact, kArcShare * options_.tolerance_mm);
+  double behind = start.t;
+  std::optional<CorrectionFailure> failure;
+  const auto done = segmenter_.run([&](double t) { return arc.at(t, behind); },
+                                   start,
+                                   1.0,
+                                   extent,
+                                   [&](const PathSample& sample) {
+                                     behind = sample.t;
+                                     const auto command = exact(sample.t);
+                                     if (!command) failure = command.error();
+                                     if (command && outcome) outcome = emit(move, feed, *command);
+                                   });
+  if (failure) return tl::unexpected(*failure);
+  return done;
 }
 
 /// In pieces between the places where a chain turns around, if that matters.

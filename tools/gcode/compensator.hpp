@@ -101,6 +101,12 @@ class Compensator final : private Sink {
   Result<void> along(const Move& move, double feed);
   Result<void> piece(
       const Move& move, double feed, double from, double to, ChainDirections directions);
+  tl::expected<void, CorrectionFailure> along_arc(const Move& move,
+                                                  double feed,
+                                                  const Curve& exact,
+                                                  const PathSample& start,
+                                                  Segmenter::Extent extent,
+                                                  Result<void>& outcome);
   Result<void> emit(const Move& move, double feed, const PathSample& sample);
   void examine(const Move& move, const PathSample& sample);
   void object(const Move& move, CorrectionFailure failure, double x_mm, double y_mm);
