@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "grid/map/compensation_map.hpp"
 #include "tools/cli/verb.hpp"
@@ -45,6 +46,9 @@ struct GcodeOptions {
   /// Of --home. \throws InputError where it is no pair of numbers.
   [[nodiscard]] model::BedPoint home_mm() const;
 };
+
+/// Of --controller; empty where it is not given.
+[[nodiscard]] std::optional<model::ControllerKind> controller_kind(std::string_view name);
 
 /// Map, machine and controller, which belong together.
 class GcodeMachine {

@@ -297,6 +297,7 @@ Result<void> Compensator::word(const PassedWord& word) {
                               word.text,
                               corrector_.firmware().name));
   }
+  note_unknown(word);
   return findings_.problem_count > 0 ? Result<void>{} : emitter_.word(word);
 }
 

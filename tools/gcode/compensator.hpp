@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,7 @@ class Compensator final : private Sink {
   Result<void> move(const Move& move) override;
   Result<void> word(const PassedWord& word) override;
   Result<void> comment(const Comment& comment) override;
+  void note_unknown(const PassedWord& word);
   void note(const Note& note) override;
   Result<void> end(std::size_t line, std::string_view word) override;
 
@@ -128,6 +130,7 @@ class Compensator final : private Sink {
   std::optional<PathSample> here_;  // empty until the program says where X and Y are
   ChainDirections directions_;
   std::size_t objected_line_ = 0;
+  std::set<std::string, std::less<>> unknown_words_;  // that a note has been made of
 };
 
 }  // namespace chaintrue::gcode

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "tools/gcode/compensator.hpp"
@@ -105,6 +106,21 @@ void Compensator::examine(const Move& move, const PathSample& sample) {
                                    sample.target.x_mm,
                                    sample.target.y_mm)});
   }
+}
+
+/// The word is written all the same: it says nothing of the path.
+void Compensator::note_unknown(const PassedWord& word) {
+  const char letter = word.text.front();
+  if (letter != 'G' && letter != 'M') return;
+  const std::string code = word.text.substr(0, word.text.find(' '));
+  const Firmware& firmware = corrector_.firmware();
+  double number = 0.0;
+  std::from_chars(code.data() + 1, code.data() + code.size(), number);
+  const int tenths = static_cast<int>(std::lround(10.0 * number));
+  if (knows_code(firmware, letter, tenths) || !unknown_words_.insert(code).second) return;
+  findings_.add(Note{word.line,
+                     "code_not_known",
+                     fmt::format("{} {} {}", firmware.name, firmware.unknown, code)});
 }
 
 }  // namespace chaintrue::gcode

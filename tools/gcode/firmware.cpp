@@ -9,12 +9,49 @@
 namespace chaintrue::gcode {
 namespace {
 
+constexpr const char* kPassesOver = "passes over, in silence,";
+constexpr const char* kStops = "stops with an error at";
+
 constexpr Firmware kFirmwares[] = {
-    {model::ControllerKind::ideal, "ideal", false, 0.0, 0.0, false, true, 0.0, 0.0},
-    {model::ControllerKind::maslow_classic, "maslow_classic", true, 0.01, 0.0, true, false, 0.0, 0.08},
-    {model::ControllerKind::holey, "holey", true, 0.01, 0.0, true, false, 0.0, 0.08},
-    {model::ControllerKind::fluidnc_wallplotter, "fluidnc_wallplotter", true, 0.0, 10.0, false, false, 0.002, 0.0},
+    {.kind = model::ControllerKind::ideal, .name = "ideal", .tool_lengths = true},
+    {.kind = model::ControllerKind::maslow_classic,
+     .name = "maslow_classic",
+     .single_precision = true,
+     .tick_s = 0.01,
+     .clamps_to_bed = true,
+     .planned_moves = 1,
+     .unknown = kPassesOver,
+     .straight_arc_rad = 0.08},
+    {.kind = model::ControllerKind::holey,
+     .name = "holey",
+     .single_precision = true,
+     .tick_s = 0.01,
+     .clamps_to_bed = true,
+     .planned_moves = 1,
+     .unknown = kPassesOver,
+     .straight_arc_rad = 0.08},
+    {.kind = model::ControllerKind::fluidnc_wallplotter,
+     .name = "fluidnc_wallplotter",
+     .single_precision = true,
+     .chain_linear_piece_mm = 10.0,
+     .planned_moves = 16,
+     .acceleration_mm_per_s2 = 25.0,
+     .unknown = kStops,
+     .arc_chord_mm = 0.002},
 };
+
+constexpr int kMaslowG[] = {0, 10, 20, 30, 40, 100, 200, 210, 382, 400, 900, 910};
+constexpr int kMaslowM[] = {0, 10, 20, 30, 40, 50, 60, 300};
+constexpr int kGrblG[] = {0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 210, 280, 281, 300,
+                          301, 382, 383, 384, 385, 400, 431, 490, 530, 540, 550, 560, 570, 580,
+                          590, 610, 800, 900, 910, 911, 920, 921, 930, 940};
+constexpr int kGrblM[] = {0,  10, 20, 30,  40,  50,  60,  70,  80,
+                          90, 300, 620, 630, 640, 650, 670, 680};
+
+template <std::size_t size>
+bool one_of(const int (&list)[size], int value) {
+  return std::find(std::begin(list), std::end(list), value) != std::end(list);
+}
 
 }  // namespace
 
@@ -22,6 +59,17 @@ const Firmware& firmware(model::ControllerKind kind) {
   return *std::find_if(std::begin(kFirmwares),
                        std::end(kFirmwares) - 1,
                        [&](const Firmware& candidate) { return candidate.kind == kind; });
+}
+
+bool knows_code(const Firmware& firmware, char letter, int tenths) {
+  switch (firmware.kind) {
+    case model::ControllerKind::ideal:
+      return true;
+    case model::ControllerKind::fluidnc_wallplotter:
+      return letter == 'G' ? one_of(kGrblG, tenths) : one_of(kGrblM, tenths);
+    default:
+      return letter == 'G' ? one_of(kMaslowG, tenths) : one_of(kMaslowM, tenths);
+  }
 }
 
 std::optional<ClampBox> clamp_box(const model::Machine& machine) {

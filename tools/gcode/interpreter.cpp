@@ -53,6 +53,14 @@ void Interpreter::note_once(NoteOnce which, std::size_t line) {
 
 Result<AfterBlock> Interpreter::execute(const Block& block, const std::vector<CommentText>& texts) {
   if (block.deletable) note_once(NoteOnce::deletable_line, block.line);
+  if (sink_.wants_codes()) {
+    for (const GCode* code : block.g) {
+      if (code != nullptr) sink_.code(block.line, 'G', code->tenths);
+    }
+    for (const MCode* code : block.m) {
+      if (code != nullptr) sink_.code(block.line, 'M', 10 * code->number);
+    }
+  }
   const auto motion = motion_to_be(block);
   if (!motion) return tl::unexpected(motion.error());
   CHAINTRUE_GCODE_TRY(check_assignments(block));
