@@ -11,6 +11,43 @@
 #include "tools/report/path_report.hpp"
 
 namespace chaintrue::cli {
+namespace {
+
+/// Runs what has been written on the simulated controller and machine; kDone where it holds.
+int verified(const GcodeOptions& options,
+             const GcodeMachine& machine,
+             const GcodeText& text,
+             PendingFile& output,
+             gcode::VerifySummary& summary) {
+  auto original = text.open();
+  auto written = output.written();
+  const auto outcome = gcode::verify(original,
+                                     written,
+                                     machine.corrector(),
+                                     options.dialect(),
+                                     verify_options(options, machine));
+  std::string fault;
+  if (!outcome) {
+    fault = outcome.error().problem.message();
+  } else if (!outcome->holds()) {
+    fault = outcome->fault;
+  } else {
+    summary = *outcome;
+    return kDone;
+  }
+  fmt::print(stderr,
+             "{}: the compensated program was run on a simulated {} and does not hold {} mm: {}\n"
+             "nothing is written; another --tolerance-mm may hold, and --no-verify writes the file "
+             "for a look at that line\n",
+             grid::files::name_in_messages(options.program),
+             machine.corrector().firmware().name,
+             options.tolerance_mm,
+             fault);
+  return kCheckFailed;
+}
+
+}  // namespace
+
 int run_gcode_compensate(const GcodeOptions& options) {
   const GcodeMachine machine(options);
   const GcodeText text(options.program);
@@ -20,10 +57,10 @@ int run_gcode_compensate(const GcodeOptions& options) {
   report::PathReport picture;
   if (!options.report.empty()) {
     settings.on_command =
-        [&picture](const gcode::Move& move, const gcode::Station& from, const gcode::Station& to) {
-          const auto correction = [](const gcode::Station& station) {
-            return report::ToolVector{station.command.x_mm - station.target.x_mm,
-                                      station.command.y_mm - station.target.y_mm};
+        [&picture](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
+          const auto correction = [](const gcode::PathSample& sample) {
+            return report::ToolVector{sample.command.x_mm - sample.target.x_mm,
+                                      sample.command.y_mm - sample.target.y_mm};
           };
           picture.add({move.line,
                        move.kind == gcode::MoveKind::rapid,
@@ -45,6 +82,11 @@ int run_gcode_compensate(const GcodeOptions& options) {
     fmt::print(stderr, "nothing is written\n");
     return code;
   }
+  gcode::VerifySummary proof;
+  if (!options.no_verify) {
+    const int held = verified(options, machine, text, output, proof);
+    if (held != kDone) return held;
+  }
   output.commit();
   const std::string words = fmt::format(
       "{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
@@ -57,6 +99,13 @@ int run_gcode_compensate(const GcodeOptions& options) {
       summary->largest_correction_mm,
       summary->largest_correction_line);
   fmt::print(stderr, "{}\n", words);
+  if (!options.no_verify) {
+    fmt::print(stderr,
+               "run on a simulated {}: the tool stays within {:.4f} mm of the path, tolerance {} mm\n",
+               machine.corrector().firmware().name,
+               proof.largest_mm(),
+               options.tolerance_mm);
+  }
   if (!options.report.empty()) {
     const model::Bed& bed = machine.machine().bed;
     picture.name = options.program;

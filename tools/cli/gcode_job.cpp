@@ -195,6 +195,13 @@ void PendingFile::write(std::string_view bytes) {
   file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
+gcode::LineSource PendingFile::written() {
+  file_.flush();
+  auto source = gcode::LineSource::from_file(temporary_.string());
+  if (!file_ || !source) throw InputError({{path_, "", "", "room for the whole file"}});
+  return std::move(*source);
+}
+
 void PendingFile::commit() {
   file_.close();
   if (!file_) throw InputError({{path_, "", "", "room for the whole file"}});

@@ -14,6 +14,7 @@
 #include "tools/cli/verb.hpp"
 #include "tools/gcode/compensation_target.hpp"
 #include "tools/gcode/compensator.hpp"
+#include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::cli {
 
@@ -37,6 +38,7 @@ struct GcodeOptions {
   bool home_is_zero = false;
   bool skip_deletable = false;
   bool tools_have_no_diameter = false;
+  bool no_verify = false;  ///< compensate: write without having run the output
   bool json = false;
 
   [[nodiscard]] gcode::Dialect dialect() const;
@@ -71,6 +73,10 @@ class GcodeMachine {
 [[nodiscard]] gcode::CompensateOptions compensate_options(const GcodeOptions& options,
                                                           const GcodeMachine& machine);
 
+/// What running the output on the simulated machine needs to know.
+[[nodiscard]] gcode::VerifyOptions verify_options(const GcodeOptions& options,
+                                                  const GcodeMachine& machine);
+
 /// A program's lines; standard input for "-", which is kept in memory. \throws InputError where it
 /// cannot be read.
 class GcodeText {
@@ -99,6 +105,8 @@ class PendingFile {
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
   void write(std::string_view bytes);
+  /// What has been written so far, as a program. \throws InputError where it could not be written.
+  [[nodiscard]] gcode::LineSource written();
   /// \throws InputError where not everything could be written.
   void commit();
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace chaintrue::gcode {
@@ -22,9 +23,18 @@ constexpr double kCurvatureSafety = 2.0;
 /// Between nearer points rounding makes slopes of its own.
 constexpr double kSlopeBase_mm = 1.0;
 
-double chord_tolerance(const CompensateOptions& options) {
-  const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -options.decimals);
-  const double left = (options.tolerance_mm - rounding) / kStretch;
+/// What verify's own errors take of the tolerance, and a little of the chords' between the places
+/// where they are checked.
+constexpr double kSpare = 0.04;
+/// Half a unit of single precision below 2048 mm, in X and Y.
+constexpr double kSinglePrecision_mm = 0.5 * 1.25e-4 * 1.5;
+/// A circle keeps its shape even where the tolerance would let it become a point.
+constexpr double kMostTurn_rad = 0.25 * std::numbers::pi;
+
+double chord_tolerance(const CompensateOptions& options, bool single_precision) {
+  const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -options.decimals) +
+                          (single_precision ? kSinglePrecision_mm : 0.0);
+  const double left = ((1.0 - kSpare) * options.tolerance_mm - rounding) / kStretch;
   if (!(left > 0.0)) {
     throw std::invalid_argument(
         fmt::format("a tolerance of {} mm leaves nothing beside rounding to {} decimals",
@@ -56,12 +66,14 @@ Compensator::Compensator(const Corrector& corrector, CompensateOptions options, 
     : corrector_(corrector),
       options_(std::move(options)),
       emitter_(std::move(out), options_.decimals),
-      segmenter_(corrector, chord_tolerance(options_)) {
+      segmenter_(corrector,
+                 chord_tolerance(options_, corrector.firmware().single_precision)) {
   const double curvature = kCurvatureSafety * corrector.sampled_curvature_per_mm();
   const bool straight = corrector.firmware().chain_linear_piece_mm == 0.0;
   if (straight) {
     unchecked_length_mm_ =
-        std::sqrt(8.0 * kUncheckedShare * chord_tolerance(options_) / std::max(curvature, 1e-9));
+        std::sqrt(8.0 * kUncheckedShare *
+                  chord_tolerance(options_, corrector.firmware().single_precision) / std::max(curvature, 1e-9));
   }
 }
 
@@ -92,12 +104,12 @@ Move Compensator::placed(const Move& move) const {
 }
 
 Curve Compensator::curve(const Move& move, ChainDirections directions) const {
-  return [this, &move, directions](double t) -> tl::expected<Station, CorrectionFailure> {
+  return [this, &move, directions](double t) -> tl::expected<PathSample, CorrectionFailure> {
     const Point target = at(move, t);
     const auto command =
         corrector_.command({target.x_mm, target.y_mm}, options_.half_play_mm, directions);
     if (!command) return tl::unexpected(command.error());
-    return Station{t, target, {command->x_mm, command->y_mm, target.z_mm}};
+    return PathSample{t, target, {command->x_mm, command->y_mm, target.z_mm}};
   };
 }
 
@@ -110,10 +122,10 @@ void Compensator::object(const Move& move, CorrectionFailure failure, double x_m
                         fmt::format("X{:.3f} Y{:.3f} {}", x_mm, y_mm, explain(failure))});
 }
 
-/// Holds a station against the limits.
-void Compensator::examine(const Move& move, const Station& station) {
-  const double dx = station.command.x_mm - station.target.x_mm;
-  const double dy = station.command.y_mm - station.target.y_mm;
+/// Holds a sample against the limits.
+void Compensator::examine(const Move& move, const PathSample& sample) {
+  const double dx = sample.command.x_mm - sample.target.x_mm;
+  const double dy = sample.command.y_mm - sample.target.y_mm;
   const double size = std::hypot(dx, dy);
   if (size > summary_.largest_correction_mm) {
     summary_.largest_correction_mm = size;
@@ -129,31 +141,31 @@ void Compensator::examine(const Move& move, const Station& station) {
         ProblemName::correction_too_large,
         fmt::format(
             "X{:.3f} Y{:.3f} would be corrected by {:.2f} mm, more than the {} mm that are allowed",
-            station.target.x_mm,
-            station.target.y_mm,
+            sample.target.x_mm,
+            sample.target.y_mm,
             size,
             options_.largest_correction_mm));
   }
   if (const auto& box = options_.clamp_box) {
-    const double beyond = std::max(std::fabs(station.command.x_mm) - box->half_width_mm,
-                                   std::fabs(station.command.y_mm) - box->half_height_mm);
+    const double beyond = std::max(std::fabs(sample.command.x_mm) - box->half_width_mm,
+                                   std::fabs(sample.command.y_mm) - box->half_height_mm);
     if (beyond > 0.0) {
       once_a_line(
           ProblemName::outside_controller,
           fmt::format("X{:.3f} Y{:.3f} needs the command X{:.3f} Y{:.3f}, {:.2f} mm beyond the bed "
                       "that the controller "
                       "clamps to without a word; enlarge the bed in its settings by {:.0f} mm",
-                      station.target.x_mm,
-                      station.target.y_mm,
-                      station.command.x_mm,
-                      station.command.y_mm,
+                      sample.target.x_mm,
+                      sample.target.y_mm,
+                      sample.command.x_mm,
+                      sample.command.y_mm,
                       beyond,
                       std::ceil(2.0 * beyond)));
     }
   }
   if (here_) {
-    const double way = std::hypot(station.target.x_mm - here_->target.x_mm,
-                                  station.target.y_mm - here_->target.y_mm);
+    const double way = std::hypot(sample.target.x_mm - here_->target.x_mm,
+                                  sample.target.y_mm - here_->target.y_mm);
     if (way >= kSlopeBase_mm && !has_play()) {
       const double slope = std::hypot(dx - (here_->command.x_mm - here_->target.x_mm),
                                       dy - (here_->command.y_mm - here_->target.y_mm)) /
@@ -163,35 +175,35 @@ void Compensator::examine(const Move& move, const Station& station) {
         once_a_line(ProblemName::correction_too_steep,
                     fmt::format("before X{:.3f} Y{:.3f} the correction changes by {:.3f} mm per "
                                 "mm, more than the {} that are allowed",
-                                station.target.x_mm,
-                                station.target.y_mm,
+                                sample.target.x_mm,
+                                sample.target.y_mm,
                                 slope,
                                 options_.steepest_correction));
       }
     }
   }
-  if (corrector_.map().status({station.target.x_mm, station.target.y_mm}) ==
+  if (corrector_.map().status({sample.target.x_mm, sample.target.y_mm}) ==
       TargetStatus::extrapolated) {
     findings_.add(Note{move.line,
                        "extrapolated",
                        fmt::format("X{:.3f} Y{:.3f} lies outside the measured points: the "
                                    "correction there is extrapolated",
-                                   station.target.x_mm,
-                                   station.target.y_mm)});
+                                   sample.target.x_mm,
+                                   sample.target.y_mm)});
   }
 }
 
-Result<void> Compensator::emit(const Move& move, double feed, const Station& station) {
-  examine(move, station);
-  if (here_ && options_.on_command) options_.on_command(move, *here_, station);
-  here_ = station;
+Result<void> Compensator::emit(const Move& move, double feed, const PathSample& sample) {
+  examine(move, sample);
+  if (here_ && options_.on_command) options_.on_command(move, *here_, sample);
+  here_ = sample;
   // What is written after a problem is thrown away.
   if (findings_.problem_count > 0) return {};
   const bool named_z = move.names_z;
   const auto written = emitter_.command(move.kind == MoveKind::rapid,
                                         move.line,
-                                        model::BedPoint{station.command.x_mm, station.command.y_mm},
-                                        named_z ? std::optional(station.target.z_mm) : std::nullopt,
+                                        model::BedPoint{sample.command.x_mm, sample.command.y_mm},
+                                        named_z ? std::optional(sample.target.z_mm) : std::nullopt,
                                         feed);
   if (!written) return tl::unexpected(written.error());
   return {};
@@ -216,12 +228,12 @@ Result<void> Compensator::piece(
     const Move& move, double feed, double from, double to, ChainDirections directions) {
   const Curve commands = curve(move, directions);
   Result<void> outcome;
-  const auto visit = [&](const Station& station) {
-    if (outcome) outcome = emit(move, feed, station);
+  const auto visit = [&](const PathSample& sample) {
+    if (outcome) outcome = emit(move, feed, sample);
   };
   // Without play the last command is this one's start.
   const bool known = here_ && !has_play() && from == 0.0 && here_->target == move.from;
-  const auto start = known ? Station{0.0, here_->target, here_->command} : commands(from);
+  const auto start = known ? PathSample{0.0, here_->target, here_->command} : commands(from);
   if (!start) {
     const Point place = at(move, from);
     object(move, start.error(), place.x_mm, place.y_mm);
@@ -242,7 +254,9 @@ Result<void> Compensator::piece(
     visit(*end);
     return outcome;
   }
-  const auto done = segmenter_.run(commands, *start, to, length, visit);
+  const double turn = move.arc ? std::fabs(move.arc->sweep_rad) * (to - from) : 0.0;
+  const double longest = turn > kMostTurn_rad ? length * kMostTurn_rad / turn : length;
+  const auto done = segmenter_.run(commands, *start, to, {length, longest}, visit);
   if (!done) {
     const Point place = here_ ? here_->target : at(move, from);
     object(move, done.error(), place.x_mm, place.y_mm);

@@ -52,7 +52,7 @@ struct CompensateOptions {
   std::string map_hash;
   std::string input_hash;
   /// Called for every command in X and Y, with its start and end; for pictures.
-  std::function<void(const Move&, const Station&, const Station&)> on_command;
+  std::function<void(const Move&, const PathSample&, const PathSample&)> on_command;
 };
 
 /// What the run found. Problems and notes keep the first hundred of their kind, and count all.
@@ -101,8 +101,8 @@ class Compensator final : private Sink {
   Result<void> along(const Move& move, double feed);
   Result<void> piece(
       const Move& move, double feed, double from, double to, ChainDirections directions);
-  Result<void> emit(const Move& move, double feed, const Station& station);
-  void examine(const Move& move, const Station& station);
+  Result<void> emit(const Move& move, double feed, const PathSample& sample);
+  void examine(const Move& move, const PathSample& sample);
   void object(const Move& move, CorrectionFailure failure, double x_mm, double y_mm);
   [[nodiscard]] Move placed(const Move& move) const;
   [[nodiscard]] ChainDirections directions_at(const Move& move,
@@ -119,7 +119,7 @@ class Compensator final : private Sink {
   double unchecked_length_mm_ = 0.0;
   Findings findings_;
   CompensateSummary summary_;
-  std::optional<Station> here_;  // empty until the program says where X and Y are
+  std::optional<PathSample> here_;  // empty until the program says where X and Y are
   ChainDirections directions_;
   std::size_t objected_line_ = 0;
 };

@@ -10,10 +10,10 @@ namespace chaintrue::gcode {
 namespace {
 
 constexpr Firmware kFirmwares[] = {
-    {model::ControllerKind::ideal, "ideal", false, 0.0, 0.0, false},
-    {model::ControllerKind::maslow_classic, "maslow_classic", true, 0.01, 0.0, true},
-    {model::ControllerKind::holey, "holey", true, 0.01, 0.0, true},
-    {model::ControllerKind::fluidnc_wallplotter, "fluidnc_wallplotter", true, 0.0, 10.0, false},
+    {model::ControllerKind::ideal, "ideal", false, 0.0, 0.0, false, 0.0, 0.0},
+    {model::ControllerKind::maslow_classic, "maslow_classic", true, 0.01, 0.0, true, 0.0, 0.08},
+    {model::ControllerKind::holey, "holey", true, 0.01, 0.0, true, 0.0, 0.08},
+    {model::ControllerKind::fluidnc_wallplotter, "fluidnc_wallplotter", true, 0.0, 10.0, false, 0.002, 0.0},
 };
 
 }  // namespace

@@ -29,6 +29,10 @@ struct Firmware {
   double chain_linear_piece_mm = 0.0;
   /// Targets beyond half the believed bed are clamped without a word.
   bool clamps_to_bed = false;
+  /// Arcs become chords that stay this close (grbl's $12, FluidNC's arc_tolerance_mm); 0: arcs.
+  double arc_chord_mm = 0.0;
+  /// Arcs that turn by less are cut as one straight line.
+  double straight_arc_rad = 0.0;
 };
 
 [[nodiscard]] const Firmware& firmware(model::ControllerKind kind);
