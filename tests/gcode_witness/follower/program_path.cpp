@@ -180,7 +180,7 @@ void Machine::arc(const Line& line, bool clockwise) {
   constexpr double kSame_rad = 5e-7;
   while (clockwise ? sweep >= -kSame_rad : sweep <= kSame_rad) sweep += whole;
   while (std::fabs(sweep) > kTurn + kSame_rad) sweep -= whole;
-  sweep += whole * (std::lround(line.value('p', 1.0)) - 1);
+  sweep += whole * (std::round(line.value('p', 1.0)) - 1.0);
   const double r0 = std::hypot(start[a] - ca, start[b] - cb);
   const double r1 = std::hypot(end[a] - ca, end[b] - cb);
   // Sagitta r (1 - cos(h/2)) <= r h^2 / 8.

@@ -29,7 +29,7 @@ struct Piece {
 };
 
 /// What the chords of an arc lie off it at most.
-inline constexpr double kChord_mm = 1e-4;
+inline constexpr double kChord_mm = 5e-4;
 
 /// \throws std::runtime_error with the line where the program is not understood.
 [[nodiscard]] std::vector<Piece> program_path(const std::string& program);
