@@ -178,6 +178,11 @@ class Canon:
             self.doubt = self.doubt or "UNKNOWN a tool change behind an arc"
         self.say("TOOL", self.line, tool)
 
+    def loses_its_place(self, program):
+        """M61 makes the module ask for its place too, without a call that would show when."""
+        bare = program.lower().replace(b" ", b"").replace(b"\t", b"")
+        return b"m61" in bare and any(line.startswith("ARC") for line in self.out)
+
 
 def interpret(program):
     """The answer's lines. In a process of its own: the interpreter keeps what it has been told."""
@@ -208,6 +213,8 @@ def interpret(program):
             reason = gcode.strerror(result).replace(folder + "/", "")
             out.append(f"REFUSED {reason}")
         else:
+            if canon.loses_its_place(program):
+                canon.doubt = canon.doubt or "UNKNOWN M61 and arcs"
             out.append(canon.doubt or "ACCEPTED")
         return out
     finally:

@@ -12,6 +12,7 @@
 #include "tests/gcode_witness/support/compensated.hpp"
 #include "tests/gcode_witness/support/program_generator.hpp"
 #include "tests/gcode_witness/support/random.hpp"
+#include "tests/gcode_witness/support/shrink.hpp"
 
 namespace chaintrue::witness {
 namespace {
@@ -135,6 +136,23 @@ class Trial {
   Random& random_;
 };
 
+/// Empty where the program is compensated and judged rightly, or refused.
+std::string judged(const Shop& shop,
+                   const std::string& program,
+                   double tolerance_mm,
+                   std::uint64_t seed,
+                   FollowRun& run) {
+  Random random(seed);
+  try {
+    return Trial(shop, program, tolerance_mm, random).run(run);
+  } catch (const std::runtime_error& error) {
+    return std::string("the follower: ") + error.what();
+  }
+}
+
+/// The fault's first words: a smaller program shows it with other numbers.
+std::string kind_of(const std::string& fault) { return fault.substr(0, 10); }
+
 }  // namespace
 
 FollowRun follow(const std::string& fixtures, const FollowOptions& options) {
@@ -147,27 +165,31 @@ FollowRun follow(const std::string& fixtures, const FollowOptions& options) {
   for (std::uint64_t i = options.share; i < options.count; i += options.shares) {
     const std::uint64_t seed = options.first_seed + i;
     const std::string program = random_program(seed, generator);
-    Random random(seed ^ 0x5eedULL);
     // Evenly over the orders of magnitude from 0.005 to 1 mm.
-    const double tolerance_mm = 0.005 * std::pow(200.0, random.unit());
+    const double tolerance_mm = 0.005 * std::pow(200.0, Random(~seed).unit());
     const Shop& shop = *shops[seed % shops.size()];
     ++run.programs;
-    std::string fault;
-    try {
-      fault = Trial(shop, program, tolerance_mm, random).run(run);
-    } catch (const std::runtime_error& error) {
-      fault = std::string("the follower: ") + error.what();
-    }
+    const std::string fault = judged(shop, program, tolerance_mm, seed, run);
     if (fault.empty()) continue;
     ++run.failed;
-    if (run.failures.size() < options.most_told) {
-      run.failures.push_back(fmt::format("seed {}, {}, tolerance {:.5f} mm: {}\n{}",
-                                         seed,
-                                         shop.name(),
-                                         tolerance_mm,
-                                         fault,
-                                         program));
-    }
+    if (run.failures.size() >= options.most_told) continue;
+    const std::string small = shrink(program, [&](const std::vector<std::string>& candidates) {
+      std::vector<bool> same;
+      for (const std::string& candidate : candidates) {
+        FollowRun ignored;
+        const std::string other = judged(shop, candidate, tolerance_mm, seed, ignored);
+        same.push_back(kind_of(other) == kind_of(fault));
+      }
+      return same;
+    });
+    FollowRun ignored;
+    run.failures.push_back(fmt::format("seed {}, {}, tolerance {:.5f} mm: {}\nreduced to\n{}{}",
+                                       seed,
+                                       shop.name(),
+                                       tolerance_mm,
+                                       fault,
+                                       small,
+                                       judged(shop, small, tolerance_mm, seed, ignored)));
   }
   return run;
 }

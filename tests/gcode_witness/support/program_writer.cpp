@@ -294,7 +294,10 @@ void ProgramWriter::home() {
 
 void ProgramWriter::override_or_output() {
   plain(random_.any({"M48", "M49", "M50 P1", "M51 P0", "M52 P1", "M53 P0", "M62 P1", "M63 P0", "M64 P2",
-                     "M65 P2", "M67 E0 Q1.5", "M68 E1 Q0", "M0", "M1", "M60", "M61 Q3"}));
+                     "M65 P2", "M67 E0 Q1.5", "M68 E1 Q0", "M0", "M1", "M60"}));
+  if (!random_.one_in(8)) return;
+  plain("M61 Q3");
+  go_somewhere();
 }
 
 std::string ProgramWriter::label() {
