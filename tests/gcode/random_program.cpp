@@ -357,8 +357,10 @@ std::string broken_law(std::uint64_t seed, int& accepted) {
   const double dy = size * std::sin(angle);
   const auto must_fail = [&](const std::string& what, const std::string& tampered) -> std::string {
     const auto outcome = verified(law, tampered);
-    if (!outcome || !outcome->strays) return story(what + " is not seen", tampered);
-    if (!(outcome->largest_mm() > law.tolerance_mm)) return story(what + " is understated", tampered);
+    if (!outcome || outcome->holds()) return story(what + " is not seen", tampered);
+    if (outcome->strays && !(outcome->largest_mm() > law.tolerance_mm)) {
+      return story(what + " is understated", tampered);
+    }
     return {};
   };
   const std::string all =

@@ -351,6 +351,14 @@ Result<void> Compensator::move(const Move& original) {
 }
 
 Result<void> Compensator::word(const PassedWord& word) {
+  if (word.text.starts_with("G43") && !corrector_.firmware().tool_lengths) {
+    return refuse(ProblemName::not_emittable,
+                  {word.line, 0},
+                  fmt::format("{}: {} keeps no tool lengths, so every height behind it could be "
+                              "wrong; take G43 out and set Z to zero with each tool",
+                              word.text,
+                              corrector_.firmware().name));
+  }
   return findings_.problem_count > 0 ? Result<void>{} : emitter_.word(word);
 }
 

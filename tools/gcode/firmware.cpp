@@ -10,10 +10,10 @@ namespace chaintrue::gcode {
 namespace {
 
 constexpr Firmware kFirmwares[] = {
-    {model::ControllerKind::ideal, "ideal", false, 0.0, 0.0, false, 0.0, 0.0},
-    {model::ControllerKind::maslow_classic, "maslow_classic", true, 0.01, 0.0, true, 0.0, 0.08},
-    {model::ControllerKind::holey, "holey", true, 0.01, 0.0, true, 0.0, 0.08},
-    {model::ControllerKind::fluidnc_wallplotter, "fluidnc_wallplotter", true, 0.0, 10.0, false, 0.002, 0.0},
+    {model::ControllerKind::ideal, "ideal", false, 0.0, 0.0, false, true, 0.0, 0.0},
+    {model::ControllerKind::maslow_classic, "maslow_classic", true, 0.01, 0.0, true, false, 0.0, 0.08},
+    {model::ControllerKind::holey, "holey", true, 0.01, 0.0, true, false, 0.0, 0.08},
+    {model::ControllerKind::fluidnc_wallplotter, "fluidnc_wallplotter", true, 0.0, 10.0, false, false, 0.002, 0.0},
 };
 
 }  // namespace
@@ -31,27 +31,36 @@ std::optional<ClampBox> clamp_box(const model::Machine& machine) {
                   0.5 * settings.bed_height_mm.value_or(machine.bed.height_mm)};
 }
 
-std::optional<model::BedPoint> on_the_way(const Firmware& firmware,
-                                          const model::ControllerKinematics& kinematics,
-                                          model::BedPoint from,
-                                          model::BedPoint to,
-                                          double t) {
-  const auto on_line = [&](double u) {
-    return model::BedPoint{from.x_mm + u * (to.x_mm - from.x_mm),
-                           from.y_mm + u * (to.y_mm - from.y_mm)};
-  };
-  if (firmware.chain_linear_piece_mm == 0.0) return on_line(t);
-  const double length = std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm);
-  const double pieces = std::max(1.0, std::floor(length / firmware.chain_linear_piece_mm));
-  const double piece = std::min(std::floor(t * pieces), pieces - 1.0);
-  const auto a = kinematics.lengths(on_line(piece / pieces));
-  const auto b = kinematics.lengths(on_line((piece + 1.0) / pieces));
-  if (!a || !b) return std::nullopt;
-  const double u = t * pieces - piece;
-  const auto command = kinematics.command(
-      {a->left_mm + u * (b->left_mm - a->left_mm), a->right_mm + u * (b->right_mm - a->right_mm)});
-  if (!command) return std::nullopt;
-  return *command;
+CommandWay::CommandWay(const Firmware& firmware,
+                       const model::ControllerKinematics& kinematics,
+                       model::BedPoint from,
+                       model::BedPoint to,
+                       double doubt_mm)
+    : firmware_(firmware), kinematics_(kinematics), from_(from), to_(to) {
+  if (firmware.chain_linear_piece_mm == 0.0) return;
+  const double length = std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm) - doubt_mm;
+  pieces_ = static_cast<int>(
+      std::clamp(std::floor(length / firmware.chain_linear_piece_mm), 1.0, 1e6));
+}
+
+std::optional<model::BedPoint> CommandWay::at(double t) {
+  if (firmware_.chain_linear_piece_mm == 0.0) return on_line(t);
+  const int piece = std::min(static_cast<int>(t * pieces_), pieces_ - 1);
+  if (piece != piece_) {
+    const auto lengths = [&](int end) -> std::optional<model::ChainLengths> {
+      const auto found = kinematics_.lengths(on_line(static_cast<double>(end) / pieces_));
+      return found ? std::optional(*found) : std::nullopt;
+    };
+    start_ = piece == piece_ + 1 && piece_ >= 0 ? end_ : lengths(piece);
+    end_ = lengths(piece + 1);
+    piece_ = piece;
+  }
+  if (!start_ || !end_) return std::nullopt;
+  const double u = t * pieces_ - piece;
+  const auto command =
+      kinematics_.command({start_->left_mm + u * (end_->left_mm - start_->left_mm),
+                           start_->right_mm + u * (end_->right_mm - start_->right_mm)});
+  return command ? std::optional(*command) : std::nullopt;
 }
 
 }  // namespace chaintrue::gcode

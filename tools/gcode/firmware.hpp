@@ -29,6 +29,8 @@ struct Firmware {
   double chain_linear_piece_mm = 0.0;
   /// Targets beyond half the believed bed are clamped without a word.
   bool clamps_to_bed = false;
+  /// Knows G43 H. The others pass over it, or stop there.
+  bool tool_lengths = false;
   /// Arcs become chords that stay this close (grbl's $12, FluidNC's arc_tolerance_mm); 0: arcs.
   double arc_chord_mm = 0.0;
   /// Arcs that turn by less are cut as one straight line.
@@ -44,14 +46,38 @@ struct ClampBox {
 };
 [[nodiscard]] std::optional<ClampBox> clamp_box(const model::Machine& machine);
 
-/// The commanded point that stands for where the controller is at the fraction t of a straight
-/// command: on the line, or, where it interpolates chain lengths, where equal lengths would be
-/// commanded. Empty where its own kinematics fail.
-[[nodiscard]] std::optional<model::BedPoint> on_the_way(
-    const Firmware& firmware,
-    const model::ControllerKinematics& kinematics,
-    model::BedPoint from,
-    model::BedPoint to,
-    double t);
+/// A straight command as the controller runs it.
+class CommandWay {
+ public:
+  /// Keeps references.
+  /// \param doubt_mm by how much the command's length may still change (its numbers will be
+  /// rounded): where that decides how many pieces the controller makes, it is taken to make fewer.
+  CommandWay(const Firmware& firmware,
+             const model::ControllerKinematics& kinematics,
+             model::BedPoint from,
+             model::BedPoint to,
+             double doubt_mm = 0.0);
+
+  /// Pieces that are linear in chain length; 1 where the controller follows the line.
+  [[nodiscard]] int pieces() const { return pieces_; }
+  /// The commanded point that stands for where the controller is at the fraction t: on the line,
+  /// or, where it interpolates chain lengths, where equal lengths would be commanded. Empty where
+  /// its own kinematics fail.
+  [[nodiscard]] std::optional<model::BedPoint> at(double t);
+
+ private:
+  [[nodiscard]] model::BedPoint on_line(double t) const {
+    return {from_.x_mm + t * (to_.x_mm - from_.x_mm), from_.y_mm + t * (to_.y_mm - from_.y_mm)};
+  }
+
+  const Firmware& firmware_;
+  const model::ControllerKinematics& kinematics_;
+  model::BedPoint from_;
+  model::BedPoint to_;
+  int pieces_ = 1;
+  int piece_ = -1;  // whose ends are known
+  std::optional<model::ChainLengths> start_;
+  std::optional<model::ChainLengths> end_;
+};
 
 }  // namespace chaintrue::gcode

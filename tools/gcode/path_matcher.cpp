@@ -268,9 +268,10 @@ PathMatcher::Outcome PathMatcher::advance(const PathPiece& piece) {
 
 void PathMatcher::advance_anyhow(const PathPiece& piece) {
   while (!column(piece, false, distance_mm_, false) && distance_mm_ < kMostDistance_mm) {
-    note(piece.rapid, {distance_mm_, front().intended, piece.to, front().intended_line, piece.line});
     distance_mm_ *= kWiden;
   }
+  const Pair before = front();
+  note(piece.rapid, {distance_mm_, before.intended, piece.to, before.intended_line, piece.line});
   commit(piece);
 }
 
@@ -290,14 +291,18 @@ PathMatcher::Outcome PathMatcher::finish() {
 /// What is left of the path was not run: all of it counts from where the tool stands.
 void PathMatcher::finish_anyhow() {
   std::size_t i = first_;
+  std::size_t line = 0;
   do {
     for (; i < open_.size(); ++i) {
       note_corner(open_[i], tool_, tool_line_);
       note(open_[i].piece.rapid, open_[i].corner);
     }
+    if (!open_.empty()) line = open_.back().piece.line;
     open_.clear();
     i = 0;
   } while (read());
+  // The ends belong together.
+  note(false, {distance_mm(path_end_, tool_), path_end_, tool_, line, tool_line_});
 }
 
 PathMatcher::Pair PathMatcher::front() const {
