@@ -17,54 +17,65 @@ namespace {
 constexpr int kCalibrations = 8;
 constexpr double kSettled_mm = 1e-4;
 
-DiagnosisFailure unreachable(const Session& session, const model::VisitFailure& failure) {
-  const SessionPoint& point = session.points[failure.index];
+DiagnosisFailure unreachable(const Session& session, const observation::Unreachable& failure) {
+  const SessionPlace& place = session.places[failure.place];
+  const SessionPart& part = session.parts[place.part];
   return {DiagnosisFailure::Reason::point_unreachable,
           fmt::format("{} {} at ({:.1f}, {:.1f}) mm: {}",
-                      session.distances ? "hole" : "point",
-                      session.distances ? session.distances->set().holes[failure.index].name
-                                        : fmt::format("{}", point.index + 1),
-                      point.mark.x_mm,
-                      point.mark.y_mm,
+                      part.observation->kind().place,
+                      part.observation->places()[failure.place - part.first_place].name,
+                      place.mark.x_mm,
+                      place.mark.y_mm,
                       model::explain(failure.reason))};
 }
 
 DiagnosisFailure impossible(const Session& session, const model::MachineProblem& problem) {
+  const std::string_view units = session.units_word();
   return {DiagnosisFailure::Reason::contradictory_settings,
           fmt::format("no machine near the stated one fits these {}: calibrating leads to {} = "
                       "{}. Check the feed, the attachment and the motors' positions, and that the "
                       "{} are those of this machine",
-                      session.distances ? "distances" : "points",
+                      units,
                       problem.parameter,
                       problem.value,
-                      session.distances ? "distances" : "lengths")};
+                      units == "points" ? "lengths" : units)};
 }
 
-/// Settings moved to where the points put them, no effect at work.
-tl::expected<State, DiagnosisFailure> calibrate(const Session& session, const Steps& steps) {
+/// The largest of the settings' moves as it shows at the tool: a turn of the sheet at its edge.
+double move_mm(const Session& session, const Eigen::VectorXd& change) {
+  const double to_edge_mm = 0.5 * session.stated.bed.width_mm;
+  double most = 0.0;
+  for (std::size_t k = 0; k < session.settings.size(); ++k) {
+    const bool turn = session.settings[k] == model::Setting::sheet_rotation_rad;
+    most = std::max(
+        most, (turn ? to_edge_mm : 1.0) * std::abs(change(static_cast<Eigen::Index>(k))));
+  }
+  return most;
+}
+
+/// Settings moved to where the readings put them, no effect at work.
+tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
+  const Session& session = a.session;
   State state = stated_state(session);
-  Steps projected = steps;
+  Steps projected = a.options.steps;
   projected.project_settings = true;
-  const std::vector<bool> none(session.units(), false);
-  for (int pass = 0; pass < kCalibrations; ++pass) {
-    auto system = linearise(session, state, steps);
+  const std::vector<bool> none(session.units.size(), false);
+  a.settled = false;
+  for (int pass = 0; pass < kCalibrations && !a.settled; ++pass) {
+    auto system = linearise(session, state, a.options.steps);
     if (!system) return tl::unexpected(unreachable(session, system.error()));
-    system->g.resize(session.rows(), 0);
-    const auto outliers = outlier_sets(session, *system, none, {{}}, projected).front();
+    system->g.resize(session.rows, 0);
+    const auto outliers = outlier_sets(*system, none, {{}}, projected).front();
     const MarginalisedSystem marginalised = marginalise(*system, outliers, projected);
-    const Eigen::VectorXd change = estimate(session, *system, marginalised, {}, -1).setting_change;
+    const Eigen::VectorXd change = estimate(*system, marginalised, {}, -1).setting_change;
     state = with_settings(session, state, system->setting + change);
     const auto problems = model::problems_of(state.machine);
     if (!problems.empty()) return tl::unexpected(impossible(session, problems.front()));
-    const auto settings = static_cast<Eigen::Index>(session.settings.size());
-    if (change.head(settings).cwiseAbs().maxCoeff() < kSettled_mm) break;
+    a.settled = move_mm(session, change) < kSettled_mm;
   }
-  return state;
+  a.state = std::move(state);
+  return {};
 }
-
-/// Strength below which no point plan names a cause: what cannot get there is left out of the
-/// comparison, where it would only take probability from the others.
-constexpr double kLeastReach = 4.0;
 
 /// Takes effects out that could not show at any size that they may have.
 void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
@@ -127,13 +138,7 @@ void speak_of_leaders(const LinearisedSystem& system,
 
 }  // namespace
 
-/// Share of what noise does not explain that causes named beside a model discrepancy must explain.
-constexpr double kExplained = 0.93;
-/// From this probability of a discrepancy on; below it what noise leaves would decide.
-constexpr double kDiscrepancyLikely = 0.5;
-
-Decision decide_beside_discrepancy(const Session& session,
-                                   const LinearisedSystem& system,
+Decision decide_beside_discrepancy(const LinearisedSystem& system,
                                    const ModelComparison& comparison,
                                    const std::vector<bool>& excluded,
                                    bool seen) {
@@ -147,7 +152,7 @@ Decision decide_beside_discrepancy(const Session& session,
   // explain nearly all that noise does not.
   const MarginalisedSystem& marginalised = comparison.marginalised_systems[decision.marginalised];
   const auto unexplained = [&](const std::vector<int>& regressors) {
-    const Estimate fitted = estimate(session, system, marginalised, regressors, -1);
+    const Estimate fitted = estimate(system, marginalised, regressors, -1);
     const Eigen::VectorXd left = left_of_machine(system, fitted, fitted.left);
     return square_in_noise(system, marginalised.kept, left) -
            static_cast<double>(marginalised.kept.size());
@@ -158,80 +163,68 @@ Decision decide_beside_discrepancy(const Session& session,
   return decide(system, comparison, excluded, false);
 }
 
-namespace {
-
-void compare_and_decide(const Session& session,
-                        const ComparisonOptions& options,
-                        bool seen,
-                        Analysis& a) {
-  const std::vector<bool> none(session.units(), false);
-  a.comparison = compare_models(session, a.system, none, options);
-  a.decision = decide_beside_discrepancy(session, a.system, a.comparison, none, seen);
-  a.estimate = estimate(session,
-                        a.system,
+void decide_for(bool seen, Analysis& a) {
+  const std::vector<bool> none(a.session.units.size(), false);
+  a.decision = decide_beside_discrepancy(a.system, a.comparison, none, seen);
+  a.estimate = estimate(a.system,
                         a.comparison.marginalised_systems[a.decision.marginalised],
                         a.decision.regressors,
                         a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
 }
 
-void test_significance(const Session& session, const DiagnosisOptions& options, Analysis& a) {
+namespace {
+
+void test_significance(Analysis& a) {
   const MarginalisedSystem& marginalised =
       a.comparison.marginalised_systems[a.comparison.best().marginalised];
   const SingleScore score(
-      a.system, marginalised, options.steps.anchor_noise ? session.noise_dof : 1e-3);
+      a.system, marginalised, a.options.steps.anchor_noise ? a.session.noise_dof : 1e-3);
   // Enough draws for a family-wise 1 in 100; fewer where one draw is long.
-  const int draws = session.units() > 150 ? 2000 : 4000;
-  a.null = draw_null(score, marginalised.e.size(), draws, options.seed);
+  const int draws = a.session.units.size() > 150 ? 2000 : 4000;
+  a.null = draw_null(score, marginalised.e.size(), draws, a.options.seed);
   a.score = score.by_cause(marginalised.e).maxCoeff();
   a.family_wise_p = a.null.p_value(a.score);
 }
 
+/// Linear about the state as it is, with every regressor that may act.
+tl::expected<void, DiagnosisFailure> linearise_anew(const std::vector<Refinement>& known,
+                                                    bool first,
+                                                    Analysis& a) {
+  auto system = linearise(a.session, a.state, a.options.steps);
+  if (!system) return tl::unexpected(unreachable(a.session, system.error()));
+  a.system = std::move(*system);
+  add_regressors(a.session, a.state, a.candidates.testable, known, a.system);
+  const std::vector<bool> none(a.session.units.size(), false);
+  const MarginalisedSystem marginalised = marginalise(a.system, none, a.options.steps);
+  share_out_links(marginalised, a.system);
+  if (first) drop_invisible(marginalised, a);
+  return {};
+}
+
 }  // namespace
 
-tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
+tl::expected<Analysis, DiagnosisFailure> analyse(Session session,
                                                  const DiagnosisOptions& options) {
   Analysis a;
-  auto state = calibrate(session, options.steps);
-  if (!state) return tl::unexpected(state.error());
-  a.state = std::move(*state);
-  a.candidates = candidates(session);
-  const ComparisonOptions comparison{options.steps, true, options.told};
+  a.session = std::move(session);
+  a.options = options;
+  if (auto done = calibrate(a); !done) return tl::unexpected(done.error());
+  a.candidates = candidates(a.session);
+  const ComparisonOptions compared{options.steps, true, options.told};
+  const std::vector<bool> none(a.session.units.size(), false);
   constexpr int kPasses = 2;
   std::vector<Refinement> known;
   for (int pass = 0; pass < kPasses; ++pass) {
-    auto system = linearise(session, a.state, options.steps);
-    if (!system) return tl::unexpected(unreachable(session, system.error()));
-    a.system = std::move(*system);
-    add_regressors(session, a.state, a.candidates.testable, known, a.system);
-    const std::vector<bool> none(session.units(), false);
-    const MarginalisedSystem marginalised = marginalise(a.system, none, options.steps);
-    share_out_links(marginalised, a.system);
-    if (pass == 0) drop_invisible(marginalised, a);
-    compare_and_decide(session, comparison, true, a);
+    if (auto done = linearise_anew(known, pass == 0, a); !done) return tl::unexpected(done.error());
+    a.comparison = compare_models(a.system, none, compared);
+    decide_for(true, a);
     if (pass + 1 == kPasses || a.decision.regressors.empty()) break;
-    const Decision& decision = a.decision;
-    const Leaders leaders{decision.regressors,
-                          decision.discrepancy_left ? decision.best_discrepancy : -1};
-    Relinearised relinearised =
-        relinearise(session,
-                    a.state,
-                    a.system,
-                    a.comparison.marginalised_systems[decision.marginalised],
-                    leaders,
-                    options.steps);
+    Relinearised relinearised = relinearise(a);
     known = std::move(relinearised.refinements);
     a.state = std::move(relinearised.state);
   }
-  test_significance(session, options, a);
-  if (a.family_wise_p >= kFalseAlarm && !options.told) {
-    const std::vector<bool> none(session.units(), false);
-    a.decision = decide_beside_discrepancy(session, a.system, a.comparison, none, false);
-    a.estimate = estimate(session,
-                          a.system,
-                          a.comparison.marginalised_systems[a.decision.marginalised],
-                          a.decision.regressors,
-                          a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
-  }
+  test_significance(a);
+  if (a.family_wise_p >= kFalseAlarm && !options.told) decide_for(false, a);
   return a;
 }
 

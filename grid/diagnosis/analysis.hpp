@@ -9,10 +9,15 @@
 #include "grid/diagnosis/decision.hpp"
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
+#include "grid/diagnosis/regressors.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
+/// Everything that the parts of an answer look at.
 struct Analysis {
+  Session session;
+  DiagnosisOptions options;
+  bool settled = true;  ///< calibrating came to rest
   State state;  ///< settings about which the system is linear; no effect named is in it
   Candidates candidates;
   LinearisedSystem system;
@@ -26,13 +31,16 @@ struct Analysis {
 
 /// decide(), abstaining where a model discrepancy is as strong as the cause it would be named
 /// beside.
-[[nodiscard]] Decision decide_beside_discrepancy(const Session& session,
-                                                 const LinearisedSystem& system,
+[[nodiscard]] Decision decide_beside_discrepancy(const LinearisedSystem& system,
                                                  const ModelComparison& comparison,
                                                  const std::vector<bool>& excluded,
                                                  bool seen);
 
-[[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(const Session& session,
+/// Decision and estimate from the comparison at hand. `seen`: the strongest effect is beyond what
+/// noise does.
+void decide_for(bool seen, Analysis& analysis);
+
+[[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(Session session,
                                                                const DiagnosisOptions& options);
 
 }  // namespace chaintrue::grid::diagnosis

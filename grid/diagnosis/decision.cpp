@@ -12,10 +12,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Probability that anything acts at all from which causes are spoken of.
-constexpr double kCaused = 0.65;
-constexpr double kNeededBesideDiscrepancy = 0.98;
-constexpr double kLikelierThanNot = 0.5;
 constexpr double kAbsorbed = 1e-3;
 
 /// The most telling regressor of each cause: the longest, and the nearest to the data among those
@@ -133,7 +129,7 @@ class Decider {
     const bool with_outliers =
         comparison_.marginalised_systems[model.marginalised].outliers != excluded_;
     if (model.discrepancy >= 0) {
-      result_.unknown += p;
+      result_.discrepancy_alone += p;
     } else if (with_outliers) {
       result_.outliers += p;
     } else {
@@ -254,12 +250,12 @@ class Decider {
       result_.discrepancy_left = false;
     }
     const double most =
-        std::max({result_.nothing, result_.noise, result_.outliers, result_.unknown});
-    if (result_.discrepancy > 0.5 || result_.unknown == most) {
-      result_.verdict = Verdict::unknown_pattern;
+        std::max({result_.nothing, result_.noise, result_.outliers, result_.discrepancy_alone});
+    if (result_.discrepancy > 0.5 || result_.discrepancy_alone == most) {
+      result_.verdict = Verdict::model_discrepancy;
       result_.discrepancy_left = true;
     } else if (result_.outliers == most) {
-      result_.verdict = Verdict::bad_points;
+      result_.verdict = Verdict::outliers;
     } else if (result_.noise == most) {
       result_.verdict = Verdict::noise_larger_than_stated;
     } else {

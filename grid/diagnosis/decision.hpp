@@ -6,21 +6,11 @@
 
 #include <vector>
 
+#include "grid/diagnosis/constants.hpp"
+#include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
-
-/// |cosine| from which two effects are one class: to tell them takes a strength of 104 or more.
-inline constexpr double kOneClass = 0.9995;
-/// A cause is named alone from this probability on.
-inline constexpr double kNamedAlone = 0.95;
-/// A set holds the cause with this probability.
-inline constexpr double kSetHolds = 0.98;
-/// Chance of a false alarm over the whole catalogue.
-inline constexpr double kFalseAlarm = 0.01;
-
-/// From this probability of a model discrepancy on, names are given more sparingly.
-inline constexpr double kDiscrepancyPossible = 0.25;
 
 /// Causes that these data cannot separate, however strong; the one that gives the class its name
 /// first: a cause in the machine before one on the paper.
@@ -41,7 +31,7 @@ struct Decision {
   double nothing = 0.0;
   double noise = 0.0;
   double outliers = 0.0;
-  double unknown = 0.0;
+  double discrepancy_alone = 0.0;
   double caused = 0.0;       ///< one cause or more
   double discrepancy = 0.0;  ///< with a model discrepancy, beside causes or alone
   /// The causes of the verdict (indices into classes): the one named, the set, or those that act

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 
 #include <cmath>
-#include <cstdint>
 
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/gain.hpp"
@@ -22,11 +21,11 @@ std::string_view name(Verdict verdict) {
       return "named_set";
     case Verdict::several_causes:
       return "several_causes";
-    case Verdict::unknown_pattern:
+    case Verdict::model_discrepancy:
       return "unknown_pattern";
     case Verdict::noise_larger_than_stated:
       return "noise_larger_than_stated";
-    case Verdict::bad_points:
+    case Verdict::outliers:
       return "bad_points";
     case Verdict::nothing_found:
       break;
@@ -35,68 +34,81 @@ std::string_view name(Verdict verdict) {
 }
 
 std::string_view name(Observations observations) {
-  return observations == Observations::points ? "points" : "distances";
+  switch (observations) {
+    case Observations::points:
+      return "points";
+    case Observations::distances:
+      return "distances";
+    case Observations::both:
+      break;
+  }
+  return "readings";
 }
 
 namespace {
 
-tl::expected<Diagnosis, DiagnosisFailure> diagnose(
-    const tl::expected<Session, DiagnosisFailure>& session, const DiagnosisOptions& options) {
-  if (!session) return tl::unexpected(session.error());
-  if (const auto slip = suspected_slip(*session)) return tl::unexpected(*slip);
-  auto analysis = analyse(*session, options);
-  if (!analysis) return tl::unexpected(analysis.error());
-  Diagnosis d;
-  if (options.stability) d.stability = examine_stability(*session, *analysis, options);
-  if (auto refused = refuse_name_of_one_reading(*session, options, d.stability, *analysis)) {
-    d.notes.push_back(std::move(*refused));
-    d.stability.reset();
+Observations observations_of(const Session& session) {
+  if (!session.has_distances()) return Observations::points;
+  return session.reads_chains() ? Observations::both : Observations::distances;
+}
+
+/// What was stated of the noise and of the files.
+void state_input(const Measured& measured, Diagnosis& d) {
+  d.grid_name = measured.name;
+  for (const MeasuredGrid& grid : measured.grids) {
+    if (!d.stated_noise) d.stated_noise = grid.noise;
   }
-  d.observations = session->distances ? Observations::distances : Observations::points;
-  d.seed = options.seed;
-  d.verdict = analysis->decision.verdict;
-  d.noise_factor = std::sqrt(analysis->estimate.noise_square);
-  d.family_wise_p = analysis->family_wise_p;
-  d.causes = causes_found(*session, *analysis, options.order_assumed);
-  d.hypotheses = hypotheses(*analysis);
-  d.terms = terms(*session, options, *analysis);
-  d.not_testable = analysis->candidates.not_testable;
-  d.bounds = bounds(*session, *analysis, d.not_testable);
-  d.settings = settings_found(*session, *analysis);
-  d.bad_points = outliers_found(*session, *analysis);
-  d.separations = separations(*analysis);
-  d.points = pictures(*session, *analysis);
-  d.holes = hole_pictures(*session, *analysis);
-  d.distances = distance_pictures(*session, *analysis);
-  d.left_over = left_over(*session, *analysis, options.seed);
-  d.normal_plot = normal_plot(*session, *analysis, options.seed);
-  if (options.gain) d.gain = measure_gain(*session, *analysis, options);
-  extend(*session, *analysis, options.accept_class, d);
-  if (options.next_measurements) d.next_measurements = next_measurements(*session, *analysis);
-  put_into_words(*session, d);
-  return d;
-}
-
-}  // namespace
-
-tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredGrid& grid,
-                                                   const DiagnosisOptions& options) {
-  return diagnose(make_session(grid), options);
-}
-
-tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredHoles& set,
-                                                   const DiagnosisOptions& options) {
-  auto found = diagnose(make_session(set), options);
-  if (!found) return found;
-  found->grid_name = set.name;
-  if (set.machine->controller.kind == model::ControllerKind::ideal) {
-    found->notes.emplace_back(
+  if (measured.holes.empty()) return;
+  const MeasuredHoles& set = measured.holes.front();
+  if (set.machine && set.machine->controller.kind == model::ControllerKind::ideal) {
+    d.notes.emplace_back(
         "The controller is stated as ideal: it believes the machine that its file states. These "
         "holes were cut believing the machine as it is stated now; fit them on that, and use the "
         "extended machine for what is cut with it.");
   }
-  found->stated_tape = StatedTape{set.tape.sigma_mm, set.hole_sigma_mm, set.noise_dof};
-  return found;
+  d.stated_tape = StatedTape{set.tape.sigma_mm, set.hole_sigma_mm, set.noise_dof};
+}
+
+}  // namespace
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
+                                                   const DiagnosisOptions& options) {
+  auto session = make_session(measured);
+  if (!session) return tl::unexpected(session.error());
+  if (const auto slip = suspected_slip(*session)) return tl::unexpected(*slip);
+  auto analysis = analyse(*std::move(session), options);
+  if (!analysis) return tl::unexpected(analysis.error());
+  Analysis& a = *analysis;
+  Diagnosis d;
+  d.observations = observations_of(a.session);
+  if (options.stability) d.stability = examine_stability(a);
+  if (auto refused = refuse_name_of_one_reading(d.stability, a)) {
+    d.notes.push_back(std::move(*refused));
+    d.stability.reset();
+  }
+  d.seed = options.seed;
+  d.verdict = a.decision.verdict;
+  d.noise_factor = std::sqrt(a.estimate.noise_square);
+  d.family_wise_p = a.family_wise_p;
+  d.causes = causes_found(a);
+  d.hypotheses = hypotheses(a);
+  d.terms = terms(a);
+  d.not_testable = a.candidates.not_testable;
+  d.bounds = bounds(a, d.not_testable);
+  d.settings = settings_found(a);
+  d.outliers = outliers_found(a);
+  d.separations = separations(a);
+  d.points = point_pictures(a);
+  d.holes = hole_pictures(a);
+  d.distances = distance_pictures(a);
+  d.left_over = left_over(a);
+  d.normal_plot = normal_plot(a);
+  if (options.gain) d.gain = measure_gain(a);
+  extend(a, d);
+  if (options.next_measurements) d.next_measurements = next_measurements(a);
+  put_into_words(a, d);
+  state_input(measured, d);
+  return d;
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -5,16 +5,13 @@
 /// Three statements are kept apart throughout: a cause is present (causes), it was looked for and
 /// is smaller than a bound (bounds), or these data cannot show it (not_testable).
 ///
-///   delta  length of an effect's whitened signature after the settings have taken their share: its
-///          strength in units of noise
+///   signal_to_noise  length of an effect's whitened signature after the settings have taken their
+///                    share: its strength in units of noise; "delta" in files
+///   collinearity     |cosine| of two such signatures; "rho" in files
 ///
-/// What was measured may be a grid, or holes with a tape's distances between them: the same answer
-/// of the same engine, whose points are then distances.
-///
-/// \code
-///   const auto answer = diagnose(grid);
-///   if (answer) fmt::print("{}\n", answer->sentence);
-/// \endcode
+/// What was measured may be points, distances between holes, or both (diagnose.hpp makes the
+/// answer; pictures.hpp what is drawn of it). Indices count the points, the holes and the distances
+/// of all files in their order.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,37 +20,30 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/holes/measured_holes.hpp"
+#include "grid/diagnosis/cause_id.hpp"
+#include "grid/diagnosis/pictures.hpp"
 #include "grid/measured_grid.hpp"
 #include "model/calibration/setting.hpp"
-#include "model/effects/effect.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 enum class Verdict {
-  named,           ///< one cause, or one class that no data of this kind can separate
-  named_set,       ///< one cause, but these data leave two or more
-  several_causes,  ///< two or more act together
-  unknown_pattern,
+  named,              ///< one cause, or one class that no data of this kind can separate
+  named_set,          ///< one cause, but these data leave two or more
+  several_causes,     ///< two or more act together
+  model_discrepancy,  ///< "unknown_pattern" in words
   noise_larger_than_stated,
-  bad_points,
+  outliers,  ///< "bad_points" in words
   nothing_found,
 };
 [[nodiscard]] std::string_view name(Verdict verdict);
 
-/// What was read: chains at points, or a tape between holes.
-enum class Observations { points, distances };
+/// What was read: chains at points, a tape between holes, or both.
+enum class Observations { points, distances, both };
+/// "points", "distances", "readings".
 [[nodiscard]] std::string_view name(Observations observations);
-
-/// An effect of the catalogue at a side.
-struct CauseId {
-  const model::effects::Effect* effect = nullptr;
-  model::effects::EffectSide side = model::effects::EffectSide::none;
-  friend bool operator==(const CauseId&, const CauseId&) = default;
-};
 
 struct ParameterEstimate {
   std::string parameter;
@@ -70,13 +60,13 @@ struct SameCause {
 struct Cause {
   CauseId cause;
   double probability = 0.0;
-  double delta = 0.0;
+  double signal_to_noise = 0.0;
   double share_left = 0.0;  ///< of its signature, after the settings have taken theirs
   std::vector<ParameterEstimate> parameters;
   std::vector<SameCause> same_as;
   /// The effect that these data tell from it least, |cosine| of the two.
   std::optional<CauseId> rival;
-  double rival_rho = 0.0;
+  double rival_collinearity = 0.0;
   /// It needs the visiting order, which nobody measured.
   bool order_assumed = false;
 };
@@ -90,7 +80,7 @@ struct Hypothesis {
 
 /// What is left once the causes named are in the model.
 struct LeftOver {
-  double delta = 0.0;
+  double signal_to_noise = 0.0;
   /// The coordinate it follows best: angle_left, length_right, tension_left, order, x, y, ...;
   /// empty where nothing stands out.
   std::string follows;
@@ -100,7 +90,8 @@ struct LeftOver {
 };
 
 struct Outlier {
-  std::size_t index = 0;  ///< into the grid's points, or the holes' distances
+  Observations of = Observations::points;  ///< points or distances
+  std::size_t index = 0;
   /// Where the tool would have to have been, less where the mark is.
   Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
   double distance = 0.0;  ///< in sigmas
@@ -182,56 +173,6 @@ struct NextMeasurement {
   std::vector<std::string> to{};
 };
 
-/// A point of the grid in the pictures: shifts of the tool [mm], measured less predicted.
-struct PointPicture {
-  std::size_t index = 0;
-  model::BedPoint mark;
-  std::optional<int> order;
-  bool bad = false;
-  Eigen::Vector2d before_mm;       ///< of the calibrated machine
-  Eigen::Vector2d after_mm;        ///< with the causes named
-  Eigen::Vector2d noise_sigma_mm;  ///< one sigma of the tool, along x and y
-  /// Chain residuals [mm], measured less predicted.
-  Eigen::Vector2d chain_before_mm;
-  Eigen::Vector2d chain_after_mm;
-  /// The strip: chains' residuals that the best cause and its rival explain, settings refitted.
-  Eigen::Vector2d best_mm = Eigen::Vector2d::Zero();
-  Eigen::Vector2d rival_mm = Eigen::Vector2d::Zero();
-  model::ChainLengths lengths;
-  double angle_left_rad = 0.0;
-  double angle_right_rad = 0.0;
-  double tension_left_n = 0.0;
-  double tension_right_n = 0.0;
-  /// +1 where the chain was paid out to get here, -1 where it was taken in; 0 without an order.
-  int direction_left = 0;
-  int direction_right = 0;
-};
-
-/// A hole in the pictures, where the calibrated machine puts it.
-struct HolePicture {
-  std::string name;
-  model::BedPoint commanded;
-  model::BedPoint mark;
-};
-
-/// A distance in the pictures: residuals are read less predicted [mm], the holes where the machine
-/// puts them.
-struct DistancePicture {
-  std::size_t index = 0;  ///< into the set's distances
-  std::string from;       ///< a hole's name
-  std::string to;         ///< a hole's name, or an edge: left, right, top, bottom
-  bool bad = false;
-  double read_mm = 0.0;  ///< without the hook
-  double before_mm = 0.0;
-  double after_mm = 0.0;
-  double noise_sigma_mm = 0.0;  ///< of the tape and of the holes at its ends
-  double best_mm = 0.0;         ///< what the best cause explains, settings refitted
-  double rival_mm = 0.0;
-};
-
-/// "A-B", "A to the top edge".
-[[nodiscard]] std::string words_of_ends(const DistancePicture& distance);
-
 /// The noise of holes and a tape, as stated.
 struct StatedTape {
   double tape_sigma_mm = 0.0;
@@ -245,7 +186,7 @@ struct Term {
   std::string parameter;  ///< the size; where there are two, their amplitude
   double value = 0.0;     ///< if it acted alone
   double sigma = 0.0;
-  double delta = 0.0;
+  double signal_to_noise = 0.0;
   double share_left = 0.0;
   double p_value = 1.0;  ///< family-wise: chance that noise alone lets any effect look as strong
   double probability = 0.0;
@@ -255,8 +196,9 @@ struct Term {
 struct Separation {
   CauseId first;
   CauseId second;
-  double rho = 0.0;
-  double delta_needed = 0.0;  ///< strength at which 95 of 100 are told apart; infinity: none
+  double collinearity = 0.0;
+  /// Strength at which 95 of 100 are told apart; infinity: none.
+  double signal_to_noise_needed = 0.0;
 };
 
 /// How well a model, calibrated elsewhere, predicts another grid: nothing is fitted but, where the
@@ -271,12 +213,13 @@ struct Transfer {
   double noise_floor_mm = 0.0;
 };
 
-/// What the verdict would be without a point, or without a whole column or row of marks.
+/// What the verdict would be without a point, a whole column or row of marks, a distance, or a hole
+/// with all distances that end there.
 struct Removal {
-  enum class What { point, column, row } what = What::point;
-  std::size_t index = 0;  ///< of a point: into the grid's points
+  enum class What { point, column, row, distance, hole } what = What::point;
+  std::size_t index = 0;  ///< of a point, a distance or a hole
   double at_mm = 0.0;     ///< of a column its x, of a row its y
-  std::size_t points = 1;
+  std::size_t points = 1;  ///< or distances, that go
   Verdict verdict = Verdict::nothing_found;
   std::vector<CauseId> causes;  ///< that would be named
   /// What all points name is named without these too.
@@ -313,7 +256,7 @@ struct Diagnosis {
   std::vector<Cause> causes;
   std::vector<Hypothesis> hypotheses;
   LeftOver left_over;
-  std::vector<Outlier> bad_points;
+  std::vector<Outlier> outliers;
   std::vector<NotTestable> not_testable;
   std::vector<Bound> bounds;
   std::vector<CalibratedSetting> settings;
@@ -343,50 +286,5 @@ struct Diagnosis {
   /// Another grid predicted; empty where none was asked for.
   std::optional<Transfer> transferred;
 };
-
-/// Steps that can be left out to see what they are worth. All on but for such experiments.
-struct Steps {
-  bool project_settings = true;  ///< off: settings stay as calibrated while effects are scored
-  bool whiten = true;            ///< off: all chain lengths alike, no position noise
-  bool anchor_noise = true;      ///< off: the noise is whatever the best fit leaves
-  bool average_location = true;  ///< off: the best location counts in full
-  bool robust = true;            ///< off: no point is set aside
-};
-
-struct DiagnosisOptions {
-  std::uint64_t seed = 1;
-  bool gain = true;  ///< held-out errors, naming repeated in each fold
-  bool next_measurements = true;
-  bool stability = true;       ///< the naming without each point, column and row of marks
-  bool order_assumed = false;  ///< the points' order was assumed by somebody, not measured
-  /// Chain or paper, which no points tell apart: the person has it that it is the chain.
-  bool accept_class = false;
-  /// Nothing but this cause is looked for: what somebody who knew it would find.
-  std::optional<CauseId> told;
-  Steps steps;
-};
-
-struct DiagnosisFailure {
-  enum class Reason {
-    no_machine,
-    no_lengths,
-    too_few_points,  ///< or distances
-    no_noise,        ///< neither stated nor in repeats
-    point_unreachable,
-    contradictory_settings,  ///< the machine and the grid's readings of it cannot both be
-  } reason;
-  std::string sentence;
-};
-
-[[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
-    const MeasuredGrid& grid, const DiagnosisOptions& options = {});
-
-/// Distances between holes. An order of visits is unknown: `order_assumed` is not used.
-[[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
-    const MeasuredHoles& set, const DiagnosisOptions& options = {});
-
-[[nodiscard]] tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
-                                                                const Diagnosis& diagnosis,
-                                                                const MeasuredGrid& to);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -9,18 +9,17 @@ namespace {
 double bell(double square) { return std::exp(-0.5 * square); }
 
 /// Density of a half-Cauchy over the logarithm of the strength, but for a constant.
-double cauchy_weight(double delta) {
-  constexpr double kScale = 10.0;
-  return delta / (1.0 + std::pow(delta / kScale, 2));
+double cauchy_weight(double strength) {
+  return strength / (1.0 + std::pow(strength / kDiscrepancyScale, 2));
 }
 
 }  // namespace
 
 double log_share_of_discrepancy(int index) {
   double sum = 0.0;
-  for (const double delta : kDiscrepancyStrengths) sum += cauchy_weight(delta);
-  const auto deltas = static_cast<int>(std::size(kDiscrepancyStrengths));
-  return std::log(cauchy_weight(kDiscrepancyStrengths[index % deltas]) / sum) -
+  for (const double strength : kDiscrepancyStrengths) sum += cauchy_weight(strength);
+  const auto strengths = static_cast<int>(std::size(kDiscrepancyStrengths));
+  return std::log(cauchy_weight(kDiscrepancyStrengths[index % strengths]) / sum) -
          std::log(static_cast<double>(std::size(kDiscrepancyKernels)));
 }
 
@@ -33,52 +32,41 @@ Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
   return 0.5 * (bell(dx) + bell(dy)) * a.by_mark * b.by_mark.transpose();
 }
 
-Eigen::Matrix2d discrepancy_between(const Session& session,
-                                    const LinearisedSystem& system,
+Eigen::Matrix2d discrepancy_between(const LinearisedSystem& system,
                                     const DiscrepancyKernel& kernel,
-                                    const Unit& a,
-                                    const Unit& b) {
+                                    const SystemUnit& a,
+                                    const SystemUnit& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  for (const SeenPlace& i : a) {
-    for (const SeenPlace& j : b) {
+  for (const SeenPlace& i : a.places) {
+    for (const SeenPlace& j : b.places) {
       sum += i.by_chain *
              discrepancy_block(kernel,
-                               discrepancy_place(session, system, i.place),
-                               discrepancy_place(session, system, j.place)) *
+                               discrepancy_place(system.places[i.place]),
+                               discrepancy_place(system.places[j.place])) *
              j.by_chain.transpose();
     }
   }
   return sum;
 }
 
-DiscrepancyPlace discrepancy_place(const Session& session,
-                                   const LinearisedSystem& system,
-                                   std::size_t i) {
-  return {session.points[i].mark, system.points[i].by_mark};
-}
+DiscrepancyPlace discrepancy_place(const SystemPlace& place) { return {place.mark, place.by_mark}; }
 
-Eigen::MatrixXd discrepancy_covariance(const Session& session,
-                                       const LinearisedSystem& system,
+Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& system,
                                        const std::vector<Eigen::Index>& kept,
                                        const DiscrepancyKernel& kernel) {
-  // Rows stand in units, first of all; readings of the machine come after them.
-  const Eigen::Index size = system.unit_rows;
-  std::vector<std::size_t> units;
-  for (const Eigen::Index row : kept) {
-    if (row < session.observed_rows() && row % size == 0) {
-      units.push_back(static_cast<std::size_t>(row / size));
-    }
-  }
+  const auto units = units_in(system, kept);
   const auto n = static_cast<Eigen::Index>(kept.size());
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t a = 0; a < units.size(); ++a) {
+    const SystemUnit& own = system.units[units[a].second];
     for (std::size_t b = 0; b <= a; ++b) {
-      const Eigen::Matrix2d block = discrepancy_between(
-          session, system, kernel, system.units[units[a]], system.units[units[b]]);
-      const auto row = size * static_cast<Eigen::Index>(a);
-      const auto column = size * static_cast<Eigen::Index>(b);
-      c.block(row, column, size, size) = block.topLeftCorner(size, size);
-      c.block(column, row, size, size) = block.transpose().topLeftCorner(size, size);
+      const SystemUnit& other = system.units[units[b].second];
+      const Eigen::Matrix2d block = discrepancy_between(system, kernel, own, other);
+      const Eigen::Index row = units[a].first;
+      const Eigen::Index column = units[b].first;
+      c.block(row, column, own.rows, other.rows) = block.topLeftCorner(own.rows, other.rows);
+      c.block(column, row, other.rows, own.rows) =
+          block.transpose().topLeftCorner(other.rows, own.rows);
     }
   }
   return c;

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/linearised_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -31,8 +32,6 @@ inline constexpr DiscrepancyKernel kDiscrepancyKernels[] = {
     {DiscrepancyKind::chains, 800.0},
     {DiscrepancyKind::along_axes, 180.0},
 };
-/// Strengths at which each kernel is tried, in units of noise.
-inline constexpr double kDiscrepancyStrengths[] = {4.0, 6.5, 10.0, 16.0, 25.0, 60.0};
 inline constexpr int kDiscrepancies =
     static_cast<int>(std::size(kDiscrepancyKernels) * std::size(kDiscrepancyStrengths));
 
@@ -56,20 +55,16 @@ struct DiscrepancyPlace {
                                                 const DiscrepancyPlace& a,
                                                 const DiscrepancyPlace& b);
 
-[[nodiscard]] DiscrepancyPlace discrepancy_place(const Session& session,
-                                                 const LinearisedSystem& system,
-                                                 std::size_t i);
+[[nodiscard]] DiscrepancyPlace discrepancy_place(const SystemPlace& place);
 
-/// Covariance of two units' whitened rows, for s = 1; of units of one row the first number.
-[[nodiscard]] Eigen::Matrix2d discrepancy_between(const Session& session,
-                                                  const LinearisedSystem& system,
+/// Covariance of two units' whitened rows, for s = 1; of units of one row the first line, or column.
+[[nodiscard]] Eigen::Matrix2d discrepancy_between(const LinearisedSystem& system,
                                                   const DiscrepancyKernel& kernel,
-                                                  const Unit& a,
-                                                  const Unit& b);
+                                                  const SystemUnit& a,
+                                                  const SystemUnit& b);
 
 /// Covariance of these whitened rows, for s = 1.
-[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const Session& session,
-                                                     const LinearisedSystem& system,
+[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& system,
                                                      const std::vector<Eigen::Index>& kept,
                                                      const DiscrepancyKernel& kernel);
 

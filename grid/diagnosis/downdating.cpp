@@ -66,23 +66,25 @@ std::map<FactorisationKey, std::vector<CandidateModel>> followed(
   return result;
 }
 
-/// Rows of these points in a marginalised system.
-std::vector<Eigen::Index> rows_of(const MarginalisedSystem& marginalised,
-                                  const std::vector<std::size_t>& points) {
+/// Rows of these units in a marginalised system.
+std::vector<Eigen::Index> rows_of(const LinearisedSystem& system,
+                                  const MarginalisedSystem& marginalised,
+                                  const std::vector<std::size_t>& units) {
   std::vector<Eigen::Index> result;
-  for (const std::size_t point : points) {
-    const auto row = 2 * static_cast<Eigen::Index>(point);
-    const auto at = std::lower_bound(marginalised.kept.begin(), marginalised.kept.end(), row);
-    if (at == marginalised.kept.end() || *at != row) continue;
+  for (const std::size_t number : units) {
+    const SystemUnit& unit = system.units[number];
+    const auto at =
+        std::lower_bound(marginalised.kept.begin(), marginalised.kept.end(), unit.first_row);
+    if (at == marginalised.kept.end() || *at != unit.first_row) continue;
     const auto first = static_cast<Eigen::Index>(at - marginalised.kept.begin());
-    result.insert(result.end(), {first, first + 1});
+    for (Eigen::Index k = 0; k < unit.rows; ++k) result.push_back(first + k);
   }
   return result;
 }
 
-std::vector<bool> with_points_out(std::vector<bool> outliers,
-                                  const std::vector<std::size_t>& points) {
-  for (const std::size_t point : points) outliers[point] = true;
+std::vector<bool> with_units_out(std::vector<bool> outliers,
+                                 const std::vector<std::size_t>& units) {
+  for (const std::size_t unit : units) outliers[unit] = true;
   return outliers;
 }
 
@@ -100,12 +102,9 @@ std::size_t home_of(ModelComparison& comparison, std::vector<bool> outliers) {
 
 }  // namespace
 
-Downdating::Downdating(const Session& session,
-                       const Analysis& analysis,
-                       const DiagnosisOptions& options)
-    : session_(session),
-      a_(analysis),
-      dof_(options.steps.anchor_noise ? session.noise_dof : 1e-3),
+Downdating::Downdating(const Analysis& analysis)
+    : a_(analysis),
+      dof_(analysis.options.steps.anchor_noise ? analysis.session.noise_dof : 1e-3),
       score_(analysis.system,
              analysis.comparison.marginalised_systems[analysis.comparison.best().marginalised],
              dof_) {
@@ -137,7 +136,7 @@ void Downdating::add_factorisation(std::size_t number,
   if (discrepancy >= 0) {
     const Discrepancy process = discrepancy_of(marginalised, discrepancy);
     Eigen::MatrixXd k =
-        discrepancy_covariance(session_, a_.system, marginalised.kept, process.kernel);
+        discrepancy_covariance(a_.system, marginalised.kept, process.kernel);
     lower.solveInPlace(k);
     k = lower.solve(k.transpose()).eval() * (process.sigma_mm * process.sigma_mm);
     k.diagonal().array() += 1.0;
@@ -180,25 +179,22 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
   return equations;
 }
 
-Downdating::Without Downdating::without(const std::vector<std::size_t>& points) const {
-  const double price = log_price_of_outlier(a_.system);
+Downdating::Without Downdating::without(const std::vector<std::size_t>& units) const {
   Without result;
   ModelComparison& comparison = result.comparison;
   std::set<std::tuple<std::size_t, int, std::vector<int>>> known;
   std::vector<std::pair<double, std::size_t>> strongest;  // score, by marginalised system
   for (const Factorisation& factorised : factorisations_) {
     const MarginalisedSystem& whole = a_.comparison.marginalised_systems[factorised.marginalised];
-    const auto out = rows_of(whole, points);
+    const auto out = rows_of(a_.system, whole, units);
     const NormalEquations equations = downdated_equations(factorised, out);
     const Eigen::Index rows = factorised.inverse.rows() - static_cast<Eigen::Index>(out.size());
     const NoiseDensity noise(dof_, rows);
     // Marginalised systems that differ in the points left out alone are one.
-    const std::size_t home = home_of(comparison, with_points_out(whole.outliers, points));
-    const auto outliers =
-        static_cast<double>(std::count(whole.outliers.begin(), whole.outliers.end(), true) -
-                            std::count_if(points.begin(), points.end(), [&](std::size_t i) {
-                              return whole.outliers[i];
-                            }));
+    const std::size_t home = home_of(comparison, with_units_out(whole.outliers, units));
+    std::vector<bool> outliers = whole.outliers;
+    for (const std::size_t unit : units) outliers[unit] = false;
+    const double price = log_price_of_outliers(a_.system, outliers);
     for (std::size_t k = 0; k < factorised.models.size(); ++k) {
       const CandidateModel& model = factorised.models[k];
       if (!known.emplace(home, factorised.discrepancy, model.regressors).second) continue;
@@ -208,7 +204,7 @@ Downdating::Without Downdating::without(const std::vector<std::size_t>& points) 
       comparison.models.push_back({model.regressors,
                                    factorised.discrepancy,
                                    home,
-                                   factorised.prior[k] + evidence.log_evidence + outliers * price,
+                                   factorised.prior[k] + evidence.log_evidence + price,
                                    noise.larger_share(evidence.quadratic),
                                    evidence.quadratic});
     }

@@ -28,8 +28,8 @@ namespace chaintrue::grid::diagnosis {
 
 class Downdating {
  public:
-  /// Both arguments are kept by reference.
-  Downdating(const Session& session, const Analysis& analysis, const DiagnosisOptions& options);
+  /// The analysis is kept by reference.
+  explicit Downdating(const Analysis& analysis);
 
   struct Without {
     /// Best first; its marginalised systems bear the points set aside, those left out among them,
@@ -38,8 +38,8 @@ class Downdating {
     /// The strongest effect is still beyond what noise does.
     bool seen = false;
   };
-  /// Points are positions in the session.
-  [[nodiscard]] Without without(const std::vector<std::size_t>& points) const;
+  /// Units are positions in the session.
+  [[nodiscard]] Without without(const std::vector<std::size_t>& units) const;
 
  private:
   /// One marginalised system with one discrepancy or none.
@@ -61,7 +61,6 @@ class Downdating {
   [[nodiscard]] static NormalEquations downdated_equations(const Factorisation& factorised,
                                                            const std::vector<Eigen::Index>& out);
 
-  const Session& session_;
   const Analysis& a_;
   double dof_;
   SingleScore score_;

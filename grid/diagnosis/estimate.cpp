@@ -44,8 +44,7 @@ Solution solve(const Unknowns& unknowns,
 
 }  // namespace
 
-Estimate estimate(const Session& session,
-                  const LinearisedSystem& system,
+Estimate estimate(const LinearisedSystem& system,
                   const MarginalisedSystem& marginalised,
                   const std::vector<int>& regressors,
                   int discrepancy) {
@@ -68,7 +67,7 @@ Estimate estimate(const Session& session,
   if (discrepancy >= 0) {
     process = discrepancy_of(marginalised, discrepancy);
     Eigen::MatrixXd c = process.sigma_mm * process.sigma_mm *
-                        discrepancy_covariance(session, system, marginalised.kept, process.kernel);
+                        discrepancy_covariance(system, marginalised.kept, process.kernel);
     c.diagonal().array() += 1.0;
     noise.compute(c);
   }
@@ -87,7 +86,7 @@ Estimate estimate(const Session& session,
       const int column = regressors[result.free[static_cast<std::size_t>(k)]];
       unknowns.design.col(settings + k) = system.g(marginalised.kept, column);
       unknowns.sigma(settings + k) =
-          kWideDelta / std::max(marginalised.g.col(column).norm(), 1e-12);
+          kWideSignalToNoise / std::max(marginalised.g.col(column).norm(), 1e-12);
     }
     solution = solve(unknowns, data(marginalised.kept), discrepancy >= 0 ? &noise : nullptr);
     std::size_t outside = result.free.size();
@@ -121,11 +120,11 @@ Estimate estimate(const Session& session,
     result.discrepancy = process;
     result.discrepancy_weights = noise.solve(kept);
     quadratic = kept.dot(result.discrepancy_weights);
-    result.left_beside_discrepancy -= discrepancy_in_rows(session, system, marginalised, result);
+    result.left_beside_discrepancy -= discrepancy_in_rows(system, marginalised, result);
   }
   const Eigen::VectorXd off =
       (result.setting_change - system.expected_change).cwiseQuotient(system.sigma);
-  const NoiseDensity density(session.noise_dof,
+  const NoiseDensity density(system.noise_dof,
                              static_cast<Eigen::Index>(marginalised.kept.size()));
   result.noise_square = density.noise_square(quadratic + off.squaredNorm());
   result.covariance = solution.covariance * result.noise_square;
@@ -145,41 +144,37 @@ Estimate estimate(const Session& session,
   return result;
 }
 
-Eigen::Vector2d discrepancy_at(const Session& session,
-                               const LinearisedSystem& system,
+Eigen::Vector2d discrepancy_at(const LinearisedSystem& system,
                                const MarginalisedSystem& marginalised,
                                const Estimate& estimate,
                                const DiscrepancyPlace& place) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
-  const Eigen::Index size = system.unit_rows;
-  for (Eigen::Index a = 0; a + size <= estimate.discrepancy_weights.size(); a += size) {
-    const Eigen::Index row = marginalised.kept[static_cast<std::size_t>(a)];
-    if (row >= session.observed_rows()) break;
-    const auto weights = estimate.discrepancy_weights.segment(a, size);
-    for (const SeenPlace& seen : system.units[static_cast<std::size_t>(row / size)]) {
-      mm +=
-          discrepancy_block(
-              estimate.discrepancy.kernel, place, discrepancy_place(session, system, seen.place)) *
-          seen.by_chain.topRows(size).transpose() * weights;
+  if (estimate.discrepancy_weights.size() == 0) return mm;
+  for (const auto& [at, number] : units_in(system, marginalised.kept)) {
+    const SystemUnit& unit = system.units[number];
+    const auto weights = estimate.discrepancy_weights.segment(at, unit.rows);
+    for (const SeenPlace& seen : unit.places) {
+      mm += discrepancy_block(estimate.discrepancy.kernel,
+                              place,
+                              discrepancy_place(system.places[seen.place])) *
+            seen.by_chain.topRows(unit.rows).transpose() * weights;
     }
   }
   return estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm * mm;
 }
 
-Eigen::VectorXd discrepancy_in_rows(const Session& session,
-                                    const LinearisedSystem& system,
+Eigen::VectorXd discrepancy_in_rows(const LinearisedSystem& system,
                                     const MarginalisedSystem& marginalised,
                                     const Estimate& estimate) {
   std::vector<Eigen::Vector2d> chains;
-  for (std::size_t i = 0; i < system.points.size(); ++i) {
-    chains.push_back(discrepancy_at(
-        session, system, marginalised, estimate, discrepancy_place(session, system, i)));
+  for (const SystemPlace& place : system.places) {
+    chains.push_back(discrepancy_at(system, marginalised, estimate, discrepancy_place(place)));
   }
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(session.rows());
-  for (std::size_t u = 0; u < system.units.size(); ++u) {
-    for (const SeenPlace& seen : system.units[u]) {
-      all.segment(system.unit_rows * static_cast<Eigen::Index>(u), system.unit_rows) +=
-          (seen.by_chain * chains[seen.place]).head(system.unit_rows);
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(system.e.size());
+  for (const SystemUnit& unit : system.units) {
+    for (const SeenPlace& seen : unit.places) {
+      all.segment(unit.first_row, unit.rows) +=
+          (seen.by_chain * chains[seen.place]).head(unit.rows);
     }
   }
   return all;
@@ -192,40 +187,31 @@ Eigen::VectorXd left_of_machine(const LinearisedSystem& system,
   return left + nuisance_columns(system) * estimate.setting_change.tail(system.nuisances);
 }
 
-std::vector<Eigen::Vector2d> chain_residuals(const LinearisedSystem& system,
-                                             const Eigen::VectorXd& whitened) {
-  std::vector<Eigen::Vector2d> result;
-  for (std::size_t i = 0; i < system.points.size(); ++i) {
-    result.emplace_back(system.points[i].whitening.inverse() *
-                        whitened.segment<2>(2 * static_cast<Eigen::Index>(i)));
-  }
-  return result;
-}
-
 Eigen::Vector2d error_of_unit(const LinearisedSystem& system,
                               const Eigen::VectorXd& whitened,
                               std::size_t unit) {
-  const auto at = static_cast<Eigen::Index>(unit);
-  if (system.unit_rows == 1) return {whitened(at) * system.row_sigma_mm(at), 0.0};
-  const PointState& state = system.points[unit];
-  const Eigen::Vector2d chain = state.whitening.inverse() * whitened.segment<2>(2 * at);
-  return tool_shift(state, chain);
+  const SystemUnit& own = system.units[unit];
+  const Eigen::Vector2d mm = own.unwhitened(whitened);
+  return own.reads_chains ? tool_shift(system.places[own.places.front().place], mm) : mm;
 }
 
-double noise_of_unit_mm2(const Session& session, const LinearisedSystem& system, std::size_t unit) {
-  const auto at = static_cast<Eigen::Index>(unit);
-  if (system.unit_rows == 1) {
+Eigen::Matrix2d noise_of_unit_mm2(const LinearisedSystem& system, std::size_t unit) {
+  const SystemUnit& own = system.units[unit];
+  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();
+  if (!own.reads_chains) {
     const Eigen::RowVectorXd nuisance =
-        nuisance_columns(system).row(at) * system.sigma.tail(system.nuisances).asDiagonal();
-    return std::pow(system.row_sigma_mm(at), 2) * (1.0 + nuisance.squaredNorm());
+        nuisance_columns(system).row(own.first_row) *
+        system.sigma.tail(system.nuisances).asDiagonal();
+    noise(0, 0) = std::pow(own.sigma, 2) * (1.0 + nuisance.squaredNorm());
+    return noise;
   }
-  const Eigen::Matrix2d inverse = system.points[unit].by_mark.inverse();
-  return 2.0 * std::pow(session.noise.position_mm, 2) +
-         (inverse * inverse.transpose()).trace() * std::pow(session.noise.length_mm, 2);
+  const Eigen::Matrix2d to_tool =
+      system.places[own.places.front().place].by_mark.inverse() * own.whitening.inverse();
+  return to_tool * to_tool.transpose();
 }
 
-Eigen::Vector2d tool_shift(const PointState& point, const Eigen::Vector2d& chain_mm) {
-  return point.by_mark.inverse() * chain_mm;
+Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm) {
+  return place.by_mark.inverse() * chain_mm;
 }
 
 }  // namespace chaintrue::grid::diagnosis

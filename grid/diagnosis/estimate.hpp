@@ -30,23 +30,20 @@ struct Estimate {
 
 /// `regressors` and `discrepancy` as the model has them. A coefficient that would leave its bounds
 /// stays at the bound.
-[[nodiscard]] Estimate estimate(const Session& session,
-                                const LinearisedSystem& system,
+[[nodiscard]] Estimate estimate(const LinearisedSystem& system,
                                 const MarginalisedSystem& marginalised,
                                 const std::vector<int>& regressors,
                                 int discrepancy);
 
 /// What the model discrepancy adds to either chain at a place [mm]; zero where the estimate has
 /// none.
-[[nodiscard]] Eigen::Vector2d discrepancy_at(const Session& session,
-                                             const LinearisedSystem& system,
+[[nodiscard]] Eigen::Vector2d discrepancy_at(const LinearisedSystem& system,
                                              const MarginalisedSystem& marginalised,
                                              const Estimate& estimate,
                                              const DiscrepancyPlace& place);
 
 /// The same in the whitened rows, all of them.
-[[nodiscard]] Eigen::VectorXd discrepancy_in_rows(const Session& session,
-                                                  const LinearisedSystem& system,
+[[nodiscard]] Eigen::VectorXd discrepancy_in_rows(const LinearisedSystem& system,
                                                   const MarginalisedSystem& marginalised,
                                                   const Estimate& estimate);
 
@@ -55,20 +52,15 @@ struct Estimate {
                                               const Estimate& estimate,
                                               const Eigen::VectorXd& left);
 
-/// What a person would see of a unit's whitened residual, mm: a shift of the tool; of a distance
-/// how much longer it was read, and nothing.
+/// What a person would see of a unit's whitened residual, mm: a shift of the tool where chains were
+/// read; of a distance how much longer it was read, and nothing.
 [[nodiscard]] Eigen::Vector2d error_of_unit(const LinearisedSystem& system,
                                             const Eigen::VectorXd& whitened,
                                             std::size_t unit);
-/// The mean square of that which noise as stated makes.
-[[nodiscard]] double noise_of_unit_mm2(const Session& session,
-                                       const LinearisedSystem& system,
-                                       std::size_t unit);
+/// The covariance of that which noise as stated makes.
+[[nodiscard]] Eigen::Matrix2d noise_of_unit_mm2(const LinearisedSystem& system, std::size_t unit);
 
-/// Residuals at the points in the chains [mm].
-[[nodiscard]] std::vector<Eigen::Vector2d> chain_residuals(const LinearisedSystem& system,
-                                                           const Eigen::VectorXd& whitened);
 /// A chain residual as a shift of the tool [mm]: where it truly was less where the model has it.
-[[nodiscard]] Eigen::Vector2d tool_shift(const PointState& point, const Eigen::Vector2d& chain_mm);
+[[nodiscard]] Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -27,10 +28,9 @@ double log_mass(double mean, double sigma, double low, double high) {
 
 /// L^-1 W K W' L^-T for a discrepancy of 1 mm.
 Eigen::MatrixXd reduced_discrepancy(const LinearisedSystem& system,
-                                    const Session& session,
                                     const MarginalisedSystem& marginalised,
                                     const DiscrepancyKernel& kernel) {
-  Eigen::MatrixXd c = discrepancy_covariance(session, system, marginalised.kept, kernel);
+  Eigen::MatrixXd c = discrepancy_covariance(system, marginalised.kept, kernel);
   const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
   c = lower.solve(c).eval();
   return lower.solve(c.transpose()).eval();
@@ -77,10 +77,18 @@ double NoiseDensity::noise_square(double quadratic) const {
   return sum;
 }
 
-double log_price_of_outlier(const LinearisedSystem& system) {
+double log_price_of_outlier(Eigen::Index rows) {
   return std::log(kOutlierPrior) -
-         0.5 * static_cast<double>(system.unit_rows) *
+         0.5 * static_cast<double>(rows) *
              std::log(2.0 * std::numbers::pi * kOutlierSpread * kOutlierSpread);
+}
+
+double log_price_of_outliers(const LinearisedSystem& system, const std::vector<bool>& outliers) {
+  std::array<double, 2> set_aside{};
+  for (std::size_t u = 0; u < outliers.size(); ++u) {
+    if (outliers[u]) set_aside[static_cast<std::size_t>(system.units[u].rows - 1)] += 1.0;
+  }
+  return set_aside[0] * log_price_of_outlier(1) + set_aside[1] * log_price_of_outlier(2);
 }
 
 MarginalisedSystem marginalise(const LinearisedSystem& system,
@@ -89,11 +97,10 @@ MarginalisedSystem marginalise(const LinearisedSystem& system,
   MarginalisedSystem marginalised;
   marginalised.outliers = outliers;
   for (Eigen::Index row = 0; row < system.e.size(); ++row) {
-    const auto unit = static_cast<std::size_t>(row / system.unit_rows);
-    if (unit >= outliers.size() || !outliers[unit]) marginalised.kept.push_back(row);
+    const int unit = system.unit_of_row[static_cast<std::size_t>(row)];
+    if (unit < 0 || !outliers[static_cast<std::size_t>(unit)]) marginalised.kept.push_back(row);
   }
-  const auto set_aside = static_cast<double>(std::count(outliers.begin(), outliers.end(), true));
-  marginalised.log_outliers = set_aside * log_price_of_outlier(system);
+  marginalised.log_outliers = log_price_of_outliers(system, outliers);
   const Eigen::MatrixXd a = system.by_setting(marginalised.kept, Eigen::all);
   Eigen::MatrixXd v = Eigen::MatrixXd::Identity(a.rows(), a.rows());
   if (steps.project_settings) {
@@ -161,7 +168,6 @@ NormalEquations normal_equations(const MarginalisedSystem& marginalised, std::ve
 
 std::vector<NormalEquations> normal_equations_beside_discrepancies(
     const LinearisedSystem& system,
-    const Session& session,
     MarginalisedSystem& marginalised,
     const std::vector<int>& columns) {
   std::vector<int> sorted = columns;
@@ -170,14 +176,14 @@ std::vector<NormalEquations> normal_equations_beside_discrepancies(
   marginalised.discrepancy_trace.clear();
   for (const DiscrepancyKernel& kernel : kDiscrepancyKernels) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        reduced_discrepancy(system, session, marginalised, kernel));
+        reduced_discrepancy(system, marginalised, kernel));
     const Eigen::ArrayXd values = eigen.eigenvalues().array().max(0.0);
     marginalised.discrepancy_trace.push_back(values.sum());
     const Eigen::VectorXd e = eigen.eigenvectors().transpose() * marginalised.e;
     const Eigen::MatrixXd g =
         eigen.eigenvectors().transpose() * marginalised.g(Eigen::all, sorted).eval();
-    for (const double delta : kDiscrepancyStrengths) {
-      const Eigen::ArrayXd variance = 1.0 + values * (delta * delta / values.sum());
+    for (const double strength : kDiscrepancyStrengths) {
+      const Eigen::ArrayXd variance = 1.0 + values * (strength * strength / values.sum());
       const Eigen::VectorXd weight = variance.inverse();
       NormalEquations equations;
       equations.columns = sorted;
@@ -192,20 +198,20 @@ std::vector<NormalEquations> normal_equations_beside_discrepancies(
 }
 
 Discrepancy discrepancy_of(const MarginalisedSystem& marginalised, int index) {
-  const auto deltas = static_cast<int>(std::size(kDiscrepancyStrengths));
-  const int kernel = index / deltas;
+  const auto strengths = static_cast<int>(std::size(kDiscrepancyStrengths));
+  const int kernel = index / strengths;
   const double trace = marginalised.discrepancy_trace.at(static_cast<std::size_t>(kernel));
-  return {kDiscrepancyKernels[kernel], kDiscrepancyStrengths[index % deltas] / std::sqrt(trace)};
+  return {kDiscrepancyKernels[kernel], kDiscrepancyStrengths[index % strengths] / std::sqrt(trace)};
 }
 
 namespace {
 
-/// Set evidence for one sigma of delta.
+/// Set evidence for one prior sigma of the signal-to-noise ratio.
 SetEvidence evidence_at(const NormalEquations& equations,
                         const std::vector<Regressor>& regressors,
                         std::span<const Eigen::Index> set,
                         const NoiseDensity& noise,
-                        double delta_sigma) {
+                        double prior_sigma) {
   SetEvidence result;
   std::vector<Eigen::Index> free;
   const auto regressor = [&](Eigen::Index i) -> const Regressor& {
@@ -238,15 +244,15 @@ SetEvidence evidence_at(const NormalEquations& equations,
       a(i, j) = a(j, i) =
           equations.gg(at, free[static_cast<std::size_t>(j)]) / (length(i) * length(j));
     }
-    a(i, i) += 1.0 / (delta_sigma * delta_sigma);
+    a(i, i) += 1.0 / (prior_sigma * prior_sigma);
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(a);
-  result.delta = llt.solve(c);
-  result.quadratic = std::max(q - c.dot(result.delta), 0.0);
-  result.delta_square = llt.solve(Eigen::MatrixXd::Identity(m, m)).diagonal();
+  result.signal_to_noise = llt.solve(c);
+  result.quadratic = std::max(q - c.dot(result.signal_to_noise), 0.0);
+  result.signal_to_noise_variance = llt.solve(Eigen::MatrixXd::Identity(m, m)).diagonal();
   const double half_log_det = Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
   result.log_evidence = noise.log_density(result.quadratic) - 0.5 * equations.log_det -
-                        half_log_det - static_cast<double>(m) * std::log(delta_sigma);
+                        half_log_det - static_cast<double>(m) * std::log(prior_sigma);
   const double s = std::sqrt(noise.noise_square(result.quadratic));
   for (Eigen::Index i = 0; i < m; ++i) {
     const Regressor& own = regressor(free[static_cast<std::size_t>(i)]);
@@ -254,16 +260,18 @@ SetEvidence evidence_at(const NormalEquations& equations,
     const double high = own.highest * length(i);
     // Further beyond what it may be than noise takes it, and not merely about null: the data ask
     // for something else.
-    const double slack = 2.0 * s * std::sqrt(result.delta_square(i));
+    const double slack = 2.0 * s * std::sqrt(result.signal_to_noise_variance(i));
     const double reach = own.refined ? 1.0 : 2.0;
-    if (result.delta(i) > reach * high + slack ||
-        (low < 0.0 && result.delta(i) < reach * low - slack)) {
+    if (result.signal_to_noise(i) > reach * high + slack ||
+        (low < 0.0 && result.signal_to_noise(i) < reach * low - slack)) {
       result.log_evidence = kMinusInfinity;
       return result;
     }
-    result.log_evidence +=
-        log_mass(result.delta(i), s * std::sqrt(result.delta_square(i)), low, high) -
-        log_mass(0.0, s * delta_sigma, low, high);
+    result.log_evidence += log_mass(result.signal_to_noise(i),
+                                    s * std::sqrt(result.signal_to_noise_variance(i)),
+                                    low,
+                                    high) -
+                           log_mass(0.0, s * prior_sigma, low, high);
   }
   return result;
 }
@@ -274,12 +282,12 @@ SetEvidence set_evidence(const NormalEquations& equations,
                          const std::vector<Regressor>& regressors,
                          std::span<const Eigen::Index> set,
                          const NoiseDensity& noise) {
-  SetEvidence wide = evidence_at(equations, regressors, set, noise, kWideDelta);
-  const bool all_fixed = wide.delta.size() == 0;
+  SetEvidence wide = evidence_at(equations, regressors, set, noise, kWideSignalToNoise);
+  const bool all_fixed = wide.signal_to_noise.size() == 0;
   if (all_fixed) return wide;
-  const SetEvidence usual = evidence_at(equations, regressors, set, noise, kUsualDelta);
-  wide.log_evidence = log_sum(std::log(1.0 - kWideDeltaPrior) + usual.log_evidence,
-                              std::log(kWideDeltaPrior) + wide.log_evidence);
+  const SetEvidence usual = evidence_at(equations, regressors, set, noise, kUsualSignalToNoise);
+  wide.log_evidence = log_sum(std::log(1.0 - kWideSignalToNoisePrior) + usual.log_evidence,
+                              std::log(kWideSignalToNoisePrior) + wide.log_evidence);
   return wide;
 }
 

@@ -7,9 +7,9 @@
 ///   e, g_k   whitened rows (linearised_system.hpp), those of points set aside taken out; N of them
 ///   V        I + A diag(sigma^2) A': their covariance with the settings unknown but for what is
 ///            stated, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
-///   delta_k  coefficient times |V^-1/2 g_k|: the strength of a cause. Beforehand N(0,
-///   kDeltaSigma^2),
-///            cut to what the parameter may be
+///   delta_k  coefficient times |V^-1/2 g_k|: the signal-to-noise ratio of a cause. Beforehand
+///            N(0, kUsualSignalToNoise^2), with a small weight N(0, kWideSignalToNoise^2), cut to
+///            what the parameter may be
 ///   s^2      the noise's square over the stated one: scaled inverse chi^2, dof as stated, about 1;
 ///            with a small weight about one of kLargerNoise squared
 ///   K        covariance of the model discrepancy (discrepancy.hpp)
@@ -27,19 +27,11 @@
 #include <span>
 #include <vector>
 
+#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
-inline constexpr double kUsualDelta = 12.0;
-inline constexpr double kWideDelta = 60.0;
-inline constexpr double kWideDeltaPrior = 0.15;
-inline constexpr double kLargerNoise[] = {1.5, 2.0, 2.7};
-inline constexpr double kLargerNoisePrior = 0.06;  ///< shared by all of them
-/// An outlier's whitened reading is spread this wide, in sigmas.
-inline constexpr double kOutlierSpread = 40.0;
-/// Chance beforehand that a point is an outlier.
-inline constexpr double kOutlierPrior = 0.01;
 /// The data's density as a function of their quadratic form, the noise averaged out.
 class NoiseDensity {
  public:
@@ -69,8 +61,11 @@ struct MarginalisedSystem {
   /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.
   std::vector<double> discrepancy_trace;
 };
-/// Prior and density of one unit set aside.
-[[nodiscard]] double log_price_of_outlier(const LinearisedSystem& system);
+/// Prior and density of one unit of so many rows set aside.
+[[nodiscard]] double log_price_of_outlier(Eigen::Index rows);
+/// Of all these units.
+[[nodiscard]] double log_price_of_outliers(const LinearisedSystem& system,
+                                           const std::vector<bool>& outliers);
 [[nodiscard]] MarginalisedSystem marginalise(const LinearisedSystem& system,
                                              const std::vector<bool>& outliers,
                                              const Steps& steps);
@@ -105,7 +100,6 @@ struct NormalEquations {
 /// marginalised system.
 [[nodiscard]] std::vector<NormalEquations> normal_equations_beside_discrepancies(
     const LinearisedSystem& system,
-    const Session& session,
     MarginalisedSystem& marginalised,
     const std::vector<int>& columns);
 /// Kernel and strength of discrepancy number `index`, in a marginalised system whose traces are
@@ -115,9 +109,9 @@ struct NormalEquations {
 /// What a set of regressors makes of the data.
 struct SetEvidence {
   double log_evidence = 0.0;
-  double quadratic = 0.0;        ///< what is left of e'e
-  Eigen::VectorXd delta;         ///< of the free ones, in the order of the set
-  Eigen::VectorXd delta_square;  ///< their variances, in units of s^2
+  double quadratic = 0.0;                    ///< what is left of e'e
+  Eigen::VectorXd signal_to_noise;           ///< of the free ones, in the order of the set
+  Eigen::VectorXd signal_to_noise_variance;  ///< their variances, in units of s^2
 };
 /// `set` holds positions in the normal equations. Minus infinity where a cause would need what it
 /// cannot be.

@@ -18,16 +18,11 @@ struct ExpectedGain {
 
 /// Over the measured area, places alike; of distances those that were read; at the points
 /// themselves where a cause depends on the visits.
-[[nodiscard]] ExpectedGain expected_gain(const Session& session,
-                                         const Analysis& analysis,
-                                         const Steps& steps);
+[[nodiscard]] ExpectedGain expected_gain(const Analysis& analysis);
 
 /// The marginalised system of the decision with the points set aside that causes at one visit alone
 /// account for: whoever calibrates without these causes still sees that the points are out.
-[[nodiscard]] MarginalisedSystem without_slips(const Session& session,
-                                               const LinearisedSystem& system,
-                                               const MarginalisedSystem& marginalised,
-                                               const std::vector<int>& regressors,
-                                               const Steps& steps);
+[[nodiscard]] MarginalisedSystem without_slips(const Analysis& analysis,
+                                               const MarginalisedSystem& marginalised);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -7,9 +7,10 @@
 
 namespace chaintrue::grid::diagnosis {
 
-void extend(const Session& session, const Analysis& a, bool accept_class, Diagnosis& diagnosis) {
+void extend(const Analysis& a, Diagnosis& diagnosis) {
+  const Session& session = a.session;
   const bool scale_read =
-      std::any_of(session.readings.begin(), session.readings.end(), [](const ExtraReading& r) {
+      std::any_of(session.readings().begin(), session.readings().end(), [](const ExtraReading& r) {
         return r.what == "link_pitch_mm" || r.what == "tape_error_mm_per_m";
       });
   // Of a set the most probable goes in: on these points its rivals would do the same.
@@ -33,7 +34,7 @@ void extend(const Session& session, const Analysis& a, bool accept_class, Diagno
           return s.cause.effect->station == model::effects::Station::paper;
         });
     // Chain or paper: neither is touched before somebody has read the links or checked the tape.
-    if (paper_too && !scale_read && !accept_class) continue;
+    if (paper_too && !scale_read && !a.options.accept_class) continue;
     const bool in_machine = !model::effects::depends_on_visit(*cause.cause.effect) &&
                             cause.cause.effect->station != model::effects::Station::paper;
     (in_machine ? into_machine : diagnosis.data_corrections).push_back(std::move(applied));
@@ -41,8 +42,8 @@ void extend(const Session& session, const Analysis& a, bool accept_class, Diagno
   }
   // The settings that belong to what is taken, and to nothing else.
   const Estimate fitted = taken.empty()
-                              ? estimate(session, a.system, marginalised_system(a), {}, -1)
-                              : estimate_with(session, a, taken);
+                              ? estimate_of(a, {})
+                              : estimate_with(a, taken);
   const Eigen::VectorXd values = a.system.setting + fitted.setting_change;
   diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine;
   for (model::AppliedEffect& applied : into_machine) {

@@ -76,7 +76,7 @@ double marginal(const Analysis& a, std::size_t index) {
   return 0.0;
 }
 
-Cause describe(const Session& session, const Analysis& a, std::size_t index, bool order_assumed) {
+Cause describe(const Analysis& a, std::size_t index) {
   const CauseClass& members = a.decision.classes[index];
   Cause cause;
   cause.cause = members.front();
@@ -94,24 +94,24 @@ Cause describe(const Session& session, const Analysis& a, std::size_t index, boo
     const int column = best_regressor(a, member);
     std::vector<int> set = others;
     set.push_back(column);
-    const Estimate fitted = estimate_with(session, a, set);
+    const Estimate fitted = estimate_with(a, set);
     const Eigen::Index at = position_of(fitted, column);
     auto found = parameters(a, column, fitted.coefficient(at), fitted.coefficient_sigma(at));
     if (member == members.front()) {
       const double length = marginalised_system(a).g.col(column).norm();
-      cause.delta = std::abs(fitted.coefficient(at)) * length;
+      cause.signal_to_noise = std::abs(fitted.coefficient(at)) * length;
       cause.share_left = length / std::max(raw_length(a, column), 1e-12);
       cause.parameters = std::move(found);
       if (const Nearest other = nearest_other(a, column); other.column >= 0) {
         cause.rival = regressor(a, other.column).cause;
-        cause.rival_rho = other.rho;
+        cause.rival_collinearity = other.collinearity;
       }
     } else {
       cause.same_as.push_back({member, std::move(found)});
     }
   }
   cause.order_assumed =
-      order_assumed && cause.cause.effect->needs == model::effects::DataNeed::order;
+      a.options.order_assumed && cause.cause.effect->needs == model::effects::DataNeed::order;
   return cause;
 }
 
@@ -126,10 +126,10 @@ std::vector<CauseId> listed_causes(const Analysis& a) {
 
 }  // namespace
 
-std::vector<Cause> causes_found(const Session& session, const Analysis& a, bool order_assumed) {
+std::vector<Cause> causes_found(const Analysis& a) {
   std::vector<Cause> result;
   for (const std::size_t index : a.decision.listed) {
-    result.push_back(describe(session, a, index, order_assumed));
+    result.push_back(describe(a, index));
   }
   return result;
 }
@@ -152,19 +152,17 @@ std::vector<Hypothesis> hypotheses(const Analysis& a) {
   return result;
 }
 
-std::vector<Term> terms(const Session& session,
-                        const DiagnosisOptions& options,
-                        const Analysis& a) {
+std::vector<Term> terms(const Analysis& a) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const SingleScore score(
-      a.system, marginalised, options.steps.anchor_noise ? session.noise_dof : 1e-3);
+      a.system, marginalised, a.options.steps.anchor_noise ? a.session.noise_dof : 1e-3);
   const Eigen::VectorXd by_cause = score.by_cause(marginalised.e);
   std::vector<Term> result;
   for (std::size_t k = 0; k < score.causes().size(); ++k) {
     const CauseId& cause = score.causes()[k];
     const int column = best_regressor(a, cause);
     if (column < 0) continue;
-    const Estimate alone = estimate(session, a.system, marginalised, {column}, -1);
+    const Estimate alone = estimate_of(a, {column});
     const double length = marginalised.g.col(column).norm();
     Term term;
     term.cause = cause;
@@ -172,7 +170,7 @@ std::vector<Term> terms(const Session& session,
     term.value = size_at(regressor(a, column), alone.coefficient(0));
     term.sigma = std::abs(size_slope(regressor(a, column), alone.coefficient(0))) *
                  alone.coefficient_sigma(0);
-    term.delta = std::abs(alone.coefficient(0)) * length;
+    term.signal_to_noise = std::abs(alone.coefficient(0)) * length;
     term.share_left = length / std::max(raw_length(a, column), 1e-12);
     term.p_value = a.null.p_value(by_cause(static_cast<Eigen::Index>(k)));
     for (std::size_t c = 0; c < a.decision.classes.size(); ++c) {
@@ -188,8 +186,7 @@ std::vector<Term> terms(const Session& session,
   return result;
 }
 
-std::vector<Bound> bounds(const Session& session,
-                          const Analysis& a,
+std::vector<Bound> bounds(const Analysis& a,
                           std::vector<NotTestable>& not_testable) {
   const std::vector<CauseId> listed = listed_causes(a);
   const MarginalisedSystem& marginalised = marginalised_system(a);
@@ -209,7 +206,7 @@ std::vector<Bound> bounds(const Session& session,
     }
     std::vector<int> set = a.decision.regressors;
     if (std::find(set.begin(), set.end(), column) == set.end()) set.push_back(column);
-    const Estimate fitted = estimate_with(session, a, set);
+    const Estimate fitted = estimate_with(a, set);
     const Eigen::Index at = position_of(fitted, column);
     const double s = fitted.coefficient_sigma(at);
     const double most = std::max(std::abs(fitted.coefficient(at) + kQuantile95 * s),
@@ -218,7 +215,7 @@ std::vector<Bound> bounds(const Session& session,
     if (upper >= std::max(std::abs(size.lower), std::abs(size.upper))) {
       not_testable.push_back({cause,
                               fmt::format("any size that it may have could hide in these {}",
-                                          session.distances ? "distances" : "points")});
+                                          a.session.units_word())});
     } else {
       result.push_back({cause, std::string(size.name), upper});
     }
@@ -226,11 +223,12 @@ std::vector<Bound> bounds(const Session& session,
   return result;
 }
 
-std::vector<CalibratedSetting> settings_found(const Session& session, const Analysis& a) {
+std::vector<CalibratedSetting> settings_found(const Analysis& a) {
+  const Session& session = a.session;
   std::vector<CalibratedSetting> result;
   for (std::size_t k = 0; k < session.settings.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
-    if (!session.knows(session.settings[k])) continue;
+    if (!session.knows(k)) continue;
     CalibratedSetting one;
     one.setting = session.settings[k];
     one.stated = session.stated_value(at);
@@ -247,29 +245,49 @@ std::vector<CalibratedSetting> settings_found(const Session& session, const Anal
   return result;
 }
 
-std::vector<Outlier> outliers_found(const Session& session, const Analysis& a) {
-  if (session.distances) return distance_outliers_found(session, a);
-  const auto residuals = chain_residuals(a.system, a.estimate.left_beside_discrepancy);
+namespace {
+
+/// What all others together know of a unit of one row leaves it as far off as this.
+Outlier outlying_distance(const Analysis& a, const SessionUnit& own, const SystemUnit& unit) {
+  const Eigen::Index row = unit.first_row;
+  // All that the others know of its holes is in the prediction, with what they leave open.
+  const Eigen::RowVectorXd by_setting = a.system.by_setting.row(row);
+  const double variance = a.estimate.noise_square +
+                          by_setting.dot(a.estimate.setting_covariance * by_setting.transpose());
+  const double off = a.estimate.left_beside_discrepancy(row);
+  Outlier outlier;
+  outlier.of = Observations::distances;
+  outlier.index = own.index;
+  outlier.off_mm = off * unit.sigma;
+  outlier.distance = std::abs(off) / std::sqrt(variance);
+  return outlier;
+}
+
+Outlier outlying_point(const Analysis& a, const SessionUnit& own, const SystemUnit& unit) {
+  const Eigen::Vector2d chains = unit.unwhitened(a.estimate.left_beside_discrepancy);
+  Outlier outlier;
+  outlier.index = own.index;
+  outlier.shift_mm = tool_shift(a.system.places[unit.places.front().place], chains);
+  const Eigen::Vector2d whitened = unit.whitening * chains;
+  outlier.distance = whitened.norm() / std::sqrt(a.estimate.noise_square);
+  return outlier;
+}
+
+}  // namespace
+
+std::vector<Outlier> outliers_found(const Analysis& a) {
   std::vector<bool> outliers = marginalised_system(a).outliers;
   // A link counted wrong is an outlier with a name.
-  for (const int k : a.decision.regressors) {
-    const Regressor& d = regressor(a, k);
-    if (!d.slip) continue;
-    for (std::size_t i = 0; i < session.points.size(); ++i) {
-      if (session.points[i].order == static_cast<int>(d.values.back())) outliers[i] = true;
-    }
-  }
+  set_slips_aside(a, outliers);
   std::vector<Outlier> result;
-  for (std::size_t i = 0; i < session.points.size(); ++i) {
-    if (!outliers[i]) continue;
-    const double s = std::sqrt(a.estimate.noise_square);
-    const Eigen::Vector2d whitened = a.system.points[i].whitening * residuals[i];
-    result.push_back({session.points[i].index,
-                      tool_shift(a.system.points[i], residuals[i]),
-                      whitened.norm() / s});
+  for (std::size_t u = 0; u < outliers.size(); ++u) {
+    if (!outliers[u]) continue;
+    const SystemUnit& unit = a.system.units[u];
+    result.push_back(unit.reads_chains ? outlying_point(a, a.session.units[u], unit)
+                                       : outlying_distance(a, a.session.units[u], unit));
   }
   std::sort(result.begin(), result.end(), [](const Outlier& x, const Outlier& y) {
-    return x.index < y.index;
+    return std::pair(x.of, x.index) < std::pair(y.of, y.index);
   });
   return result;
 }
@@ -288,11 +306,12 @@ std::vector<Separation> separations(const Analysis& a) {
       const CauseId& y = a.decision.classes[shown[i]].front();
       const auto gx = marginalised.g.col(best_regressor(a, x));
       const auto gy = marginalised.g.col(best_regressor(a, y));
-      const double rho =
+      const double collinearity =
           std::min(1.0, std::abs(gx.dot(gy)) / std::max(gx.norm() * gy.norm(), 1e-12));
-      // 1.645 sqrt(2 / (1 - rho)): 95 of 100 told apart; a class is never told apart.
-      const double needed = kQuantile95 * std::sqrt(2.0 / std::max(1.0 - rho, 1.0 - kOneClass));
-      result.push_back({x, y, rho, needed});
+      // 1.645 sqrt(2 / (1 - collinearity)): 95 of 100 told apart; a class is never told apart.
+      const double needed =
+          kQuantile95 * std::sqrt(2.0 / std::max(1.0 - collinearity, 1.0 - kOneClass));
+      result.push_back({x, y, collinearity, needed});
     }
   }
   return result;

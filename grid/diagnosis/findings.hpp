@@ -8,41 +8,28 @@
 
 namespace chaintrue::grid::diagnosis {
 
-[[nodiscard]] std::vector<Cause> causes_found(const Session& session,
-                                              const Analysis& analysis,
-                                              bool order_assumed);
+[[nodiscard]] std::vector<Cause> causes_found(const Analysis& analysis);
 [[nodiscard]] std::vector<Hypothesis> hypotheses(const Analysis& analysis);
-[[nodiscard]] std::vector<Term> terms(const Session& session,
-                                      const DiagnosisOptions& options,
-                                      const Analysis& analysis);
+[[nodiscard]] std::vector<Term> terms(const Analysis& analysis);
 /// Also moves effects that the settings absorb to `not_testable`.
-[[nodiscard]] std::vector<Bound> bounds(const Session& session,
-                                        const Analysis& analysis,
+[[nodiscard]] std::vector<Bound> bounds(const Analysis& analysis,
                                         std::vector<NotTestable>& not_testable);
-[[nodiscard]] std::vector<CalibratedSetting> settings_found(const Session& session,
-                                                            const Analysis& analysis);
-[[nodiscard]] std::vector<Outlier> outliers_found(const Session& session, const Analysis& analysis);
-/// The same of distances; distance_findings.cpp.
-[[nodiscard]] std::vector<Outlier> distance_outliers_found(const Session& session,
-                                                           const Analysis& analysis);
-[[nodiscard]] std::vector<HolePicture> hole_pictures(const Session& session,
-                                                     const Analysis& analysis);
-[[nodiscard]] std::vector<DistancePicture> distance_pictures(const Session& session,
-                                                             const Analysis& analysis);
+[[nodiscard]] std::vector<CalibratedSetting> settings_found(const Analysis& analysis);
+/// By their number, points first.
+[[nodiscard]] std::vector<Outlier> outliers_found(const Analysis& analysis);
 [[nodiscard]] std::vector<Separation> separations(const Analysis& analysis);
-[[nodiscard]] std::vector<PointPicture> pictures(const Session& session, const Analysis& analysis);
-[[nodiscard]] LeftOver left_over(const Session& session,
-                                 const Analysis& analysis,
-                                 std::uint64_t seed);
+[[nodiscard]] LeftOver left_over(const Analysis& analysis);
+
+/// In the order of the files' points, holes and distances.
+[[nodiscard]] std::vector<PointPicture> point_pictures(const Analysis& analysis);
+[[nodiscard]] std::vector<HolePicture> hole_pictures(const Analysis& analysis);
+[[nodiscard]] std::vector<DistancePicture> distance_pictures(const Analysis& analysis);
 
 /// Sets the machine and the corrections of the data from the causes; a class that may lie on the
-/// paper as well only where `accept_class`.
-void extend(const Session& session,
-            const Analysis& analysis,
-            bool accept_class,
-            Diagnosis& diagnosis);
+/// paper as well only where the options accept it.
+void extend(const Analysis& analysis, Diagnosis& diagnosis);
 
 /// verdict, sentence, what_to_do, not_proved and notes from everything else.
-void put_into_words(const Session& session, Diagnosis& diagnosis);
+void put_into_words(const Analysis& analysis, Diagnosis& diagnosis);
 
 }  // namespace chaintrue::grid::diagnosis

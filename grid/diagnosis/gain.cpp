@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 #include "grid/diagnosis/expected_gain.hpp"
+#include "grid/diagnosis/leading.hpp"
 #include "grid/map/spatial_blocks.hpp"
 #include "grid/synthetic/random.hpp"
 
@@ -23,85 +23,78 @@ struct Errors {
   std::vector<Eigen::Vector2d> calibrated, surface_only;
   /// With the causes that the fold itself names.
   std::vector<Eigen::Vector2d> extended, extended_and_surface;
-  /// With the causes that all points name, their sizes fitted without the fold.
+  /// With the causes that all units name, their sizes fitted without the fold.
   std::vector<Eigen::Vector2d> fixed_naming, fixed_naming_and_surface;
 };
 
-/// Held-out points of one fold.
+/// Held-out units of one fold.
 struct Fold {
-  std::vector<std::size_t> points;
+  std::vector<std::size_t> units;
   Errors errors;
   std::vector<CauseClass> named;
 };
 
 class Folds {
  public:
-  Folds(const Session& session, const Analysis& analysis, const DiagnosisOptions& options)
-      : session_(session), a_(analysis), options_(options) {}
+  explicit Folds(const Analysis& analysis) : a_(analysis) {}
 
-  [[nodiscard]] Fold hold_out(const std::vector<std::size_t>& points) const {
-    std::vector<bool> excluded(session_.units(), false);
-    for (const std::size_t i : points) excluded[i] = true;
-    const ComparisonOptions compared{options_.steps, true, options_.told};
-    const ModelComparison comparison = compare_models(session_, a_.system, excluded, compared);
-    // The same gate as for all points: the strongest score against what noise does.
+  [[nodiscard]] Fold hold_out(const std::vector<std::size_t>& units) const {
+    std::vector<bool> excluded(a_.session.units.size(), false);
+    for (const std::size_t u : units) excluded[u] = true;
+    const DiagnosisOptions& options = a_.options;
+    const ModelComparison comparison =
+        compare_models(a_.system, excluded, {options.steps, true, options.told});
+    // The same gate as for all units: the strongest score against what noise does.
     const MarginalisedSystem& first =
         comparison.marginalised_systems[comparison.best().marginalised];
-    const SingleScore score(a_.system, first, session_.noise_dof);
-    const bool seen = options_.told.has_value() ||
+    const SingleScore score(a_.system, first, a_.session.noise_dof);
+    const bool seen = options.told.has_value() ||
                       a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
-    const Decision decision =
-        decide_beside_discrepancy(session_, a_.system, comparison, excluded, seen);
-    const MarginalisedSystem& marginalised = comparison.marginalised_systems[decision.marginalised];
+    const Decision decision = decide_beside_discrepancy(a_.system, comparison, excluded, seen);
+    const MarginalisedSystem& marginalised =
+        comparison.marginalised_systems[decision.marginalised];
+    // A reading wrong at its own visit alone says nothing of any other.
+    std::vector<bool> out = marginalised_system(a_).outliers;
+    set_slips_aside(a_, out);
     Fold fold;
-    for (const std::size_t i : points) {
-      if (!outlier_in_all(i)) fold.points.push_back(i);
+    for (const std::size_t u : units) {
+      if (!out[u]) fold.units.push_back(u);
     }
     for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
-    const MarginalisedSystem plain =
-        without_slips(session_, a_.system, marginalised, a_.decision.regressors, options_.steps);
-    fold.errors.calibrated = errors(fit(plain, {}), fold.points);
-    fold.errors.surface_only =
-        beside_discrepancy(comparison, decision.marginalised, {}, fold.points);
-    fold.errors.extended = errors(fit(marginalised, decision.regressors), fold.points);
-    fold.errors.extended_and_surface =
-        beside_discrepancy(comparison, decision.marginalised, decision.regressors, fold.points);
-    const std::vector<int>& all = a_.decision.regressors;
-    fold.errors.fixed_naming = errors(fit(marginalised, all), fold.points);
-    fold.errors.fixed_naming_and_surface =
-        beside_discrepancy(comparison, decision.marginalised, all, fold.points);
+    measure(comparison, decision, marginalised, fold);
     return fold;
   }
 
  private:
-  [[nodiscard]] bool outlier_in_all(std::size_t point) const {
-    if (a_.comparison.marginalised_systems[a_.decision.marginalised].outliers[point]) return true;
-    // A reading wrong at its own visit alone says nothing of any other.
-    for (const int k : a_.decision.regressors) {
-      const Regressor& d = a_.system.regressors[static_cast<std::size_t>(k)];
-      if (d.slip && session_.points[point].order == static_cast<int>(d.values.back())) return true;
-    }
-    return false;
+  void measure(const ModelComparison& comparison,
+               const Decision& decision,
+               const MarginalisedSystem& marginalised,
+               Fold& fold) const {
+    const std::vector<int>& all = a_.decision.regressors;
+    const auto without = [&](const std::vector<int>& regressors) {
+      return errors(fit(marginalised, regressors), fold.units);
+    };
+    const auto beside = [&](const std::vector<int>& regressors) {
+      const int discrepancy =
+          preferred_discrepancy(comparison, decision.marginalised, regressors);
+      return errors(fit(marginalised, regressors, discrepancy), fold.units);
+    };
+    fold.errors.calibrated = errors(fit(without_slips(a_, marginalised), {}), fold.units);
+    fold.errors.surface_only = beside({});
+    fold.errors.extended = without(decision.regressors);
+    fold.errors.extended_and_surface = beside(decision.regressors);
+    fold.errors.fixed_naming = without(all);
+    fold.errors.fixed_naming_and_surface = beside(all);
   }
 
   [[nodiscard]] Estimate fit(const MarginalisedSystem& marginalised,
                              const std::vector<int>& regressors,
                              int discrepancy = -1) const {
-    return estimate(session_, a_.system, marginalised, regressors, discrepancy);
+    return estimate(a_.system, marginalised, regressors, discrepancy);
   }
 
-  [[nodiscard]] std::vector<Eigen::Vector2d> beside_discrepancy(
-      const ModelComparison& comparison,
-      std::size_t marginalised,
-      const std::vector<int>& regressors,
-      const std::vector<std::size_t>& points) const {
-    const int discrepancy = preferred_discrepancy(comparison, marginalised, regressors);
-    return errors(fit(comparison.marginalised_systems[marginalised], regressors, discrepancy),
-                  points);
-  }
-
-  /// The discrepancy that the points prefer beside these causes; none where they would rather have
-  /// none.
+  /// The discrepancy that the readings prefer beside these causes; none where they would rather
+  /// have none.
   static int preferred_discrepancy(const ModelComparison& comparison,
                                    std::size_t marginalised,
                                    const std::vector<int>& regressors) {
@@ -114,16 +107,14 @@ class Folds {
 
   /// What the model leaves, the discrepancy that it may have taken out.
   [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Estimate& model,
-                                                    const std::vector<std::size_t>& points) const {
+                                                    const std::vector<std::size_t>& units) const {
     const Eigen::VectorXd left = left_of_machine(a_.system, model, model.left_beside_discrepancy);
     std::vector<Eigen::Vector2d> result;
-    for (const std::size_t i : points) result.push_back(error_of_unit(a_.system, left, i));
+    for (const std::size_t u : units) result.push_back(error_of_unit(a_.system, left, u));
     return result;
   }
 
-  const Session& session_;
   const Analysis& a_;
-  const DiagnosisOptions& options_;
 };
 
 double rms(const std::vector<Eigen::Vector2d>& errors) {
@@ -132,54 +123,97 @@ double rms(const std::vector<Eigen::Vector2d>& errors) {
   return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
-std::vector<LengthPoint> as_length_points(const Session& session) {
-  std::vector<LengthPoint> result;
-  for (const SessionPoint& p : session.points) result.push_back({p.index, p.mark, p.lengths});
+/// Units held out together, and what they are.
+struct Blocks {
+  std::vector<std::vector<std::size_t>> units;
+  bool of_the_bed = false;  ///< or each hole with all distances that end there
+};
+
+/// Blocks of the bed over all marks at which chains were read; none where they are too few.
+Blocks blocks_of_the_bed(const Session& session) {
+  std::vector<LengthPoint> points;
+  std::vector<std::size_t> units;
+  for (const auto& [part, readings] : parts_of<observation::ChainLengthReadings>(session)) {
+    for (std::size_t i = 0; i < readings->places().size(); ++i) {
+      const SessionPlace& place = session.places[part->first_place + i];
+      points.push_back({place.index, place.mark, place.lengths});
+      units.push_back(part->first_unit + i);
+    }
+  }
+  Blocks result{{}, true};
+  if (points.size() < 2 * kFewestPoints) return result;
+  result.units = spatial_blocks(points);
+  for (auto& block : result.units) {
+    for (std::size_t& u : block) u = units[u];
+  }
   return result;
 }
 
-/// Blocks of the bed; or each hole with all distances that end there.
-std::vector<std::vector<std::size_t>> held_out_blocks(const Session& session) {
-  if (!session.distances) return spatial_blocks(as_length_points(session));
-  const MeasuredHoles& set = session.distances->set();
-  std::vector<std::vector<std::size_t>> blocks(set.holes.size());
-  for (std::size_t k = 0; k < set.distances.size(); ++k) {
-    blocks[set.distances[k].from].push_back(k);
-    if (!set.distances[k].edge) blocks[set.distances[k].to].push_back(k);
+/// Each hole with all distances that end there; none where too few distances would be left.
+Blocks blocks_by_hole(const Session& session) {
+  Blocks result;
+  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
+    const MeasuredHoles& set = tape->set();
+    const std::size_t first = result.units.size();
+    result.units.resize(first + set.holes.size());
+    for (std::size_t k = 0; k < set.distances.size(); ++k) {
+      const HoleDistance& distance = set.distances[k];
+      result.units[first + distance.from].push_back(part->first_unit + k);
+      if (!distance.edge) result.units[first + distance.to].push_back(part->first_unit + k);
+    }
   }
-  std::erase_if(blocks, [](const auto& block) { return block.empty(); });
-  return blocks;
-}
-
-/// Three blocks, and twice the fewest points; of distances the fewest without any of the blocks.
-bool are_enough(const Session& session, const std::vector<std::vector<std::size_t>>& blocks) {
-  if (blocks.size() < 3) return false;
-  if (!session.distances) return session.points.size() >= 2 * kFewestPoints;
-  return std::all_of(blocks.begin(), blocks.end(), [&](const auto& block) {
-    return session.units() - block.size() >= kFewestDistances;
+  std::erase_if(result.units, [](const auto& block) { return block.empty(); });
+  const bool enough = std::all_of(result.units.begin(), result.units.end(), [&](const auto& block) {
+    return session.units.size() - block.size() >= kFewestDistances;
   });
+  if (!enough) result.units.clear();
+  return result;
 }
 
-/// Points beyond kBorderShare of the measured half width or half height.
-std::vector<std::size_t> border(const Session& session) {
-  double low_x = session.points.front().mark.x_mm;
-  double high_x = low_x;
-  double low_y = session.points.front().mark.y_mm;
-  double high_y = low_y;
-  for (const SessionPoint& p : session.points) {
-    low_x = std::min(low_x, p.mark.x_mm);
-    high_x = std::max(high_x, p.mark.x_mm);
-    low_y = std::min(low_y, p.mark.y_mm);
-    high_y = std::max(high_y, p.mark.y_mm);
+/// What is held out tells of the tool where chains were read at marks enough, else of distances.
+Blocks held_out_blocks(const Session& session) {
+  constexpr std::size_t kFewestBlocks = 3;
+  for (const auto& blocks : {blocks_of_the_bed(session), blocks_by_hole(session)}) {
+    if (blocks.units.size() >= kFewestBlocks) return blocks;
+  }
+  return {};
+}
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void take(double at) {
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  /// Distance from the middle over the half width.
+  [[nodiscard]] double share(double at) const {
+    return std::abs(at - 0.5 * (low + high)) / std::max(0.5 * (high - low), 1.0);
+  }
+};
+
+/// Units of the held-out kind with a place beyond kBorderShare of the measured half width or
+/// height.
+std::vector<std::size_t> border(const Analysis& a, bool of_the_bed) {
+  Extent x;
+  Extent y;
+  const auto counts = [&](const SystemUnit& unit) { return unit.reads_chains == of_the_bed; };
+  for (const SystemUnit& unit : a.system.units) {
+    for (const SeenPlace& seen : unit.places) {
+      if (!counts(unit)) continue;
+      x.take(a.system.places[seen.place].mark.x_mm);
+      y.take(a.system.places[seen.place].mark.y_mm);
+    }
   }
   std::vector<std::size_t> result;
-  for (std::size_t i = 0; i < session.points.size(); ++i) {
-    const model::BedPoint& m = session.points[i].mark;
-    const double x =
-        std::abs(m.x_mm - 0.5 * (low_x + high_x)) / std::max(0.5 * (high_x - low_x), 1.0);
-    const double y =
-        std::abs(m.y_mm - 0.5 * (low_y + high_y)) / std::max(0.5 * (high_y - low_y), 1.0);
-    if (std::max(x, y) > kBorderShare) result.push_back(i);
+  for (std::size_t u = 0; u < a.system.units.size(); ++u) {
+    const SystemUnit& unit = a.system.units[u];
+    const bool outside =
+        std::any_of(unit.places.begin(), unit.places.end(), [&](const SeenPlace& seen) {
+          const model::BedPoint& mark = a.system.places[seen.place].mark;
+          return std::max(x.share(mark.x_mm), y.share(mark.y_mm)) > kBorderShare;
+        });
+    if (counts(unit) && outside) result.push_back(u);
   }
   return result;
 }
@@ -199,35 +233,33 @@ bool names_agree(const Fold& fold, const Analysis& a) {
 }
 
 /// Root mean square of what noise alone does to a reading, seen at the tool.
-double noise_floor(const Session& session,
-                   const Analysis& a,
-                   const std::vector<std::size_t>& points) {
+double noise_floor(const Analysis& a, const std::vector<std::size_t>& units) {
   double sum = 0.0;
-  for (const std::size_t i : points) {
-    sum += noise_of_unit_mm2(session, a.system, i);
-  }
-  return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(points.size()));
+  for (const std::size_t u : units) sum += noise_of_unit_mm2(a.system, u).trace();
+  return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(units.size()));
 }
 
-/// Tool errors with the settings as stated, and with the sheet alone moved to where it fits.
+/// Errors with the settings as stated, and with the sheets alone moved to where they fit.
 struct Delivered {
   std::vector<Eigen::Vector2d> as_stated, placed;
 };
 
-Delivered delivered(const Session& session,
-                    const Analysis& a,
-                    const std::vector<std::size_t>& points) {
+Delivered delivered(const Analysis& a, const std::vector<std::size_t>& units) {
   Delivered result;
+  const Session& session = a.session;
   const auto stated = linearise(session, stated_state(session), {});
   if (!stated) return result;
   constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
   const auto sheet = static_cast<Eigen::Index>(session.settings.size()) - kOfMachine;
+  bool moves = false;
+  for (std::size_t k = model::kMachineSettings.size(); k < session.settings.size(); ++k) {
+    moves = moves ||
+            (session.settings[k] != model::Setting::sheet_rotation_rad && session.knows(k));
+  }
   Eigen::VectorXd placed = stated->e;
-  const Eigen::MatrixXd by_sheet = stated->by_setting.middleCols(kOfMachine, sheet);
-  const bool moves = sheet > 0 && (session.knows(model::Setting::sheet_x_mm) ||
-                                   session.knows(model::Setting::sheet_y_mm));
   if (moves) {
-    const auto& kept = a.comparison.marginalised_systems[a.decision.marginalised].kept;
+    const Eigen::MatrixXd by_sheet = stated->by_setting.middleCols(kOfMachine, sheet);
+    const auto& kept = marginalised_system(a).kept;
     const Eigen::VectorXd sigma = stated->sigma.segment(kOfMachine, sheet);
     const Eigen::MatrixXd scaled = by_sheet(kept, Eigen::all) * sigma.asDiagonal();
     Eigen::MatrixXd normal = scaled.transpose() * scaled;
@@ -236,9 +268,9 @@ Delivered delivered(const Session& session,
         normal.llt().solve(scaled.transpose() * Eigen::VectorXd(stated->e(kept)));
     placed -= by_sheet * sigma.cwiseProduct(x);
   }
-  for (const std::size_t i : points) {
-    result.as_stated.push_back(error_of_unit(*stated, stated->e, i));
-    if (moves) result.placed.push_back(error_of_unit(*stated, placed, i));
+  for (const std::size_t u : units) {
+    result.as_stated.push_back(error_of_unit(*stated, stated->e, u));
+    if (moves) result.placed.push_back(error_of_unit(*stated, placed, u));
   }
   return result;
 }
@@ -276,15 +308,16 @@ Extension extension_of(const Analysis& a, const Errors& errors) {
   return {&errors.calibrated, &errors.surface_only, false, true};
 }
 
-std::string scheme_of(const Session& session, std::size_t blocks, bool naming_repeated) {
+std::string scheme_of(const Session& session, const Blocks& blocks, bool naming_repeated) {
   return fmt::format(
       "{}, each held out in turn, {}",
-      session.distances ? fmt::format("all the distances of each of {} holes", blocks)
-                        : fmt::format("{} blocks of the bed", blocks),
+      blocks.of_the_bed
+          ? fmt::format("{} blocks of the bed", blocks.units.size())
+          : fmt::format("all the distances of each of {} holes", blocks.units.size()),
       naming_repeated ? "the naming repeated without it"
                       : fmt::format("the causes that all {} name fitted without it, since not "
                                     "every block left out leaves the same name",
-                                    session.distances ? "distances" : "points"));
+                                    session.units_word()));
 }
 
 }  // namespace
@@ -328,44 +361,41 @@ HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
   return result;
 }
 
-std::optional<Gain> measure_gain(const Session& session,
-                                 const Analysis& a,
-                                 const DiagnosisOptions& options) {
-  const auto blocks = held_out_blocks(session);
-  if (!are_enough(session, blocks)) return std::nullopt;
-  const Folds folds(session, a, options);
+std::optional<Gain> measure_gain(const Analysis& a) {
+  const Blocks blocks = held_out_blocks(a.session);
+  if (blocks.units.empty()) return std::nullopt;
+  const Folds folds(a);
   Gain gain;
-  std::vector<std::size_t> points;
+  std::vector<std::size_t> units;
   std::vector<std::size_t> number;
   Errors all;
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const Fold fold = folds.hold_out(blocks[b]);
+  for (std::size_t b = 0; b < blocks.units.size(); ++b) {
+    const Fold fold = folds.hold_out(blocks.units[b]);
     gain.folds += 1;
     gain.folds_agree += names_agree(fold, a) ? 1 : 0;
-    points.insert(points.end(), fold.points.begin(), fold.points.end());
-    number.insert(number.end(), fold.points.size(), b);
+    units.insert(units.end(), fold.units.begin(), fold.units.end());
+    number.insert(number.end(), fold.units.size(), b);
     append(fold.errors, all);
   }
-  if (points.empty()) return std::nullopt;
-  const Delivered before = delivered(session, a, points);
-  gain.as_delivered = summarise(before.as_stated, number, options.seed);
-  if (!before.placed.empty()) gain.placed = summarise(before.placed, number, options.seed);
-  gain.calibrated = summarise(all.calibrated, number, options.seed);
-  gain.surface_only = summarise(all.surface_only, number, options.seed);
+  if (units.empty()) return std::nullopt;
+  const std::uint64_t seed = a.options.seed;
+  const Delivered before = delivered(a, units);
+  gain.as_delivered = summarise(before.as_stated, number, seed);
+  if (!before.placed.empty()) gain.placed = summarise(before.placed, number, seed);
+  gain.calibrated = summarise(all.calibrated, number, seed);
+  gain.surface_only = summarise(all.surface_only, number, seed);
   const Extension extension = extension_of(a, all);
-  gain.scheme = scheme_of(session, blocks.size(), extension.naming_repeated);
-  gain.extended = summarise(*extension.machine, number, options.seed);
-  gain.extended_and_surface = summarise(*extension.and_surface, number, options.seed);
-  gain.noise_floor_mm = noise_floor(session, a, points);
+  gain.scheme = scheme_of(a.session, blocks, extension.naming_repeated);
+  gain.extended = summarise(*extension.machine, number, seed);
+  gain.extended_and_surface = summarise(*extension.and_surface, number, seed);
+  gain.noise_floor_mm = noise_floor(a, units);
   if (extension.helps) {
-    const ExpectedGain expected = expected_gain(session, a, options.steps);
+    const ExpectedGain expected = expected_gain(a);
     gain.drop_mm2 = expected.drop_mm2;
     gain.drop_share = expected.share;
   }
-  // Nearly all distances reach the border.
-  if (session.distances) return gain;
-  const auto edge = border(session);
-  if (session.points.size() - edge.size() >= kFewestPoints) {
+  const auto edge = border(a, blocks.of_the_bed);
+  if (a.session.units.size() - edge.size() >= a.session.fewest_units) {
     const Errors outer = folds.hold_out(edge).errors;
     gain.border = {rms(outer.calibrated),
                    rms(outer.extended),

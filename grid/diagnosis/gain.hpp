@@ -16,9 +16,7 @@
 namespace chaintrue::grid::diagnosis {
 
 /// Empty where there are too few points to hold any out.
-[[nodiscard]] std::optional<Gain> measure_gain(const Session& session,
-                                               const Analysis& analysis,
-                                               const DiagnosisOptions& options);
+[[nodiscard]] std::optional<Gain> measure_gain(const Analysis& analysis);
 
 /// Root mean square and 95th percentile of tool errors, and the interval of the first over blocks
 /// drawn anew. `block` numbers the block of each error.

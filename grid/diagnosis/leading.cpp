@@ -37,6 +37,19 @@ int best_regressor(const Analysis& a, const CauseId& cause) {
   return best;
 }
 
+void set_slips_aside(const Analysis& a, std::vector<bool>& outliers) {
+  for (const int k : a.decision.regressors) {
+    const Regressor& own = regressor(a, k);
+    if (!own.slip) continue;
+    for (std::size_t u = 0; u < a.system.units.size(); ++u) {
+      const SystemUnit& unit = a.system.units[u];
+      if (!unit.reads_chains) continue;
+      const SystemPlace& place = a.system.places[unit.places.front().place];
+      if (place.ordered && place.order == static_cast<int>(own.values.back())) outliers[u] = true;
+    }
+  }
+}
+
 bool same_class(const Analysis& a, const CauseId& x, const CauseId& y) {
   for (const CauseClass& members : a.decision.classes) {
     const auto in = [&](const CauseId& c) {
@@ -62,8 +75,8 @@ Nearest nearest_other(const Analysis& a, int column) {
     const auto g = marginalised.g.col(static_cast<Eigen::Index>(k));
     const double length = g.norm() * own.norm();
     if (!(length > 1e-12) || excluded(a.system.regressors[k].cause)) continue;
-    const double rho = std::abs(own.dot(g)) / length;
-    if (rho > nearest.rho) nearest = {static_cast<int>(k), rho};
+    const double collinearity = std::abs(own.dot(g)) / length;
+    if (collinearity > nearest.collinearity) nearest = {static_cast<int>(k), collinearity};
   }
   return nearest;
 }
@@ -84,13 +97,16 @@ Shown shown(const Analysis& a) {
   return result;
 }
 
-Estimate estimate_with(const Session& session, const Analysis& a, std::vector<int> regressors) {
+Estimate estimate_with(const Analysis& a, std::vector<int> regressors) {
   std::sort(regressors.begin(), regressors.end());
-  return estimate(session,
-                  a.system,
+  return estimate(a.system,
                   marginalised_system(a),
                   regressors,
                   a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
+}
+
+Estimate estimate_of(const Analysis& a, const std::vector<int>& regressors) {
+  return estimate(a.system, marginalised_system(a), regressors, -1);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -19,6 +19,9 @@ namespace chaintrue::grid::diagnosis {
 /// score; -1 where the cause has none.
 [[nodiscard]] int best_regressor(const Analysis& analysis, const CauseId& cause);
 
+/// Flags the units whose readings a cause at one visit alone accounts for.
+void set_slips_aside(const Analysis& analysis, std::vector<bool>& outliers);
+
 /// Whether no points tell the two apart.
 [[nodiscard]] bool same_class(const Analysis& analysis, const CauseId& x, const CauseId& y);
 
@@ -26,7 +29,7 @@ namespace chaintrue::grid::diagnosis {
 /// there is none.
 struct Nearest {
   int column = -1;
-  double rho = 0.0;  ///< |cosine| of the two
+  double collinearity = 0.0;  ///< |cosine| of the two
 };
 [[nodiscard]] Nearest nearest_other(const Analysis& analysis, int column);
 
@@ -39,8 +42,9 @@ struct Shown {
 [[nodiscard]] Shown shown(const Analysis& analysis);
 
 /// Estimate with these columns, beside the discrepancy where the decision holds one.
-[[nodiscard]] Estimate estimate_with(const Session& session,
-                                     const Analysis& analysis,
-                                     std::vector<int> columns);
+[[nodiscard]] Estimate estimate_with(const Analysis& analysis, std::vector<int> columns);
+
+/// Estimate with these columns and no discrepancy.
+[[nodiscard]] Estimate estimate_of(const Analysis& analysis, const std::vector<int>& columns);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,365 +1,194 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/linearised_system.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
 
-#include "grid/diagnosis/observed/observed.hpp"
-#include "model/effects/catalogue.hpp"
+#include "grid/estimation/linearised_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-using model::effects::Effect;
-using model::effects::EffectParameter;
-using model::effects::EffectSide;
-using model::effects::ParameterRole;
-
-constexpr int kPlaces = 24;    // of a knee or a phase: neighbours stay alike to 0.99
-constexpr int kMostLinks = 3;  // more than that is seen with the bare eye
-
-model::Machine with_effect(model::Machine machine,
-                           CauseId cause,
-                           const std::vector<double>& values) {
-  machine.effects.push_back(model::effects::applied(*cause.effect, cause.side, values));
-  return machine;
-}
-
-/// Readings of the whole session: what was observed, then the machine's own.
-std::optional<Eigen::VectorXd> predicted(const Session& session,
-                                         const State& state,
-                                         const model::Machine& machine) {
-  const auto observed = observed_of(session).predicted(session, state, machine);
-  if (!observed) return std::nullopt;
-  Eigen::VectorXd all(session.rows());
-  all.head(observed->size()) = *observed;
-  for (std::size_t k = 0; k < session.readings.size(); ++k) {
-    all(session.observed_rows() + static_cast<Eigen::Index>(k)) =
-        predicted_reading(machine, session.readings[k]);
+/// For each observation one whitening in place of its units' own, of the mean variance of a row.
+std::vector<double> sigmas_alike(const estimation::LinearisedSystem& line, std::size_t parts) {
+  std::vector<double> variance(parts, 0.0);
+  std::vector<double> rows(parts, 0.0);
+  for (const estimation::SystemUnit& unit : line.units) {
+    variance[unit.observation] += estimation::unwhitening_of(unit.whitening).squaredNorm();
+    rows[unit.observation] += static_cast<double>(unit.rows);
   }
-  return all;
+  for (std::size_t k = 0; k < parts; ++k) variance[k] = std::sqrt(variance[k] / rows[k]);
+  return variance;
 }
 
-Eigen::VectorXd whitened(const Session& session,
-                         const LinearisedSystem& system,
-                         Eigen::VectorXd mm) {
-  observed_of(session).whiten(system, mm);
-  for (std::size_t k = 0; k < session.readings.size(); ++k) {
-    mm(session.observed_rows() + static_cast<Eigen::Index>(k)) /= session.readings[k].sigma;
-  }
-  return mm;
-}
-
-const EffectParameter& size_parameter(const Effect& effect) { return effect.parameters.front(); }
-
-const EffectParameter* place_parameter(const Effect& effect) {
-  for (const EffectParameter& p : effect.parameters) {
-    if (p.role == ParameterRole::place) return &p;
-  }
-  return nullptr;
-}
-
-/// Places where an effect may set in: visits, angles between those of the points, phases of a turn.
-bool is_slip(const Effect& effect) {
-  return effect.misread != nullptr && size_parameter(effect).integer &&
-         effect.misread({1, 1.0}, std::vector<double>{1.0, 0.0}) == 0.0;
-}
-
-std::vector<double> places(const Session& session, const LinearisedSystem& system, CauseId cause) {
-  const EffectParameter& place = *place_parameter(*cause.effect);
-  std::vector<double> result;
-  if (place.integer) {
-    // A skip before the first visit is a zero; a miscount may be at any visit.
-    for (std::size_t i = is_slip(*cause.effect) ? 0 : 1; i < session.points.size(); ++i) {
-      result.push_back(session.points[i].order);
+void whiten_alike(const std::vector<double>& sigma, estimation::LinearisedSystem& line) {
+  for (estimation::SystemUnit& unit : line.units) {
+    const Eigen::MatrixXd change =
+        estimation::unwhitening_of(unit.whitening) / sigma[unit.observation];
+    const auto renew = [&](Eigen::MatrixXd& columns) {
+      columns.middleRows(unit.first_row, unit.rows) =
+          (change * columns.middleRows(unit.first_row, unit.rows)).eval();
+    };
+    renew(line.by_setting);
+    renew(line.by_nuisance);
+    for (observation::PlaceColumns& place : unit.places) {
+      place.by_chain = (change * place.by_chain).eval();
     }
-    return result;
+    unit.whitening =
+        Eigen::MatrixXd::Identity(unit.rows, unit.rows) / sigma[unit.observation];
   }
-  if (place.upper - place.lower >= 2.0 * std::numbers::pi) {
-    for (int k = 0; k < kPlaces; ++k) result.push_back(2.0 * std::numbers::pi * k / kPlaces);
-    return result;
-  }
-  std::vector<double> angles;
-  for (const PointState& point : system.points) {
-    const auto side = cause.side == EffectSide::left ? model::Side::left : model::Side::right;
-    angles.push_back(point.reading.pose.chains[side].angle_rad);
-  }
-  std::sort(angles.begin(), angles.end());
-  const auto last = static_cast<double>(angles.size() - 1);
-  for (int k = 0; k < kPlaces; ++k) {
-    const double at = last * k / kPlaces;
-    const auto below = static_cast<std::size_t>(at);
-    result.push_back(angles[below] + (at - std::floor(at)) * (angles[below + 1] - angles[below]));
-  }
-  return result;
 }
 
-/// The coefficient's power: how the signature grows from half the size to the whole one.
-double power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half) {
-  const double ratio = whole.norm() / std::max(half.norm(), 1e-300);
-  return std::max(1.0, std::round(std::log2(ratio)));
+/// A row each: one that never slips is no unit.
+void add_unit(const SessionPart& part,
+              const estimation::SystemUnit& own,
+              LinearisedSystem& system) {
+  SystemUnit unit;
+  unit.first_row = own.first_row;
+  unit.rows = own.rows;
+  unit.reads_chains = part.reads_chains();
+  if (own.rows == 1) unit.sigma = 1.0 / own.whitening(0, 0);
+  if (own.rows == 2) unit.whitening = own.whitening;
+  for (const observation::PlaceColumns& columns : own.places) {
+    SeenPlace seen{columns.place, Eigen::Matrix2d::Zero()};
+    seen.by_chain.topRows(own.rows) = columns.by_chain;
+    unit.places.push_back(seen);
+  }
+  system.units.push_back(std::move(unit));
 }
 
-constexpr double kNearby = 0.95;  // of a size: far enough for differences, near enough for a slope
-
-/// The same about a size that was found. A signature that hardly grows any more leaves its size
-/// open; one that shrinks again has no power.
-double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby) {
-  const double ratio = whole.dot(nearby) / whole.squaredNorm();
-  return std::clamp(std::log(std::max(ratio, 1e-3)) / std::log(kNearby), 0.2, 4.0);
-}
-
-/// Goes on through zero as a straight line, where an odd effect changes its sign.
-bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
-
-void limit(Regressor& regressor) {
-  const EffectParameter& size = size_parameter(*regressor.cause.effect);
-  const double at = regressor.values.front();
-  const auto coefficient = [&](double bound) {
-    const double ratio = bound / at;
-    return ratio < 0.0 ? -std::pow(-ratio, regressor.power) : std::pow(ratio, regressor.power);
-  };
-  const double a = coefficient(size.lower);
-  const double b = coefficient(size.upper);
-  regressor.lowest = std::min(a, b);
-  regressor.highest = std::max(a, b);
-}
-
-struct Column {
-  Regressor regressor;
-  Eigen::VectorXd g;
-};
-
-class Builder {
- public:
-  Builder(const Session& session, const State& state, const LinearisedSystem& system)
-      : session_(session), state_(state), system_(system) {}
-
-  void add(CauseId cause, const std::vector<Refinement>& refinements) {
-    std::vector<double> values = model::effects::nominal_values(*cause.effect);
-    refined_ = false;
-    for (const Refinement& r : refinements) {
-      if (!(r.cause == cause)) continue;
-      values.front() = r.values.front();
-      refined_ = true;
+/// Columns from where the observations have them to where the session does.
+void place_columns(const Session& session,
+                   const estimation::LinearisedSystem& line,
+                   LinearisedSystem& system) {
+  constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
+  system.by_setting = Eigen::MatrixXd::Zero(session.rows, system.setting.size());
+  system.by_setting.leftCols(kOfMachine) = line.by_setting.leftCols(kOfMachine);
+  Eigen::Index sheet = kOfMachine;
+  Eigen::Index nuisance = 0;
+  for (const SessionPart& part : session.parts) {
+    const Eigen::Index rows = part.observation->rows();
+    auto block = system.by_setting.middleRows(part.first_row, rows);
+    if (part.observation->sheet()) {
+      block.middleCols<3>(Session::sheet_column(*part.sheet)) =
+          line.by_setting.block(part.first_row, sheet, rows, 3);
+      sheet += 3;
     }
-    if (size_parameter(*cause.effect).integer) {
-      add_links(cause, values);
-    } else if (place_parameter(*cause.effect) == nullptr) {
-      add_one(cause, values, std::log(share_of_side(cause)));
-    } else {
-      const std::vector<double> where = places(session_, system_, cause);
-      const double share = std::log(share_of_side(cause) / static_cast<double>(where.size()));
-      for (const double place : where) {
-        values.back() = place;
-        add_one(cause, values, share);
-      }
-      for (const Refinement& r : refinements) {
-        if (r.cause == cause) add_one(cause, r.values, share);
-      }
-    }
-  }
-
-  [[nodiscard]] std::vector<Column>& columns() { return columns_; }
-
- private:
-  [[nodiscard]] static double share_of_side(CauseId cause) {
-    return 1.0 / static_cast<double>(cause.effect->sides.size());
-  }
-
-  void add_one(CauseId cause, const std::vector<double>& values, double log_prior) {
-    auto g = signature(session_, state_, system_, cause, values);
-    if (!g || !(g->norm() > 0.0)) return;
-    std::vector<double> smaller = values;
-    smaller.front() *= refined_ ? kNearby : 0.5;
-    const auto half = signature(session_, state_, system_, cause, smaller);
-    if (!half) return;
-    Regressor regressor;
-    regressor.cause = cause;
-    regressor.values = values;
-    regressor.power = refined_ ? power_about(*g, *half) : power_of(*g, *half);
-    regressor.log_prior = log_prior;
-    regressor.refined = refined_;
-    limit(regressor);
-    columns_.push_back({std::move(regressor), std::move(*g)});
-  }
-
-  void add_links(CauseId cause, std::vector<double> values) {
-    const std::vector<double> where = places(session_, system_, cause);
-    for (const double place : where) {
-      values.back() = place;
-      for (int links = -kMostLinks; links <= kMostLinks; ++links) {
-        if (links == 0) continue;
-        values.front() = links;
-        auto g = signature(session_, state_, system_, cause, values);
-        if (!g || !(g->norm() > 0.0)) continue;
-        Regressor regressor;
-        regressor.cause = cause;
-        regressor.values = values;
-        regressor.fixed = true;
-        regressor.slip = is_slip(*cause.effect);
-        regressor.lowest = regressor.highest = 1.0;
-        regressor.visits = static_cast<double>(where.size());
-        columns_.push_back({std::move(regressor), std::move(*g)});
-      }
-    }
-  }
-
-  const Session& session_;
-  const State& state_;
-  const LinearisedSystem& system_;
-  std::vector<Column> columns_;
-  bool refined_ = false;
-};
-
-}  // namespace
-
-Candidates candidates(const Session& session) {
-  Candidates result;
-  for (const Effect* effect : model::effects::catalogue()) {
-    for (const EffectSide side : effect->sides) {
-      const CauseId cause{effect, side};
-      model::Machine machine =
-          with_effect(session.stated, cause, model::effects::nominal_values(*effect));
-      const auto problems = model::effects::problems_of_effects(machine);
-      const std::string reason = observed_of(session).untestable(session, cause);
-      if (!reason.empty()) {
-        result.not_testable.push_back({cause, reason});
-      } else if (!problems.empty()) {
-        result.not_testable.push_back({cause, problems.front().expected});
-      } else {
-        result.testable.push_back(cause);
-      }
-    }
-  }
-  return result;
-}
-
-namespace {
-
-/// How the machine's own readings move with the settings, in mm.
-void add_readings(const Session& session,
-                  const State& state,
-                  const Eigen::VectorXd& predicted_mm,
-                  LinearisedSystem& system) {
-  for (std::size_t k = 0; k < session.readings.size(); ++k) {
-    const Eigen::Index row = session.observed_rows() + static_cast<Eigen::Index>(k);
-    for (Eigen::Index s = 0; s < system.setting.size(); ++s) {
-      Eigen::VectorXd moved = system.setting;
-      moved(s) += 1.0;  // these readings are linear in the settings
-      system.by_setting(row, s) =
-          predicted_reading(with_settings(session, state, moved).machine, session.readings[k]) -
-          predicted_mm(row);
+    for (const Eigen::Index column : part.nuisance_columns) {
+      block.col(column) = line.by_nuisance.col(nuisance++).segment(part.first_row, rows);
     }
   }
 }
 
-Eigen::VectorXd measured(const Session& session) {
-  Eigen::VectorXd all(session.rows());
-  all.head(session.observed_rows()) = observed_of(session).measured(session);
-  for (std::size_t k = 0; k < session.readings.size(); ++k) {
-    all(session.observed_rows() + static_cast<Eigen::Index>(k)) = session.readings[k].value;
+/// What was read less what the state predicts, visit by visit.
+tl::expected<Eigen::VectorXd, observation::Unreachable> residual_of(const Session& session,
+                                                                    const State& state) {
+  Eigen::VectorXd residual(session.rows);
+  for (const SessionPart& part : session.parts) {
+    const auto predicted = part.observation->predicted(state.view(part));
+    if (!predicted) {
+      return tl::unexpected(observation::Unreachable{part.first_place + predicted.error().place,
+                                                     predicted.error().reason});
+    }
+    residual.segment(part.first_row, part.observation->rows()) =
+        part.observation->measured() - *predicted;
   }
-  return all;
+  return residual;
+}
+
+tl::expected<estimation::LinearisedSystem, observation::Unreachable> lines_of(
+    const Session& session, const State& state) {
+  observation::Observations observations;
+  std::vector<estimation::ObservedFrom> from;
+  for (const SessionPart& part : session.parts) {
+    observations.push_back(part.observation);
+    const Eigen::Index settings = part.observation->sheet() ? 9 : 6;
+    from.push_back({state.view(part), Eigen::VectorXd::Zero(settings)});
+  }
+  auto line = estimation::linearise(observations, from);
+  if (line) return *std::move(line);
+  return tl::unexpected(observation::Unreachable{
+      session.parts[line.error().observation].first_place + line.error().place.place,
+      line.error().place.reason});
 }
 
 }  // namespace
 
-tl::expected<LinearisedSystem, model::VisitFailure> linearise(const Session& session,
-                                                              const State& state,
-                                                              const Steps& steps) {
+Eigen::Vector2d SystemUnit::whitened(const Eigen::VectorXd& all) const {
+  if (rows == 1) return {all(first_row) / sigma, 0.0};
+  return whitening * all.segment<2>(first_row);
+}
+
+Eigen::Vector2d SystemUnit::unwhitened(const Eigen::VectorXd& all) const {
+  if (rows == 1) return {all(first_row) * sigma, 0.0};
+  return whitening.inverse() * all.segment<2>(first_row);
+}
+
+Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all) {
+  for (const SystemUnit& unit : system.units) {
+    const Eigen::Vector2d own = unit.whitened(all);
+    all.segment(unit.first_row, unit.rows) = own.head(unit.rows);
+  }
+  const Eigen::Index readings = system.reading_sigma.size();
+  all.tail(readings) = all.tail(readings).cwiseQuotient(system.reading_sigma).eval();
+  return all;
+}
+
+tl::expected<LinearisedSystem, observation::Unreachable> linearise(const Session& session,
+                                                                   const State& state,
+                                                                   const Steps& steps) {
+  auto line = lines_of(session, state);
+  if (!line) return tl::unexpected(line.error());
+  auto residual = residual_of(session, state);
+  if (!residual) return tl::unexpected(residual.error());
+  if (!steps.whiten) whiten_alike(sigmas_alike(*line, session.parts.size()), *line);
   LinearisedSystem system;
   system.setting = setting_values(session, state);
   system.expected_change = session.stated_value - system.setting;
   system.sigma = session.stated_sigma;
-  system.unit_rows = session.unit_rows();
   system.nuisances = session.nuisances();
-  system.by_setting = Eigen::MatrixXd::Zero(session.rows(), system.setting.size());
-  if (auto done = observed_of(session).linearise(session, state, steps, system); !done) {
-    return tl::unexpected(done.error());
+  system.noise_dof = session.noise_dof;
+  system.fewest_units = session.fewest_units;
+  for (const estimation::SystemPlace& own : line->places) {
+    const SessionPart& part = session.parts[own.observation];
+    const SessionPlace& place = session.places[part.first_place + own.place];
+    system.places.push_back({own.state.reading,
+                             place.mark,
+                             own.state.by_mark,
+                             place.order,
+                             part.reads_chains() && part.observation->ordered()});
   }
-  const auto all = predicted(session, state, state.machine);
-  if (!all) return tl::unexpected(model::VisitFailure{0, model::PoseFailure::not_converged});
-  add_readings(session, state, *all, system);
-  system.e = whitened(session, system, measured(session) - *all);
-  for (Eigen::Index k = 0; k < system.setting.size(); ++k) {
-    system.by_setting.col(k) = whitened(session, system, system.by_setting.col(k));
+  system.unit_of_row.assign(static_cast<std::size_t>(session.rows), -1);
+  for (const estimation::SystemUnit& own : line->units) {
+    const SessionPart& part = session.parts[own.observation];
+    if (!part.observation->may_slip()) {
+      system.reading_sigma.conservativeResize(system.reading_sigma.size() + 1);
+      system.reading_sigma.tail<1>()(0) = 1.0 / own.whitening(0, 0);
+      continue;
+    }
+    const auto number = static_cast<int>(system.units.size());
+    for (Eigen::Index k = 0; k < own.rows; ++k) {
+      system.unit_of_row[static_cast<std::size_t>(own.first_row + k)] = number;
+    }
+    add_unit(part, own, system);
   }
+  place_columns(session, *line, system);
+  system.e = whitened(system, *std::move(residual));
   return system;
 }
 
-std::optional<Eigen::VectorXd> signature(const Session& session,
-                                         const State& state,
-                                         const LinearisedSystem& system,
-                                         CauseId cause,
-                                         const std::vector<double>& values) {
-  if (cause.effect->add != nullptr || cause.effect->misread != nullptr) {
-    return added(session, state, system, cause, values);
+std::vector<std::pair<Eigen::Index, std::size_t>> units_in(const LinearisedSystem& system,
+                                                           const std::vector<Eigen::Index>& kept) {
+  std::vector<std::pair<Eigen::Index, std::size_t>> result;
+  for (std::size_t a = 0; a < kept.size(); ++a) {
+    const int unit = system.unit_of_row[static_cast<std::size_t>(kept[a])];
+    if (unit < 0) break;
+    const auto number = static_cast<std::size_t>(unit);
+    if (system.units[number].first_row == kept[a]) {
+      result.emplace_back(static_cast<Eigen::Index>(a), number);
+    }
   }
-  const model::Machine machine = with_effect(state.machine, cause, values);
-  if (!model::effects::problems_of_effects(machine).empty()) return std::nullopt;
-  const auto with = predicted(session, state, machine);
-  const auto without = predicted(session, state, state.machine);
-  if (!with || !without) return std::nullopt;
-  return whitened(session, system, *with - *without);
-}
-
-void add_regressors(const Session& session,
-                    const State& state,
-                    const std::vector<CauseId>& causes,
-                    const std::vector<Refinement>& refinements,
-                    LinearisedSystem& system) {
-  Builder builder(session, state, system);
-  for (const CauseId& cause : causes) builder.add(cause, refinements);
-  const auto count = static_cast<Eigen::Index>(builder.columns().size());
-  system.g.resize(session.rows(), count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    Column& column = builder.columns()[static_cast<std::size_t>(k)];
-    system.g.col(k) = column.g;
-    system.regressors.push_back(std::move(column.regressor));
-  }
-}
-
-bool renew_regressors(const Session& session,
-                      const State& state,
-                      const std::vector<Regressor>& regressors,
-                      LinearisedSystem& system) {
-  system.regressors = regressors;
-  system.g.resize(session.rows(), static_cast<Eigen::Index>(regressors.size()));
-  for (std::size_t k = 0; k < regressors.size(); ++k) {
-    Regressor& d = system.regressors[k];
-    const auto g = signature(session, state, system, d.cause, d.values);
-    if (!g || !(g->norm() > 0.0)) return false;
-    system.g.col(static_cast<Eigen::Index>(k)) = *g;
-    if (d.fixed) continue;
-    std::vector<double> nearby = d.values;
-    nearby.front() *= kNearby;
-    const auto there = signature(session, state, system, d.cause, nearby);
-    if (!there) return false;
-    d.power = power_about(*g, *there);
-    d.refined = true;
-    limit(d);
-  }
-  return true;
-}
-
-double size_at(const Regressor& regressor, double coefficient) {
-  const double at = regressor.values.front();
-  if (regressor.fixed) return at;
-  if (coefficient <= 0.0) return is_odd(regressor) ? at * coefficient : 0.0;
-  return at * std::pow(coefficient, 1.0 / regressor.power);
-}
-
-double size_slope(const Regressor& regressor, double coefficient) {
-  if (regressor.fixed) return 0.0;
-  const double at = regressor.values.front();
-  if (coefficient <= 0.0 && is_odd(regressor)) return at;
-  const double c = std::max(coefficient, 1e-6);
-  return at / regressor.power * std::pow(c, 1.0 / regressor.power - 1.0);
+  return result;
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The session as linear equations about a state of the machine: whitened residuals, how the
-/// settings move them, and a regressor for every effect of the catalogue at every place where it
-/// may set in.
+/// The session as linear equations about a state of the machine: whitened residuals, how settings
+/// and nuisances move them, and a regressor for every effect of the catalogue at every place where
+/// it may set in. Everything from here on knows units and places, and not how they were measured.
 ///
-/// Of holes (observed/observed.hpp) the rows are distances, with W_i = 1 / tape's sigma, and A has
-/// a column more for each nuisance.
+/// The rows are those of estimation/linearised_system.hpp, with the session's columns.
 ///
-/// Notation
-///   r_i  readings of a point less what the state predicts [mm], two chains
-///   C_i  J S_xy J' + diag(s_L^2), J = d(L, R)/d(mark): its covariance from position and length
-///   noise W_i  whitening, W_i C_i W_i' = I                e    all W_i r_i, then the readings over
-///   sigma A    d(prediction)/d(settings), whitened        g_k  prediction with the effect less
-///   without it, whitened
+/// Notation (observation.hpp has the equation of an observation)
+///   r    what was read less what the state predicts, in the readings' own units
+///   W_u  whitening of unit u: W_u C_u W_u' = I
+///   e    W r
+///   A    W d(prediction)/d(settings, nuisances)
+///   D_i  W d(prediction)/d(chains at place i)
+///   g_k  W (prediction with the effect less without it)
 ///
 /// A regressor is a secant: exact at the size at which it was taken, and proportional to
 /// size^power. Coefficient b of a regressor is (size / that size)^power; a power of about one goes
@@ -24,7 +24,6 @@
 #include <vector>
 
 #include "grid/diagnosis/session.hpp"
-#include "model/reading_model.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -48,83 +47,74 @@ struct Regressor {
   double log_prior = 0.0;
 };
 
-/// One point, or hole, as the state sees it.
-struct PointState {
+/// A place as the state has it.
+struct SystemPlace {
   model::PointReading reading;
-  Eigen::Matrix2d by_mark;    ///< J
-  Eigen::Matrix2d whitening;  ///< W, of a point
+  model::BedPoint mark;     ///< as it was written, or commanded
+  Eigen::Matrix2d by_mark;  ///< d(L, R)/d(mark)
+  int order = 0;
+  bool ordered = false;  ///< chains were read here, at this visit
 };
 
-/// A unit's whitened rows by what is added to the left and the right chain at one place; a unit of
-/// one row leaves the second line empty.
+/// What a unit sees of the chains at a place: D_i; a unit of one row leaves the second line empty.
 struct SeenPlace {
   std::size_t place = 0;
   Eigen::Matrix2d by_chain = Eigen::Matrix2d::Zero();
 };
-using Unit = std::vector<SeenPlace>;
+
+/// Rows that are good or bad together; one or two.
+struct SystemUnit {
+  Eigen::Index first_row = 0;
+  Eigen::Index rows = 1;
+  Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  ///< of a unit of two rows
+  double sigma = 1.0;                                       ///< of a unit of one
+  bool reads_chains = false;  ///< the rows are the chains at its only place
+  std::vector<SeenPlace> places;
+
+  /// From the readings' units to those of noise, and back: the rows of this unit.
+  [[nodiscard]] Eigen::Vector2d whitened(const Eigen::VectorXd& all) const;
+  [[nodiscard]] Eigen::Vector2d unwhitened(const Eigen::VectorXd& all) const;
+  [[nodiscard]] auto segment(const Eigen::VectorXd& all) const {
+    return all.segment(first_row, rows);
+  }
+};
 
 struct LinearisedSystem {
   Eigen::VectorXd e;
   Eigen::MatrixXd by_setting;  ///< A
   Eigen::MatrixXd g;           ///< a column a regressor
   std::vector<Regressor> regressors;
-  std::vector<PointState> points;
-  std::vector<Unit> units;
-  Eigen::Index unit_rows = 2;
-  Eigen::VectorXd row_sigma_mm;     ///< of distances: of the tape
+  std::vector<SystemPlace> places;
+  std::vector<SystemUnit> units;    ///< of consecutive rows, the first ones
+  std::vector<int> unit_of_row;     ///< -1: a reading that never slips
+  Eigen::VectorXd reading_sigma;    ///< of the rows after the units
   Eigen::VectorXd setting;          ///< value in the state
   Eigen::VectorXd expected_change;  ///< stated less that
   Eigen::Index nuisances = 0;       ///< the last of these columns
   Eigen::VectorXd sigma;            ///< as stated
+  double noise_dof = 15.0;          ///< how well the noise is known
+  std::size_t fewest_units = 0;     ///< with fewer left, none is set aside
+
+  [[nodiscard]] Eigen::Index observed_rows() const {
+    return e.size() - reading_sigma.size();
+  }
 };
 
-/// Effects that these data can never show, each with its reason.
-struct Candidates {
-  std::vector<CauseId> testable;
-  std::vector<NotTestable> not_testable;
-};
-[[nodiscard]] Candidates candidates(const Session& session);
+/// Without regressors. Fails where a place cannot be reached.
+[[nodiscard]] tl::expected<LinearisedSystem, observation::Unreachable> linearise(
+    const Session& session, const State& state, const Steps& steps);
 
-/// Sizes at which secants are taken where the usual one is not wanted, and extra places.
-struct Refinement {
-  CauseId cause;
-  std::vector<double> values;
-  double log_prior = 0.0;
-};
+/// All rows in units of noise.
+[[nodiscard]] Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all);
 
-/// The system without regressors. Fails where a point, or a hole, cannot be reached.
-[[nodiscard]] tl::expected<LinearisedSystem, model::VisitFailure> linearise(const Session& session,
-                                                                            const State& state,
-                                                                            const Steps& steps);
-
-/// Appends the regressors of all these causes.
-void add_regressors(const Session& session,
-                    const State& state,
-                    const std::vector<CauseId>& causes,
-                    const std::vector<Refinement>& refinements,
-                    LinearisedSystem& system);
-
-/// What stands in the nuisances' columns; nothing for points.
+/// What stands in the nuisances' columns.
 [[nodiscard]] inline auto nuisance_columns(const LinearisedSystem& system) {
   return system.by_setting.rightCols(system.nuisances);
 }
 
-/// Regressors anew about another state, at their values. False where such a machine cannot be.
-[[nodiscard]] bool renew_regressors(const Session& session,
-                                    const State& state,
-                                    const std::vector<Regressor>& regressors,
-                                    LinearisedSystem& system);
-
-/// The whitened column of an effect of these values; empty where such a machine cannot be.
-[[nodiscard]] std::optional<Eigen::VectorXd> signature(const Session& session,
-                                                       const State& state,
-                                                       const LinearisedSystem& system,
-                                                       CauseId cause,
-                                                       const std::vector<double>& values);
-
-/// Size of a cause at a coefficient of its regressor.
-[[nodiscard]] double size_at(const Regressor& regressor, double coefficient);
-/// d(size)/d(coefficient) there.
-[[nodiscard]] double size_slope(const Regressor& regressor, double coefficient);
+/// Units with at least one of their rows among `kept`, which is ascending and holds units whole:
+/// the position of their first row in it, and their number.
+[[nodiscard]] std::vector<std::pair<Eigen::Index, std::size_t>> units_in(
+    const LinearisedSystem& system, const std::vector<Eigen::Index>& kept);
 
 }  // namespace chaintrue::grid::diagnosis

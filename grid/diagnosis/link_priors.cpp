@@ -6,18 +6,15 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// A slip stands beside any number of causes. Odds that a visit bears one, before they are shared
-/// among the effects of the catalogue: one reading in a thousand, for each kind of slip.
-constexpr double kSlipOddsOfVisit = 0.5 / 34.0;
-
 /// Of whole numbers of links, one is the rule.
 double share_of_links(double links) { return std::pow(0.25, std::abs(links) - 1.0); }
 
-double strength_density(double delta) {
+double strength_density(double signal_to_noise) {
   const auto normal = [&](double sigma) {
-    return std::exp(-0.5 * std::pow(delta / sigma, 2)) / sigma;
+    return std::exp(-0.5 * std::pow(signal_to_noise / sigma, 2)) / sigma;
   };
-  return (1.0 - kWideDeltaPrior) * normal(kUsualDelta) + kWideDeltaPrior * normal(kWideDelta);
+  return (1.0 - kWideSignalToNoisePrior) * normal(kUsualSignalToNoise) +
+         kWideSignalToNoisePrior * normal(kWideSignalToNoise);
 }
 
 }  // namespace

@@ -16,14 +16,16 @@ namespace {
 
 constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
-/// Beforehand: nothing, one cause, two, three, four; and how much rarer each is with a model
-/// discrepancy beside it.
-constexpr std::array<double, kMostCauses + 1> kPriorOfCount = {0.50, 0.25, 0.05, 0.02, 0.01};
-constexpr double kDiscrepancyPrior = 0.10;
 /// A set of outliers so much less probable than the best is not tried beside discrepancies.
 constexpr double kWorthDiscrepancies = 6.0;
 /// Sets of outliers in one comparison.
 constexpr std::size_t kMostOutlierSets = 8;
+
+double prior_of_count(std::size_t causes) {
+  const std::array<double, kMostCauses + 1> prior = {
+      kPriorOfNothing, kPriorOfOne, kPriorOfTwo, kPriorOfThree, kPriorOfFour};
+  return prior.at(causes);
+}
 
 double log_sum(const std::vector<double>& terms) {
   double high = kMinusInfinity;
@@ -35,12 +37,11 @@ double log_sum(const std::vector<double>& terms) {
 }
 
 /// Nothing, and each cause alone at its best place.
-std::vector<std::vector<int>> first_hypotheses(const Session& session,
-                                               const LinearisedSystem& system,
+std::vector<std::vector<int>> first_hypotheses(const LinearisedSystem& system,
                                                const std::vector<bool>& excluded,
                                                const ComparisonOptions& options) {
   const MarginalisedSystem marginalised = marginalise(system, excluded, options.steps);
-  const NoiseDensity noise(session.noise_dof, static_cast<Eigen::Index>(marginalised.kept.size()));
+  const NoiseDensity noise(system.noise_dof, static_cast<Eigen::Index>(marginalised.kept.size()));
   const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e, false);
   std::vector<std::vector<int>> hypotheses = {{}};
   for (std::size_t k = 0; k < scores.causes.size(); ++k) {
@@ -67,7 +68,7 @@ double log_prior(const std::vector<Regressor>& regressors,
     value += d.log_prior - std::log(effects);
     if (!d.slip) ++lasting;
   }
-  return value + std::log(kPriorOfCount[lasting]) + std::lgamma(1.0 + static_cast<double>(lasting));
+  return value + std::log(prior_of_count(lasting)) + std::lgamma(1.0 + static_cast<double>(lasting));
 }
 
 SingleScores single_scores(const LinearisedSystem& system,
@@ -119,24 +120,23 @@ namespace {
 
 /// Of the best model's outliers those that are off by just what a whole number of links does:
 /// each set of outliers once more without one of them.
-std::vector<std::vector<bool>> sets_without_links(const Session& session,
-                                                  const LinearisedSystem& system,
+std::vector<std::vector<bool>> sets_without_links(const LinearisedSystem& system,
                                                   const std::vector<bool>& excluded,
                                                   const ModelComparison& comparison) {
   constexpr double kAlike = 25.0;  // squared, in sigmas: two rows, 1 in 270 000
   const CandidateModel& best = comparison.best();
   const MarginalisedSystem& marginalised = comparison.marginalised_systems[best.marginalised];
-  const Estimate fitted = estimate(session, system, marginalised, best.regressors, -1);
+  const Estimate fitted = estimate(system, marginalised, best.regressors, -1);
   std::vector<std::vector<bool>> result;
   for (std::size_t i = 0; i < marginalised.outliers.size(); ++i) {
     if (!marginalised.outliers[i] || excluded[i]) continue;
-    const auto row = system.unit_rows * static_cast<Eigen::Index>(i);
+    const SystemUnit& unit = system.units[i];
     bool links = false;
     for (std::size_t k = 0; k < system.regressors.size() && !links; ++k) {
       if (!system.regressors[k].fixed) continue;
-      const auto g = system.g.col(static_cast<Eigen::Index>(k)).segment(row, system.unit_rows);
+      const auto g = system.g.col(static_cast<Eigen::Index>(k)).segment(unit.first_row, unit.rows);
       links =
-          g.squaredNorm() > 0.0 && (fitted.left.segment(row, system.unit_rows) - g).squaredNorm() <
+          g.squaredNorm() > 0.0 && (unit.segment(fitted.left) - g).squaredNorm() <
                                        kAlike * fitted.noise_square;
     }
     if (!links) continue;
@@ -163,8 +163,7 @@ void finish(ModelComparison& comparison) {
 
 }  // namespace
 
-ModelComparison compare_models(const Session& session,
-                               const LinearisedSystem& system,
+ModelComparison compare_models(const LinearisedSystem& system,
                                const std::vector<bool>& excluded,
                                const ComparisonOptions& options) {
   ModelComparison comparison;
@@ -178,8 +177,7 @@ ModelComparison compare_models(const Session& session,
     for (const auto& outliers : sets) {
       if (comparison.marginalised_systems.size() == kMostOutlierSets) break;
       comparison.marginalised_systems.push_back(marginalise(system, outliers, options.steps));
-      searches.emplace_back(session,
-                            system,
+      searches.emplace_back(system,
                             comparison.marginalised_systems.back(),
                             comparison.marginalised_systems.size() - 1,
                             options);
@@ -193,12 +191,9 @@ ModelComparison compare_models(const Session& session,
     }
     finish(comparison);
   };
-  compare_with(outlier_sets(session,
-                            system,
-                            excluded,
-                            first_hypotheses(session, system, excluded, options),
-                            options.steps));
-  const auto more = sets_without_links(session, system, excluded, comparison);
+  compare_with(
+      outlier_sets(system, excluded, first_hypotheses(system, excluded, options), options.steps));
+  const auto more = sets_without_links(system, excluded, comparison);
   if (!more.empty()) compare_with(more);
   return comparison;
 }

@@ -4,7 +4,7 @@
 /// larger than stated, a model discrepancy, and causes beside a model discrepancy.
 ///
 /// Every hypothesis looks for its own outliers, by mean shifts added one after the other without
-/// stopping at the first that does not pay, so that several outliers cannot hide each other; the
+/// stopping at the first that does not pay, so that several outliers cannot mask each other; the
 /// few sets of outliers so found are each given the whole comparison. Causes are searched
 /// exhaustively one and two at a time, three and four at a time from the best of those.
 #pragma once
@@ -42,8 +42,7 @@ struct ComparisonOptions {
 };
 
 /// Points already known not to count (held out) are `excluded`.
-[[nodiscard]] ModelComparison compare_models(const Session& session,
-                                             const LinearisedSystem& system,
+[[nodiscard]] ModelComparison compare_models(const LinearisedSystem& system,
                                              const std::vector<bool>& excluded,
                                              const ComparisonOptions& options);
 

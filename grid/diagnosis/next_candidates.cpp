@@ -31,92 +31,133 @@ constexpr MachineReading kReadings[] = {
     {"tape_error_mm_per_m", "y", kTapeErrorSigmaMmPerM},
 };
 
-/// A session of everything that might be measured, as one more visit each.
+/// Everything that might be measured at a mark, as one more visit each.
 class PointCandidates {
  public:
-  PointCandidates(const Session& session, const Analysis& a) : session_(session) {
-    session_.points.clear();
-    session_.readings.clear();
-    const model::ReadingModel model(a.state.machine);
-    int last = 0;
-    for (const SessionPoint& p : session.points) last = std::max(last, p.order);
-    add_points(session, a, model, last + 1);
-    add_revisits(session, last + 1);
-    session_.ordered = false;  // each is a next visit; only their order among them is arbitrary
-    add_readings(session);
+  PointCandidates(const Analysis& a, std::size_t part)
+      : session_(a.session),
+        part_(part),
+        own_(dynamic_cast<const observation::ChainLengthReadings&>(
+            *a.session.parts[part].observation)),
+        model_(a.state.machine),
+        sheet_(a.state.sheet_of(a.session.parts[part])) {
+    for (const observation::Place& p : own_.places()) next_visit_ = std::max(next_visit_, p.order);
+    ++next_visit_;
+    add_points();
+    add_revisits();
   }
 
-  [[nodiscard]] NextCandidates take() { return {std::move(session_), std::move(candidates_)}; }
+  [[nodiscard]] CandidateReadings take() {
+    // Each is a next visit; only their order among them is arbitrary.
+    return {{std::make_shared<const observation::ChainLengthReadings>(
+                 observation::ChainLengthReadings::in_given_order(
+                     std::move(places_), false, own_.noise(), own_.noise_dof(), own_.sheet())),
+             part_},
+            std::move(candidates_)};
+  }
 
  private:
-  void add(model::BedPoint mark, int order, MeasurementKind kind, std::string what) {
-    const auto row = 2 * static_cast<Eigen::Index>(session_.points.size());
-    session_.points.push_back({0, mark, {}, order});
+  void add(model::BedPoint mark, MeasurementKind kind, std::string what) {
+    const auto row = 2 * static_cast<Eigen::Index>(places_.size());
+    places_.push_back({0, "", mark, {}, next_visit_});
     candidates_.push_back({{kind, std::move(what), "", mark, 0.0}, {row, row + 1}, 2});
   }
 
   /// Over the bed, as far as the sheet was measured and a little beyond.
-  void add_points(const Session& session,
-                  const Analysis& a,
-                  const model::ReadingModel& model,
-                  int order) {
+  void add_points() {
     double x = 0.0;
     double y = 0.0;
-    for (const SessionPoint& p : session.points) {
+    for (const observation::Place& p : own_.places()) {
       x = std::max(x, std::abs(p.mark.x_mm));
       y = std::max(y, std::abs(p.mark.y_mm));
     }
-    x = std::min(1.1 * x, 0.49 * session.stated.bed.width_mm);
-    y = std::min(1.1 * y, 0.49 * session.stated.bed.height_mm);
+    x = std::min(1.1 * x, 0.49 * session_.stated.bed.width_mm);
+    y = std::min(1.1 * y, 0.49 * session_.stated.bed.height_mm);
     for (int j = 0; j < kRows; ++j) {
       for (int i = 0; i < kColumns; ++i) {
         // Whole millimetres: the list is for a person with a tape.
         const model::BedPoint mark{std::round(x * (2.0 * i / (kColumns - 1) - 1.0)),
                                    std::round(y * (2.0 * j / (kRows - 1) - 1.0))};
-        if (model.at(a.state.sheet.to_bed(mark))) {
-          add(mark, order, MeasurementKind::point, "a new point");
-        }
+        if (model_.at(sheet_.to_bed(mark))) add(mark, MeasurementKind::point, "a new point");
       }
     }
   }
 
-  void add_revisits(const Session& session, int order) {
-    if (!session.ordered) return;
-    const SessionPoint& first = session.points.front();
+  void add_revisits() {
+    if (!own_.ordered()) return;
+    const observation::Place& first = own_.places().front();
     add(first.mark,
-        order,
         MeasurementKind::revisit,
         fmt::format("point {}, the first of the session, once more", first.index + 1));
-    const SessionPoint& middle = session.points[session.points.size() / 2];
+    const observation::Place& middle = own_.places()[own_.places().size() / 2];
     add(middle.mark,
-        order,
         MeasurementKind::revisit,
         fmt::format("point {} once more, coming from the other side", middle.index + 1));
   }
 
-  void add_readings(const Session& session) {
-    Eigen::Index row = session_.observed_rows();
-    for (const MachineReading& r : kReadings) {
-      const bool done =
-          std::any_of(session.readings.begin(), session.readings.end(), [&](const ExtraReading& x) {
-            return x.what == r.what && x.side == r.side;
-          });
-      const bool ring = std::holds_alternative<model::Ring>(session.stated.attachment);
-      if (done || (std::string_view(r.what) == "ring_radius_mm" && !ring)) continue;
-      session_.readings.push_back({r.what, r.side, 0.0, r.sigma});
-      candidates_.push_back(
-          {{MeasurementKind::reading, r.what, r.side, std::nullopt, r.sigma}, {row++}, 1});
-    }
-  }
-
-  Session session_;
+  const Session& session_;
+  std::size_t part_;
+  const observation::ChainLengthReadings& own_;
+  model::ReadingModel model_;
+  model::SheetPlacement sheet_;
+  int next_visit_ = 0;
+  std::vector<observation::Place> places_;
   std::vector<Candidate> candidates_;
 };
 
+/// Readings of the machine that nobody took.
+std::optional<CandidateReadings> candidate_readings(const Session& session) {
+  const std::vector<ExtraReading>& taken = session.readings();
+  std::vector<ExtraReading> readings;
+  for (const MachineReading& r : kReadings) {
+    const bool done = std::any_of(taken.begin(), taken.end(), [&](const ExtraReading& x) {
+      return x.what == r.what && x.side == r.side;
+    });
+    const ExtraReading reading{r.what, r.side, 0.0, r.sigma};
+    if (!done && observation::is_predictable(session.stated, reading)) readings.push_back(reading);
+  }
+  if (readings.empty()) return std::nullopt;
+  const auto observation =
+      std::make_shared<const observation::SingleReadings>(observation::SingleReadings(readings));
+  std::vector<Candidate> candidates;
+  for (const ExtraReading& r : readings) {
+    const auto& sorted = observation->readings();
+    const auto at = std::find_if(sorted.begin(), sorted.end(), [&](const ExtraReading& x) {
+      return x.what == r.what && x.side == r.side;
+    });
+    candidates.push_back({{MeasurementKind::reading, r.what, r.side, std::nullopt, r.sigma},
+                          {at - sorted.begin()},
+                          1});
+  }
+  return CandidateReadings{{observation, 0}, std::move(candidates)};
+}
+
 }  // namespace
 
-NextCandidates candidates_at_points(const Session& session, const Analysis& a) {
-  return PointCandidates(session, a).take();
+NextCandidates next_candidates(const Analysis& a) {
+  std::vector<FollowUp> observations;
+  std::vector<Candidate> all;
+  Eigen::Index rows = 0;
+  const auto take = [&](std::optional<CandidateReadings> more) {
+    if (!more) return;
+    for (Candidate& candidate : more->all) {
+      for (Eigen::Index& row : candidate.rows) row += rows;
+      all.push_back(std::move(candidate));
+    }
+    rows += more->observation.observation->rows();
+    observations.push_back(std::move(more->observation));
+  };
+  bool chains_read = false;
+  for (std::size_t part = 0; part < a.session.parts.size(); ++part) {
+    // Another point is set out on the first sheet.
+    if (a.session.parts[part].reads_chains() && !chains_read) {
+      take(PointCandidates(a, part).take());
+      chains_read = true;
+    }
+    if (!a.session.parts[part].reads_chains()) take(candidate_distances(a, part));
+  }
+  take(candidate_readings(a.session));
+  return {with_observations(a.session, std::move(observations)), std::move(all)};
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -3,6 +3,7 @@
 /// Everything that might be measured next, as a session of its own. Private to grid/diagnosis.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "grid/diagnosis/analysis.hpp"
@@ -26,10 +27,18 @@ struct NextCandidates {
   std::vector<Candidate> all;
 };
 
-/// Points over the bed, visits once more, and readings of the machine.
-[[nodiscard]] NextCandidates candidates_at_points(const Session& session, const Analysis& analysis);
-/// Distances not measured yet, and holes not cut yet with their distances; observed/next_distances.
-[[nodiscard]] NextCandidates candidates_between_holes(const Session& session,
-                                                      const Analysis& analysis);
+/// Points over the bed and visits once more where chains were read, distances and holes where a
+/// tape was used, and readings of the machine.
+[[nodiscard]] NextCandidates next_candidates(const Analysis& analysis);
+
+/// One observation of candidates; `rows` are its own.
+struct CandidateReadings {
+  FollowUp observation;
+  std::vector<Candidate> all;
+};
+/// For a part with distances: those not measured yet, and holes not cut yet with their distances;
+/// next_distances.cpp. Empty where nothing of the kind can be measured.
+[[nodiscard]] std::optional<CandidateReadings> candidate_distances(const Analysis& analysis,
+                                                                   std::size_t part);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "grid/diagnosis/leading.hpp"
 #include "grid/diagnosis/next_candidates.hpp"
 #include "grid/diagnosis/normal.hpp"
 #include "model/effects/catalogue.hpp"
@@ -66,9 +67,7 @@ std::vector<Alternative> leading(const Analysis& a) {
 }
 
 /// The reading that tells members of one class apart which no points can: a chain's links.
-void add_link_reading(const Session& session,
-                      const Analysis& a,
-                      std::vector<NextMeasurement>& list) {
+void add_link_reading(const Analysis& a, std::vector<NextMeasurement>& list) {
   if (a.decision.listed.empty() || list.size() >= kMostNextMeasurements) return;
   const CauseClass& members = a.decision.classes[a.decision.listed.front()];
   const bool pitch = std::any_of(members.begin(), members.end(), [](const CauseId& c) {
@@ -76,7 +75,7 @@ void add_link_reading(const Session& session,
   });
   const auto is_pitch = [](const auto& x) { return x.what == "link_pitch_mm"; };
   if (members.size() < 2 || !pitch || std::any_of(list.begin(), list.end(), is_pitch) ||
-      std::any_of(session.readings.begin(), session.readings.end(), is_pitch)) {
+      std::any_of(a.session.readings().begin(), a.session.readings().end(), is_pitch)) {
     return;
   }
   NextMeasurement reading{
@@ -89,14 +88,13 @@ void add_link_reading(const Session& session,
 }
 
 /// What a hypothesis expects of every candidate.
-void predict(const Session& session,
-             const Analysis& a,
+void predict(const Analysis& a,
              const Session& next,
              const LinearisedSystem& system,
              Alternative& h) {
   const MarginalisedSystem& marginalised =
       a.comparison.marginalised_systems[a.decision.marginalised];
-  const Estimate fitted = estimate(session, a.system, marginalised, h.regressors, -1);
+  const Estimate fitted = estimate_of(a, h.regressors);
   // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
   const Eigen::Index to_come = system.by_setting.cols() - settings;
@@ -168,15 +166,14 @@ Outlook outlook(const std::vector<Alternative>& alternatives,
 
 }  // namespace
 
-std::vector<NextMeasurement> next_measurements(const Session& session, const Analysis& a) {
+std::vector<NextMeasurement> next_measurements(const Analysis& a) {
   if (a.decision.listed.empty()) return {};
   std::vector<NextMeasurement> result;
   std::vector<Alternative> alternatives = leading(a);
-  NextCandidates next =
-      session.distances ? candidates_between_holes(session, a) : candidates_at_points(session, a);
+  NextCandidates next = next_candidates(a);
   const auto system = linearise(next.session, a.state, {});
   if (!system) return {};
-  for (Alternative& h : alternatives) predict(session, a, next.session, *system, h);
+  for (Alternative& h : alternatives) predict(a, next.session, *system, h);
   std::vector<Candidate>& options = next.all;
   std::vector<Eigen::Index> chosen;
   Outlook now = outlook(alternatives, chosen);
@@ -204,7 +201,7 @@ std::vector<NextMeasurement> next_measurements(const Session& session, const Ana
     result.back().raises_probability_to = reached;
     now = then;
   }
-  add_link_reading(session, a, result);
+  add_link_reading(a, result);
   return result;
 }
 

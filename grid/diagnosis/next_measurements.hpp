@@ -25,7 +25,6 @@ namespace chaintrue::grid::diagnosis {
 inline constexpr std::size_t kMostNextMeasurements = 8;
 
 /// Empty where fewer than two hypotheses are left to tell apart.
-[[nodiscard]] std::vector<NextMeasurement> next_measurements(const Session& session,
-                                                             const Analysis& analysis);
+[[nodiscard]] std::vector<NextMeasurement> next_measurements(const Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,54 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/normal_plot.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "grid/diagnosis/leading.hpp"
-#include "grid/synthetic/random.hpp"
+#include "grid/diagnosis/noise_draws.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr int kDraws = 499;
 constexpr int kInside = 474;  // 95 % of them
+/// Fewer ranks have no shape: those of eight points.
+constexpr Eigen::Index kFewestRows = 2 * static_cast<Eigen::Index>(kFewestPoints);
 
-/// Rows of the marginalised system that are points' rows: readings of the machine are none of the
+/// Rows of the marginalised system that are units' rows: readings of the machine are none of the
 /// plot's.
-Eigen::Index rows_of_points(const Session& session, const MarginalisedSystem& marginalised) {
-  const auto end =
-      std::lower_bound(marginalised.kept.begin(), marginalised.kept.end(), session.observed_rows());
-  return static_cast<Eigen::Index>(end - marginalised.kept.begin());
-}
-
-/// What the fit of settings and causes leaves of noise, a column a draw.
-Eigen::MatrixXd left_of_noise(const Analysis& a, std::uint64_t seed) {
-  const MarginalisedSystem& marginalised = marginalised_system(a);
-  const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
-  const Eigen::Index settings = a.system.by_setting.cols();
-  const auto causes = static_cast<Eigen::Index>(a.estimate.free.size());
-  // In units of what each unknown may be beforehand.
-  Eigen::MatrixXd design(n, settings + causes);
-  design.leftCols(settings) =
-      a.system.by_setting(marginalised.kept, Eigen::all) * a.system.sigma.asDiagonal();
-  for (Eigen::Index k = 0; k < causes; ++k) {
-    const int column = a.estimate.regressors[a.estimate.free[static_cast<std::size_t>(k)]];
-    design.col(settings + k) = a.system.g(marginalised.kept, column) * kWideDelta /
-                               std::max(marginalised.g.col(column).norm(), 1e-12);
-  }
-  Eigen::MatrixXd normal = design.transpose() * design;
-  normal.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(normal);
-  constexpr std::uint64_t kStream = 64;
-  synthetic::Random random(seed, kStream);
-  Eigen::MatrixXd z(n, kDraws);
-  for (Eigen::Index draw = 0; draw < kDraws; ++draw) {
-    for (Eigen::Index i = 0; i < n; ++i) z(i, draw) = random.normal();
-  }
-  const Eigen::MatrixXd taken = llt.solve(design.transpose() * z);
-  z.noalias() -= design * taken;
-  return z;
+Eigen::Index rows_of_units(const Analysis& a) {
+  const std::vector<Eigen::Index>& kept = marginalised_system(a).kept;
+  const auto end = std::lower_bound(kept.begin(), kept.end(), a.system.observed_rows());
+  return static_cast<Eigen::Index>(end - kept.begin());
 }
 
 /// Ascending, of rms 1.
@@ -87,19 +59,16 @@ double strays(const std::vector<Rank>& ranks, const std::vector<double>& curve) 
 
 }  // namespace
 
-std::optional<NormalPlot> normal_plot(const Session& session,
-                                      const Analysis& a,
-                                      std::uint64_t seed) {
-  // Of distances the holes' own errors hide what is normal and what is not.
-  if (session.distances) return std::nullopt;
+std::optional<NormalPlot> normal_plot(const Analysis& a) {
   const MarginalisedSystem& marginalised = marginalised_system(a);
-  const Eigen::Index rows = rows_of_points(session, marginalised);
-  if (rows < 2 * static_cast<Eigen::Index>(kFewestPoints)) return std::nullopt;
+  const Eigen::Index rows = rows_of_units(a);
+  if (rows < kFewestRows) return std::nullopt;
   const Eigen::VectorXd& left =
       a.decision.discrepancy_left ? a.estimate.left_beside_discrepancy : a.estimate.left;
   NormalPlot plot;
   plot.values = shape_of(Eigen::VectorXd(left(marginalised.kept)).head(rows));
-  const Eigen::MatrixXd noise = left_of_noise(a, seed);
+  constexpr std::uint64_t kStream = 64;
+  const Eigen::MatrixXd noise = left_of_noise(a, Nuisances::taken_out, kDraws, kStream);
   std::vector<std::vector<double>> curves;
   for (Eigen::Index draw = 0; draw < kDraws; ++draw) {
     curves.push_back(shape_of(noise.col(draw).head(rows)));

@@ -18,8 +18,6 @@
 namespace chaintrue::grid::diagnosis {
 
 /// Of the points that were not set aside; empty where fewer than kFewestPoints are left.
-[[nodiscard]] std::optional<NormalPlot> normal_plot(const Session& session,
-                                                    const Analysis& analysis,
-                                                    std::uint64_t seed);
+[[nodiscard]] std::optional<NormalPlot> normal_plot(const Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -11,7 +11,8 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr double kNoScore = -1e3;
-constexpr double kPrecision = 1.0 / (kUsualDelta * kUsualDelta);
+/// Of a strength beforehand.
+double precision() { return 1.0 / (kUsualSignalToNoise * kUsualSignalToNoise); }
 constexpr int kBlock = 250;  // draws at a time
 
 }  // namespace
@@ -30,7 +31,7 @@ SingleScore::SingleScore(const LinearisedSystem& system,
     sign_.push_back(d.fixed || (d.lowest < 0.0 && d.highest > 0.0) ? 0
                                                                    : (d.highest > 0.0 ? 1 : -1));
     constant_(k) = d.log_prior;
-    if (!d.fixed) constant_(k) -= std::log(kUsualDelta) + 0.5 * std::log1p(kPrecision);
+    if (!d.fixed) constant_(k) -= std::log(kUsualSignalToNoise) + 0.5 * std::log1p(precision());
     if (sign_.back() != 0) constant_(k) += std::log(2.0);
   }
 }
@@ -38,7 +39,7 @@ SingleScore::SingleScore(const LinearisedSystem& system,
 double SingleScore::score(Eigen::Index k, double square, double c, double ee, double n) const {
   const auto at = static_cast<std::size_t>(k);
   if (!(square > 1e-8) || sign_[at] * c < 0.0) return kNoScore;
-  const double drop = fixed_[at] ? 2.0 * c - square : c * c / (square * (1.0 + kPrecision));
+  const double drop = fixed_[at] ? 2.0 * c - square : c * c / (square * (1.0 + precision()));
   return constant_(k) - 0.5 * (n + dof_) * std::log1p(-drop / (dof_ + ee));
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "grid/diagnosis/model_comparison.hpp"
 
@@ -42,7 +43,8 @@ Seen seen_by(const Seen& nothing,
   std::vector<Eigen::VectorXd> taken;
   for (const int k : set) {
     if (system.regressors[static_cast<std::size_t>(k)].fixed) continue;
-    const double prior = marginalised.g.col(k).squaredNorm() / (kWideDelta * kWideDelta);
+    const double prior =
+        marginalised.g.col(k).squaredNorm() / (kWideSignalToNoise * kWideSignalToNoise);
     // P g for the precision so far
     Eigen::VectorXd pg = upper.solve(Eigen::VectorXd(marginalised.g.col(k)));
     const Eigen::VectorXd g = marginalised.factor * marginalised.g.col(k);
@@ -58,69 +60,84 @@ Seen seen_by(const Seen& nothing,
   return seen;
 }
 
-/// Blocks of rows in `marginalised` that are one unit, with the unit's number.
-std::vector<std::pair<Eigen::Index, std::size_t>> blocks(const LinearisedSystem& system,
-                                                         const MarginalisedSystem& marginalised) {
-  std::vector<std::pair<Eigen::Index, std::size_t>> result;
-  for (std::size_t a = 0; a < marginalised.kept.size(); ++a) {
-    const auto unit = static_cast<std::size_t>(marginalised.kept[a] / system.unit_rows);
-    if (marginalised.kept[a] % system.unit_rows == 0 && unit < system.units.size()) {
-      result.emplace_back(static_cast<Eigen::Index>(a), unit);
-    }
-  }
-  return result;
-}
-
-/// When to stop, and what a hypothesis weighs.
+/// What a hypothesis weighs beforehand.
 struct Search {
   double log_prior = 0.0;
   double noise_dof = 0.0;
-  std::size_t fewest_units = 0;
 };
 
-/// Mean shifts one after the other; the best of the nested sets. kRows in a unit.
+/// What the quadratic form loses with the unit whose rows begin at `at`.
 template <int kRows>
+double drop_without(const Seen& seen, Eigen::Index at) {
+  using Shift = Eigen::Matrix<double, kRows, 1>;
+  using Block = Eigen::Matrix<double, kRows, kRows>;
+  const Shift u = seen.u.template segment<kRows>(at);
+  const Block block = seen.precision.template block<kRows, kRows>(at, at);
+  return u.dot(block.inverse() * u);
+}
+
+template <int kRows>
+void set_aside(Seen& seen, Eigen::Index at, double drop) {
+  using Shift = Eigen::Matrix<double, kRows, 1>;
+  using Block = Eigen::Matrix<double, kRows, kRows>;
+  const Block block = seen.precision.template block<kRows, kRows>(at, at);
+  const Eigen::MatrixXd columns = seen.precision.template middleCols<kRows>(at) * block.inverse();
+  const Shift u = seen.u.template segment<kRows>(at);
+  seen.quadratic -= drop;
+  seen.log_det += std::log(block.determinant());
+  seen.u -= columns * u;
+  seen.precision.noalias() -= columns * seen.precision.template middleRows<kRows>(at).eval();
+}
+
+/// The unit that the data would rather do without than any other: what it takes from the quadratic
+/// form, against what setting a unit of so many rows aside costs.
+struct Worst {
+  std::size_t position = 0;
+  double drop = -1.0;
+};
+
+Worst worst_of(const Seen& seen,
+               const LinearisedSystem& system,
+               const std::vector<std::pair<Eigen::Index, std::size_t>>& free) {
+  Worst worst;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const Eigen::Index rows = system.units[free[k].second].rows;
+    const double drop = rows == 2 ? drop_without<2>(seen, free[k].first)
+                                  : drop_without<1>(seen, free[k].first);
+    const double gain = drop + 2.0 * log_price_of_outlier(rows);
+    if (gain > most) {
+      most = gain;
+      worst = {k, drop};
+    }
+  }
+  return worst;
+}
+
+/// Mean shifts one after the other; the best of the nested sets.
 Found search(Seen seen,
              const LinearisedSystem& system,
              const MarginalisedSystem& marginalised,
              const Search& by) {
-  using Shift = Eigen::Matrix<double, kRows, 1>;
-  using Block = Eigen::Matrix<double, kRows, kRows>;
-  auto free = blocks(system, marginalised);
+  auto free = units_in(system, marginalised.kept);
   const auto count = static_cast<double>(free.size());
   const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostOutlierShare * count)));
   auto n = static_cast<Eigen::Index>(marginalised.kept.size());
-  const double price = log_price_of_outlier(system);
   Found best{marginalised.outliers,
              NoiseDensity(by.noise_dof, n).log_density(seen.quadratic) - 0.5 * seen.log_det +
                  by.log_prior};
   std::vector<bool> outliers = marginalised.outliers;
-  for (std::size_t step = 1; step <= most && free.size() > by.fewest_units; ++step) {
-    std::size_t worst = 0;
-    double drop = -1.0;
-    for (std::size_t k = 0; k < free.size(); ++k) {
-      const Eigen::Index at = free[k].first;
-      const Shift u = seen.u.template segment<kRows>(at);
-      const Block block = seen.precision.template block<kRows, kRows>(at, at);
-      const double d = u.dot(block.inverse() * u);
-      if (d > drop) {
-        drop = d;
-        worst = k;
-      }
-    }
-    const Eigen::Index at = free[worst].first;
-    const Block block = seen.precision.template block<kRows, kRows>(at, at);
-    const Eigen::MatrixXd columns = seen.precision.template middleCols<kRows>(at) * block.inverse();
-    const Shift u = seen.u.template segment<kRows>(at);
-    seen.quadratic -= drop;
-    seen.log_det += std::log(block.determinant());
-    seen.u -= columns * u;
-    seen.precision.noalias() -= columns * seen.precision.template middleRows<kRows>(at).eval();
-    outliers[free[worst].second] = true;
-    free.erase(free.begin() + static_cast<std::ptrdiff_t>(worst));
-    n -= kRows;
+  std::vector<bool> added(outliers.size(), false);
+  for (std::size_t step = 1; step <= most && free.size() > system.fewest_units; ++step) {
+    const Worst worst = worst_of(seen, system, free);
+    const auto [at, unit] = free[worst.position];
+    const Eigen::Index rows = system.units[unit].rows;
+    rows == 2 ? set_aside<2>(seen, at, worst.drop) : set_aside<1>(seen, at, worst.drop);
+    outliers[unit] = added[unit] = true;
+    free.erase(free.begin() + static_cast<std::ptrdiff_t>(worst.position));
+    n -= rows;
     const double weight = NoiseDensity(by.noise_dof, n).log_density(std::max(seen.quadratic, 0.0)) -
-                          0.5 * seen.log_det + by.log_prior + static_cast<double>(step) * price;
+                          0.5 * seen.log_det + by.log_prior + log_price_of_outliers(system, added);
     if (weight > best.log_weight) best = {outliers, weight};
   }
   return best;
@@ -128,8 +145,7 @@ Found search(Seen seen,
 
 }  // namespace
 
-std::vector<std::vector<bool>> outlier_sets(const Session& session,
-                                            const LinearisedSystem& system,
+std::vector<std::vector<bool>> outlier_sets(const LinearisedSystem& system,
                                             const std::vector<bool>& excluded,
                                             const std::vector<std::vector<int>>& hypotheses,
                                             const Steps& steps) {
@@ -143,10 +159,8 @@ std::vector<std::vector<bool>> outlier_sets(const Session& session,
   nothing.log_det = marginalised.log_det;
   std::vector<Found> found;
   for (const auto& set : hypotheses) {
-    const Search by{
-        log_prior(system.regressors, set, false), session.noise_dof, session.fewest_units()};
-    const auto look = system.unit_rows == 2 ? search<2> : search<1>;
-    Found one = look(seen_by(nothing, marginalised, system, set), system, marginalised, by);
+    const Search by{log_prior(system.regressors, set, false), system.noise_dof};
+    Found one = search(seen_by(nothing, marginalised, system, set), system, marginalised, by);
     const auto same = std::find_if(
         found.begin(), found.end(), [&](const Found& f) { return f.outliers == one.outliers; });
     if (same == found.end()) {

@@ -9,13 +9,9 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// At most this share of them is set aside, or three where there are few.
-inline constexpr double kMostOutlierShare = 0.12;
-
 /// Flags per unit, the most probable set first; units that are excluded beforehand stay flagged in
 /// all of them. `hypotheses` are sets of regressors.
 [[nodiscard]] std::vector<std::vector<bool>> outlier_sets(
-    const Session& session,
     const LinearisedSystem& system,
     const std::vector<bool>& excluded,
     const std::vector<std::vector<int>>& hypotheses,

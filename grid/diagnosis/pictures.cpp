@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/LU>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,55 +9,150 @@
 
 namespace chaintrue::grid::diagnosis {
 
-std::vector<PointPicture> pictures(const Session& session, const Analysis& a) {
-  if (session.distances) return {};
-  const MarginalisedSystem& marginalised = marginalised_system(a);
-  const Estimate before = estimate(session, a.system, marginalised, {}, -1);
-  const auto chain_before = chain_residuals(a.system, before.left);
-  const auto chain_after = chain_residuals(a.system, a.estimate.left);
-  const auto explained = [&](const std::vector<int>& set) {
-    const Estimate fitted = estimate(session, a.system, marginalised, set, -1);
-    return chain_residuals(a.system, Eigen::VectorXd(before.left - fitted.left));
+namespace {
+
+/// What the pictures show of every unit, whitened, all rows.
+struct Residuals {
+  Eigen::VectorXd before;  ///< of the calibrated machine
+  Eigen::VectorXd after;   ///< with the causes named
+  Eigen::VectorXd best;    ///< what the best cause explains, settings refitted
+  Eigen::VectorXd rival;
+};
+
+Residuals residuals_of(const Analysis& a) {
+  const auto of_machine = [&](const std::vector<int>& regressors) {
+    const Estimate fitted = estimate_of(a, regressors);
+    return left_of_machine(a.system, fitted, fitted.left);
   };
   const Shown sets = shown(a);
-  const auto by_best = explained(sets.best);
-  const auto by_rival = explained(sets.rival);
-  std::vector<PointPicture> result;
-  for (std::size_t i = 0; i < session.points.size(); ++i) {
-    const PointState& state = a.system.points[i];
-    PointPicture p;
-    p.index = session.points[i].index;
-    p.mark = session.points[i].mark;
-    if (session.ordered) p.order = session.points[i].order;
-    p.bad = marginalised.outliers[i];
-    p.chain_before_mm = chain_before[i];
-    p.chain_after_mm = chain_after[i];
-    p.before_mm = tool_shift(state, chain_before[i]);
-    p.after_mm = tool_shift(state, chain_after[i]);
-    const Eigen::Matrix2d inverse = state.by_mark.inverse();
-    const Eigen::Matrix2d covariance =
-        inverse * inverse.transpose() * std::pow(session.noise.length_mm, 2) +
-        Eigen::Matrix2d::Identity() * std::pow(session.noise.position_mm, 2);
-    p.noise_sigma_mm = covariance.diagonal().cwiseSqrt();
-    p.best_mm = by_best[i];
-    p.rival_mm = by_rival[i];
-    p.lengths = session.points[i].lengths;
-    const model::Pose& pose = state.reading.pose;
-    p.angle_left_rad = pose.chains.left.angle_rad;
-    p.angle_right_rad = pose.chains.right.angle_rad;
-    p.tension_left_n = pose.chains.left.tension_at_sprocket_n;
-    p.tension_right_n = pose.chains.right.tension_at_sprocket_n;
-    if (session.ordered) {
-      const auto direction_of = [&](double now, double then) { return now < then ? -1 : 1; };
-      const auto& last = i > 0 ? a.system.points[i - 1].reading.pose.lengths : pose.lengths;
-      p.direction_left = i == 0 ? 1 : direction_of(pose.lengths.left_mm, last.left_mm);
-      p.direction_right = i == 0 ? 1 : direction_of(pose.lengths.right_mm, last.right_mm);
-    }
-    result.push_back(std::move(p));
-  }
-  std::sort(result.begin(), result.end(), [](const PointPicture& x, const PointPicture& y) {
+  Residuals result;
+  result.before = of_machine({});
+  result.after = left_of_machine(a.system, a.estimate, a.estimate.left);
+  result.best = result.before - of_machine(sets.best);
+  result.rival = result.before - of_machine(sets.rival);
+  return result;
+}
+
+void draw_pose(const model::Pose& pose, PointPicture& p) {
+  p.angle_left_rad = pose.chains.left.angle_rad;
+  p.angle_right_rad = pose.chains.right.angle_rad;
+  p.tension_left_n = pose.chains.left.tension_at_sprocket_n;
+  p.tension_right_n = pose.chains.right.tension_at_sprocket_n;
+}
+
+PointPicture picture_of(const Analysis& a, const Residuals& residuals, std::size_t u) {
+  const SystemUnit& unit = a.system.units[u];
+  const std::size_t at = unit.places.front().place;
+  const SystemPlace& state = a.system.places[at];
+  const SessionPlace& place = a.session.places[at];
+  PointPicture p;
+  p.index = place.index;
+  p.mark = place.mark;
+  if (state.ordered) p.order = place.order;
+  p.bad = marginalised_system(a).outliers[u];
+  p.chain_before_mm = unit.unwhitened(residuals.before);
+  p.chain_after_mm = unit.unwhitened(residuals.after);
+  p.before_mm = tool_shift(state, p.chain_before_mm);
+  p.after_mm = tool_shift(state, p.chain_after_mm);
+  p.noise_sigma_mm = noise_of_unit_mm2(a.system, u).diagonal().cwiseSqrt();
+  p.best_mm = unit.unwhitened(residuals.best);
+  p.rival_mm = unit.unwhitened(residuals.rival);
+  p.lengths = place.lengths;
+  const model::Pose& pose = state.reading.pose;
+  draw_pose(pose, p);
+  if (!state.ordered) return p;
+  const bool first = at == a.session.parts[place.part].first_place;
+  const auto direction_of = [&](double now, double then) { return now < then ? -1 : 1; };
+  const auto& last = first ? pose.lengths : a.system.places[at - 1].reading.pose.lengths;
+  p.direction_left = first ? 1 : direction_of(pose.lengths.left_mm, last.left_mm);
+  p.direction_right = first ? 1 : direction_of(pose.lengths.right_mm, last.right_mm);
+  return p;
+}
+
+DistancePicture picture_of(const Analysis& a,
+                           const Residuals& residuals,
+                           const observation::TapeDistances& tape,
+                           std::size_t k,
+                           std::size_t u) {
+  const MeasuredHoles& set = tape.set();
+  const HoleDistance& distance = set.distances[k];
+  const auto mm = [&](const Eigen::VectorXd& whitened) {
+    return error_of_unit(a.system, whitened, u).x();
+  };
+  DistancePicture picture;
+  picture.index = a.session.units[u].index;
+  picture.from = set.holes[distance.from].name;
+  picture.to =
+      distance.edge ? std::string(grid::name(*distance.edge)) : set.holes[distance.to].name;
+  picture.bad = marginalised_system(a).outliers[u];
+  picture.read_mm = length_of(set, distance);
+  picture.before_mm = mm(residuals.before);
+  picture.after_mm = mm(residuals.after);
+  picture.noise_sigma_mm = std::sqrt(noise_of_unit_mm2(a.system, u)(0, 0));
+  picture.best_mm = mm(residuals.best);
+  picture.rival_mm = mm(residuals.rival);
+  return picture;
+}
+
+template <class Picture>
+void in_order_of_files(std::vector<Picture>& pictures) {
+  std::sort(pictures.begin(), pictures.end(), [](const Picture& x, const Picture& y) {
     return x.index < y.index;
   });
+}
+
+}  // namespace
+
+std::string words_of_ends(const DistancePicture& distance) {
+  return std::any_of(kSheetEdges.begin(),
+                     kSheetEdges.end(),
+                     [&](SheetEdge edge) { return grid::name(edge) == distance.to; })
+             ? fmt::format("{} to the {} edge", distance.from, distance.to)
+             : fmt::format("{}-{}", distance.from, distance.to);
+}
+
+std::vector<PointPicture> point_pictures(const Analysis& a) {
+  if (!a.session.reads_chains()) return {};
+  const Residuals residuals = residuals_of(a);
+  std::vector<PointPicture> result;
+  for (std::size_t u = 0; u < a.system.units.size(); ++u) {
+    if (a.system.units[u].reads_chains) result.push_back(picture_of(a, residuals, u));
+  }
+  in_order_of_files(result);
+  return result;
+}
+
+std::vector<HolePicture> hole_pictures(const Analysis& a) {
+  const State state =
+      with_settings(a.session, a.state, a.system.setting + a.estimate.setting_change);
+  std::vector<std::pair<std::size_t, HolePicture>> found;
+  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(a.session)) {
+    const auto places = tape->placed(state.view(*part));
+    for (std::size_t i = 0; i < tape->places().size(); ++i) {
+      const observation::Place& hole = tape->places()[i];
+      found.emplace_back(
+          hole.index,
+          HolePicture{hole.name, hole.mark, places ? (*places)[i].mark : hole.mark});
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) {
+    return x.first < y.first;
+  });
+  std::vector<HolePicture> result;
+  for (auto& [index, picture] : found) result.push_back(std::move(picture));
+  return result;
+}
+
+std::vector<DistancePicture> distance_pictures(const Analysis& a) {
+  if (!a.session.has_distances()) return {};
+  const Residuals residuals = residuals_of(a);
+  std::vector<DistancePicture> result;
+  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(a.session)) {
+    for (std::size_t k = 0; k < tape->units().size(); ++k) {
+      result.push_back(picture_of(a, residuals, *tape, k, part->first_unit + k));
+    }
+  }
+  in_order_of_files(result);
   return result;
 }
 

@@ -51,7 +51,7 @@ class Round {
       : session_(session), state_(state), system_(system), marginalised_(std::move(marginalised)) {
     std::vector<int> all;
     for (std::size_t k = 0; k < system.regressors.size(); ++k) all.push_back(static_cast<int>(k));
-    estimate_ = diagnosis::estimate(session, system, marginalised_, all, discrepancy);
+    estimate_ = diagnosis::estimate(system, marginalised_, all, discrepancy);
   }
   [[nodiscard]] const Estimate& estimate() const { return estimate_; }
 
@@ -165,26 +165,26 @@ class Round {
 
 }  // namespace
 
-Relinearised relinearise(const Session& session,
-                         const State& state,
-                         const LinearisedSystem& system,
-                         const MarginalisedSystem& marginalised,
-                         const Leaders& leaders,
-                         const Steps& steps) {
+Relinearised relinearise(const Analysis& a) {
+  const Session& session = a.session;
+  const LinearisedSystem& system = a.system;
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
+  const int discrepancy = a.decision.discrepancy_left ? a.decision.best_discrepancy : -1;
   std::vector<Regressor> own;
   std::vector<Reach> reaches;
-  for (const int k : leaders.regressors) {
+  for (const int k : a.decision.regressors) {
     own.push_back(system.regressors[static_cast<std::size_t>(k)]);
     reaches.push_back(reach(system, own.back()));
   }
-  Relinearised result{state, {}};
+  Relinearised result{a.state, {}};
   for (int round = 0; round < kRounds; ++round) {
-    auto about = linearise(session, result.state, steps);
+    auto about = linearise(session, result.state, a.options.steps);
     if (!about || !renew_regressors(session, result.state, own, *about)) break;
-    MarginalisedSystem there = marginalise(*about, marginalised.outliers, steps);
+    MarginalisedSystem there = marginalise(*about, marginalised.outliers, a.options.steps);
     there.discrepancy_trace =
         marginalised.discrepancy_trace;  // the discrepancy stays as strong as it was found
-    const Round here(session, result.state, *about, std::move(there), leaders.discrepancy);
+    const Round here(session, result.state, *about, std::move(there), discrepancy);
     const auto settings = static_cast<Eigen::Index>(session.settings.size());
     bool settled =
         here.estimate().setting_change.head(settings).cwiseAbs().maxCoeff() < kSettled_mm;
@@ -195,7 +195,7 @@ Relinearised relinearise(const Session& session,
       settled = settled && std::abs(moved[k].values.front() - own[k].values.front()) <
                                kSettled * std::abs(own[k].values.front());
       // Beside a discrepancy the best of the places tried has to do: e has the discrepancy in it.
-      if (has_continuous_place(own[k]) && leaders.discrepancy < 0)
+      if (has_continuous_place(own[k]) && discrepancy < 0)
         moved[k].values.back() = here.place(k, reaches[k]);
     }
     State next =
@@ -207,7 +207,7 @@ Relinearised relinearise(const Session& session,
   }
   for (std::size_t k = 0; k < own.size(); ++k) {
     const double first =
-        system.regressors[static_cast<std::size_t>(leaders.regressors[k])].values.front();
+        system.regressors[static_cast<std::size_t>(a.decision.regressors[k])].values.front();
     // A secant over next to nothing has no direction.
     if (own[k].fixed || !(std::abs(own[k].values.front()) > kSettled * std::abs(first))) continue;
     result.refinements.push_back({own[k].cause, own[k].values, own[k].log_prior});

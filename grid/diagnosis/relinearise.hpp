@@ -8,8 +8,7 @@
 /// where they end the models are compared again.
 #pragma once
 
-#include "grid/diagnosis/decision.hpp"
-#include "grid/diagnosis/estimate.hpp"
+#include "grid/diagnosis/analysis.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -18,18 +17,8 @@ struct Relinearised {
   std::vector<Refinement> refinements;  ///< of the causes whose size is no whole number
 };
 
-/// What leads: regressors of the system, beside a model discrepancy or none (-1).
-struct Leaders {
-  std::vector<int> regressors;
-  int discrepancy = -1;
-};
-
-/// From the state of the system, with the points set aside that `marginalised` leaves out.
-[[nodiscard]] Relinearised relinearise(const Session& session,
-                                       const State& state,
-                                       const LinearisedSystem& system,
-                                       const MarginalisedSystem& marginalised,
-                                       const Leaders& leaders,
-                                       const Steps& steps);
+/// The causes of the analysis' decision, from its state, with the units set aside that the decision
+/// leaves out.
+[[nodiscard]] Relinearised relinearise(const Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -35,17 +35,15 @@ bool compatible(const Regressor& a, const Regressor& b) {
 
 class SetSearch::Search {
  public:
-  Search(const Session& session,
-         const LinearisedSystem& system,
+  Search(const LinearisedSystem& system,
          MarginalisedSystem& marginalised,
          std::size_t number,
          const ComparisonOptions& options)
-      : session_(session),
-        system_(system),
+      : system_(system),
         marginalised_(marginalised),
         number_(number),
         options_(options),
-        noise_(options.steps.anchor_noise ? session.noise_dof : 1e-3,
+        noise_(options.steps.anchor_noise ? system.noise_dof : 1e-3,
                static_cast<Eigen::Index>(marginalised.kept.size())) {}
 
   std::vector<CandidateModel> run() {
@@ -161,7 +159,7 @@ class SetSearch::Search {
     double cb = equations_.ge(j);
     const double ab = equations_.gg(i, j);
     double occam = 0.0;
-    constexpr double kPrecision = 1.0 / (kWideDelta * kWideDelta);
+    const double precision = 1.0 / (kWideSignalToNoise * kWideSignalToNoise);
     if (a.fixed && b.fixed) {
       q += aa + bb + 2.0 * (ab - ca - cb);
     } else if (a.fixed || b.fixed) {
@@ -169,19 +167,19 @@ class SetSearch::Search {
       const double cf = a.fixed ? ca : cb;
       const double oo = a.fixed ? bb : aa;
       const double co = (a.fixed ? cb : ca) - ab;
-      q += ff - 2.0 * cf - co * co / (oo * (1.0 + kPrecision));
-      occam = std::log(kUsualDelta);
+      q += ff - 2.0 * cf - co * co / (oo * (1.0 + precision));
+      occam = std::log(kUsualSignalToNoise);
     } else {
       ca /= std::sqrt(aa);
       cb /= std::sqrt(bb);
-      const double rho = ab / std::sqrt(aa * bb);
-      const double one = 1.0 + kPrecision;
-      const double det = one * one - rho * rho;
-      q -= (one * (ca * ca + cb * cb) - 2.0 * rho * ca * cb) / det;
-      occam = 2.0 * std::log(kUsualDelta) + 0.5 * std::log(det);
+      const double collinearity = ab / std::sqrt(aa * bb);
+      const double one = 1.0 + precision;
+      const double det = one * one - collinearity * collinearity;
+      q -= (one * (ca * ca + cb * cb) - 2.0 * collinearity * ca * cb) / det;
+      occam = 2.0 * std::log(kUsualSignalToNoise) + 0.5 * std::log(det);
     }
     const auto n = static_cast<double>(marginalised_.kept.size());
-    return -0.5 * (n + session_.noise_dof) * std::log(session_.noise_dof + std::max(q, 0.0)) -
+    return -0.5 * (n + system_.noise_dof) * std::log(system_.noise_dof + std::max(q, 0.0)) -
            occam + a.log_prior + b.log_prior;
   }
 
@@ -270,7 +268,7 @@ class SetSearch::Search {
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     const std::vector<NormalEquations> by_discrepancy =
-        normal_equations_beside_discrepancies(system_, session_, marginalised_, used);
+        normal_equations_beside_discrepancies(system_, marginalised_, used);
     for (int discrepancy = 0; discrepancy < kDiscrepancies; ++discrepancy) {
       const NormalEquations& equations = by_discrepancy[static_cast<std::size_t>(discrepancy)];
       const double share = log_share_of_discrepancy(discrepancy);
@@ -301,7 +299,6 @@ class SetSearch::Search {
   static constexpr double kGrowWithin = 12.0;
   static constexpr std::size_t kChildren = 24;
 
-  const Session& session_;
   const LinearisedSystem& system_;
   MarginalisedSystem& marginalised_;
   std::size_t number_;
@@ -313,12 +310,11 @@ class SetSearch::Search {
   double best_ = kMinusInfinity;
 };
 
-SetSearch::SetSearch(const Session& session,
-                     const LinearisedSystem& system,
+SetSearch::SetSearch(const LinearisedSystem& system,
                      MarginalisedSystem& marginalised,
                      std::size_t number,
                      const ComparisonOptions& options)
-    : search_(std::make_unique<Search>(session, system, marginalised, number, options)) {}
+    : search_(std::make_unique<Search>(system, marginalised, number, options)) {}
 SetSearch::~SetSearch() = default;
 SetSearch::SetSearch(SetSearch&&) noexcept = default;
 SetSearch& SetSearch::operator=(SetSearch&&) noexcept = default;

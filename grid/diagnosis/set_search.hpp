@@ -16,8 +16,7 @@ class SetSearch {
  public:
   /// `number` is the marginalised system's in its comparison; all references must outlive the
   /// search.
-  SetSearch(const Session& session,
-            const LinearisedSystem& system,
+  SetSearch(const LinearisedSystem& system,
             MarginalisedSystem& marginalised,
             std::size_t number,
             const ComparisonOptions& options);

@@ -11,18 +11,48 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// Position in the session of the point without which nothing would be named.
-std::optional<std::size_t> made_by(const Session& session, const Stability& stability) {
+/// The removal of one reading without which nothing would be named, and the reading's position in
+/// the session.
+struct MadeBy {
+  const Removal* removal = nullptr;
+  std::size_t unit = 0;
+};
+
+std::optional<MadeBy> made_by(const Session& session, const Stability& stability) {
   const Removal* most = nullptr;
   for (const Removal& removal : stability.removals) {
-    if (removal.what != Removal::What::point || !removal.causes.empty()) continue;
+    const bool one =
+        removal.what == Removal::What::point || removal.what == Removal::What::distance;
+    if (!one || !removal.causes.empty()) continue;
     if (most == nullptr || removal.support > most->support) most = &removal;
   }
   if (most == nullptr) return std::nullopt;
-  for (std::size_t i = 0; i < session.points.size(); ++i) {
-    if (session.points[i].index == most->index) return i;
+  for (std::size_t u = 0; u < session.units.size(); ++u) {
+    const bool point = session.parts[session.units[u].part].reads_chains();
+    if (point == (most->what == Removal::What::point) && session.units[u].index == most->index) {
+      return MadeBy{most, u};
+    }
   }
   return std::nullopt;
+}
+
+std::string refusal_words(const Session& session,
+                          const MadeBy& reading,
+                          const CauseId& cause,
+                          double probability) {
+  const bool point = reading.removal->what == Removal::What::point;
+  const std::string what = point ? fmt::format("Point {}", reading.removal->index + 1)
+                                 : "The" + name_of(session, reading.unit).substr(3);
+  return fmt::format(
+      "{} by itself would make a name of it ({}{}, {:.0f} %); without it nothing is named. A "
+      "lasting cause shows in more than one {}, so the {} is set aside: measure it again{}.",
+      what,
+      cause.effect->cause,
+      side_words(cause),
+      100.0 * probability,
+      point ? "point" : "distance",
+      point ? "point" : "distance",
+      point ? ", and once more beside it" : "");
 }
 
 bool may_be_refused(const Analysis& a) {
@@ -35,34 +65,18 @@ bool may_be_refused(const Analysis& a) {
 
 }  // namespace
 
-std::optional<std::string> refuse_name_of_one_reading(const Session& session,
-                                                      const DiagnosisOptions& options,
-                                                      const std::optional<Stability>& stability,
+std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stability>& stability,
                                                       Analysis& a) {
-  if (!stability || session.distances || options.told || !may_be_refused(a)) return std::nullopt;
-  const auto point = made_by(session, *stability);
-  if (!point) return std::nullopt;
+  if (!stability || a.options.told || !may_be_refused(a)) return std::nullopt;
+  const auto reading = made_by(a.session, *stability);
+  if (!reading) return std::nullopt;
   const ClassProbability leader = a.decision.marginal.front();
   const CauseId cause = a.decision.classes[leader.index].front();
-  std::vector<bool> aside(session.units(), false);
-  aside[*point] = true;
-  const std::vector<bool> none(session.units(), false);
-  a.comparison = compare_models(session, a.system, aside, {options.steps, true, options.told});
-  a.decision = decide_beside_discrepancy(session, a.system, a.comparison, none, false);
-  a.estimate = estimate(session,
-                        a.system,
-                        marginalised_system(a),
-                        a.decision.regressors,
-                        a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
-  return fmt::format(
-      "Point {} by itself would make a name of it ({}{}, {:.0f} %); without it nothing is named. A "
-      "lasting cause shows in more than one point, so the point is set aside: measure it again, "
-      "and "
-      "once more beside it.",
-      session.points[*point].index + 1,
-      cause.effect->cause,
-      side_words(cause),
-      100.0 * leader.probability);
+  std::vector<bool> aside(a.session.units.size(), false);
+  aside[reading->unit] = true;
+  a.comparison = compare_models(a.system, aside, {a.options.steps, true, a.options.told});
+  decide_for(false, a);
+  return refusal_words(a.session, *reading, cause, leader.probability);
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -15,9 +15,6 @@ namespace chaintrue::grid::diagnosis {
 /// set aside and says so in a sentence. Nothing is done where the name stands, where a set is left,
 /// or where the cause is a slip or a skip, which may show in one reading alone.
 [[nodiscard]] std::optional<std::string> refuse_name_of_one_reading(
-    const Session& session,
-    const DiagnosisOptions& options,
-    const std::optional<Stability>& stability,
-    Analysis& analysis);
+    const std::optional<Stability>& stability, Analysis& analysis);
 
 }  // namespace chaintrue::grid::diagnosis

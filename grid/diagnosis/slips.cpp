@@ -15,7 +15,7 @@ namespace {
 constexpr double kFarOff_mm = 50.0;  // ten times what settings and effects do together
 constexpr double kMends = 0.2;       // of the misfit may be left
 
-using Read = SessionPoint (*)(SessionPoint);
+using Read = SessionPlace (*)(SessionPlace);
 
 struct Slip {
   std::string_view words;
@@ -26,28 +26,28 @@ constexpr double kMmPerInch = 25.4;
 
 constexpr Slip kSlips[] = {
     {"the two chains' columns look exchanged",
-     [](SessionPoint p) {
+     [](SessionPlace p) {
        std::swap(p.lengths.left_mm, p.lengths.right_mm);
        return p;
      }},
     {"the x axis looks turned round; positive x is to the right",
-     [](SessionPoint p) {
+     [](SessionPlace p) {
        p.mark.x_mm = -p.mark.x_mm;
        return p;
      }},
     {"the y axis looks turned round; positive y is up the sheet",
-     [](SessionPoint p) {
+     [](SessionPlace p) {
        p.mark.y_mm = -p.mark.y_mm;
        return p;
      }},
     {"the lengths look like inches",
-     [](SessionPoint p) {
+     [](SessionPlace p) {
        p.lengths.left_mm *= kMmPerInch;
        p.lengths.right_mm *= kMmPerInch;
        return p;
      }},
     {"the marks look like inches",
-     [](SessionPoint p) {
+     [](SessionPlace p) {
        p.mark.x_mm *= kMmPerInch;
        p.mark.y_mm *= kMmPerInch;
        return p;
@@ -58,14 +58,17 @@ constexpr Slip kSlips[] = {
 std::optional<double> misfit_mm(const Session& session, Read read) {
   const model::ReadingModel model(session.stated);
   double sum = 0.0;
-  for (const SessionPoint& point : session.points) {
-    const SessionPoint p = read(point);
+  double count = 0.0;
+  for (const SessionPlace& place : session.places) {
+    if (!session.parts[place.part].reads_chains()) continue;
+    const SessionPlace p = read(place);
     const auto reading = model.at(p.mark);
     if (!reading) return std::nullopt;
     sum += std::pow(p.lengths.left_mm - reading->lengths.left_mm, 2) +
            std::pow(p.lengths.right_mm - reading->lengths.right_mm, 2);
+    count += 1.0;
   }
-  return std::sqrt(sum / static_cast<double>(session.points.size()));
+  return std::sqrt(sum / count);
 }
 
 /// Distances that are all longer, or all shorter, by the same.
@@ -88,8 +91,11 @@ std::optional<DiagnosisFailure> suspected_hook(const MeasuredHoles& set) {
 }  // namespace
 
 std::optional<DiagnosisFailure> suspected_slip(const Session& session) {
-  if (session.distances) return suspected_hook(session.distances->set());
-  const auto plain = misfit_mm(session, [](SessionPoint p) { return p; });
+  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
+    if (auto hook = suspected_hook(tape->set())) return hook;
+  }
+  if (!session.reads_chains()) return std::nullopt;
+  const auto plain = misfit_mm(session, [](SessionPlace p) { return p; });
   if (plain && *plain < kFarOff_mm) return std::nullopt;
   for (const Slip& slip : kSlips) {
     const auto mended = misfit_mm(session, slip.mended);

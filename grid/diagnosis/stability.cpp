@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "grid/diagnosis/downdating.hpp"
 #include "grid/diagnosis/leading.hpp"
@@ -17,27 +16,69 @@ constexpr std::size_t kFewestOnLine = 3;  // on average
 /// Of the logarithm of odds where nothing else is left: as much as a double can hold.
 constexpr double kMostOdds = 700.0;
 
+/// Units that read the chains at one mark.
+std::vector<std::size_t> units_at_marks(const Session& session) {
+  std::vector<std::size_t> result;
+  for (std::size_t u = 0; u < session.units.size(); ++u) {
+    if (session.parts[session.units[u].part].reads_chains()) result.push_back(u);
+  }
+  return result;
+}
+
+const model::BedPoint& mark_of(const Session& session, std::size_t unit) {
+  const SessionPart& part = session.parts[session.units[unit].part];
+  return session.places[part.first_place + unit - part.first_unit].mark;
+}
+
 /// Runs of points along a coordinate; empty where the marks do not lie in lines.
 std::vector<LeftOut> lines_along(const Session& session,
                                  Removal::What what,
                                  double model::BedPoint::*coordinate) {
-  const auto at = [&](std::size_t i) { return session.points[i].mark.*coordinate; };
-  std::vector<std::size_t> order(session.points.size());
-  std::iota(order.begin(), order.end(), 0);
+  const auto at = [&](std::size_t u) { return mark_of(session, u).*coordinate; };
+  std::vector<std::size_t> order = units_at_marks(session);
   std::stable_sort(
       order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
   std::vector<LeftOut> lines;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGap_mm) lines.push_back({what, 0.0, {}});
-    lines.back().points.push_back(order[k]);
+    if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGap_mm) lines.push_back({what, 0, 0.0, {}});
+    lines.back().units.push_back(order[k]);
     lines.back().at_mm += at(order[k]);
   }
   if (lines.size() < kFewestLines || order.size() < kFewestOnLine * lines.size()) return {};
   for (LeftOut& line : lines) {
-    line.at_mm /= static_cast<double>(line.points.size());
-    std::sort(line.points.begin(), line.points.end());
+    line.at_mm /= static_cast<double>(line.units.size());
+    std::sort(line.units.begin(), line.units.end());
   }
   return lines;
+}
+
+void add_by_index(std::vector<LeftOut> more, std::vector<LeftOut>& groups) {
+  std::sort(more.begin(), more.end(), [](const LeftOut& a, const LeftOut& b) {
+    return a.index < b.index;
+  });
+  groups.insert(groups.end(), more.begin(), more.end());
+}
+
+/// Each distance, and each hole with all distances that end there.
+void add_distances_and_holes(const Session& session, std::vector<LeftOut>& groups) {
+  std::vector<LeftOut> distances;
+  std::vector<LeftOut> holes;
+  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
+    const std::size_t first_hole = holes.size();
+    for (const observation::Place& hole : tape->places()) {
+      holes.push_back({Removal::What::hole, hole.index, 0.0, {}});
+    }
+    for (std::size_t k = 0; k < tape->units().size(); ++k) {
+      const std::size_t unit = part->first_unit + k;
+      const HoleDistance& distance = tape->set().distances[k];
+      distances.push_back({Removal::What::distance, tape->units()[k].index, 0.0, {unit}});
+      holes[first_hole + distance.from].units.push_back(unit);
+      if (!distance.edge) holes[first_hole + distance.to].units.push_back(unit);
+    }
+  }
+  std::erase_if(holes, [](const LeftOut& hole) { return hole.units.empty(); });
+  add_by_index(std::move(distances), groups);
+  add_by_index(std::move(holes), groups);
 }
 
 /// Whether a model has what the verdict says: every cause named, or one of the set.
@@ -92,19 +133,19 @@ double probability_of(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)
 
 std::vector<LeftOut> groups_to_leave_out(const Session& session) {
   std::vector<LeftOut> groups;
-  for (std::size_t i = 0; i < session.points.size(); ++i) {
-    groups.push_back({Removal::What::point, 0.0, {i}});
+  std::vector<LeftOut> points;
+  for (const std::size_t u : units_at_marks(session)) {
+    points.push_back({Removal::What::point, session.units[u].index, 0.0, {u}});
   }
-  std::sort(groups.begin(), groups.end(), [&](const LeftOut& a, const LeftOut& b) {
-    return session.points[a.points.front()].index < session.points[b.points.front()].index;
-  });
+  add_by_index(std::move(points), groups);
   for (const auto& [what, coordinate] : {std::pair(Removal::What::column, &model::BedPoint::x_mm),
                                          std::pair(Removal::What::row, &model::BedPoint::y_mm)}) {
     const auto lines = lines_along(session, what, coordinate);
     groups.insert(groups.end(), lines.begin(), lines.end());
   }
+  add_distances_and_holes(session, groups);
   std::erase_if(groups, [&](const LeftOut& group) {
-    return session.points.size() - group.points.size() < kFewestPoints;
+    return session.units.size() - group.units.size() < session.fewest_units;
   });
   return groups;
 }
@@ -128,33 +169,28 @@ bool still_named(const Decision& all, const Decision& without) {
   return std::all_of(all.listed.begin(), all.listed.end(), is_listed);
 }
 
-std::optional<Stability> examine_stability(const Session& session,
-                                           const Analysis& a,
-                                           const DiagnosisOptions& options) {
-  // So few distances that the gain's folds, hole by hole, tell the same.
-  if (a.decision.listed.empty() || session.distances) return std::nullopt;
-  const std::vector<LeftOut> groups = groups_to_leave_out(session);
+std::optional<Stability> examine_stability(const Analysis& a) {
+  if (a.decision.listed.empty()) return std::nullopt;
+  const std::vector<LeftOut> groups = groups_to_leave_out(a.session);
   if (groups.empty()) return std::nullopt;
-  const Downdating downdating(session, a, options);
+  const Downdating downdating(a);
   const Statement statement(a);
   const double all = statement.log_odds(downdating.without({}).comparison);
   Stability result;
   result.probability = probability_of(all);
   for (const LeftOut& group : groups) {
-    const auto without = downdating.without(group.points);
-    std::vector<bool> excluded(session.points.size(), false);
-    for (const std::size_t i : group.points) excluded[i] = true;
-    const bool seen = without.seen || options.told.has_value();
+    const auto without = downdating.without(group.units);
+    std::vector<bool> excluded(a.session.units.size(), false);
+    for (const std::size_t u : group.units) excluded[u] = true;
+    const bool seen = without.seen || a.options.told.has_value();
     const Decision decision =
         decide(a.system, without.comparison, excluded, seen, a.decision.classes);
     const double log_odds = statement.log_odds(without.comparison);
     Removal removal;
     removal.what = group.what;
-    if (group.what == Removal::What::point) {
-      removal.index = session.points[group.points.front()].index;
-    }
+    removal.index = group.index;
     removal.at_mm = group.at_mm;
-    removal.points = group.points.size();
+    removal.points = group.units.size();
     removal.verdict = decision.verdict;
     for (const std::size_t index : decision.listed) {
       removal.causes.push_back(decision.classes[index].front());

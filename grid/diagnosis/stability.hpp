@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Does the name hang on a few of the points? The comparison decided again without each point, and
-/// without each column and row of marks.
+/// Does the name hang on a few of the readings? The comparison decided again without each point and
+/// each column and row of marks, without each distance and each hole with all that ends there.
 ///
 /// A column is a run of marks whose x differ by less than kLineGap_mm from one to the next; there
 /// are columns where at least three such runs hold three points each on average. Rows the same in
@@ -20,23 +20,22 @@ namespace chaintrue::grid::diagnosis {
 /// Marks of one line lie no further apart across it; marks this near to each other are one mark.
 inline constexpr double kLineGap_mm = 25.0;
 
-/// Points left out together (positions in the session), with what they are.
+/// Units left out together (positions in the session), with what they are.
 struct LeftOut {
   Removal::What what = Removal::What::point;
-  double at_mm = 0.0;
-  std::vector<std::size_t> points;
+  std::size_t index = 0;  ///< of a point, a distance or a hole, among those of all files
+  double at_mm = 0.0;     ///< of a column its x, of a row its y
+  std::vector<std::size_t> units;
 };
-/// Every point, then the columns from the left, then the rows from below; those that would leave
-/// too few points are missing.
+/// Every point, then the columns from the left, then the rows from below, then every distance and
+/// every hole; those that would leave too few units are missing.
 [[nodiscard]] std::vector<LeftOut> groups_to_leave_out(const Session& session);
 
 /// Whether what is named of all points is named in `without` too.
 [[nodiscard]] bool still_named(const Decision& all, const Decision& without);
 
 /// Empty where the analysis names nothing.
-[[nodiscard]] std::optional<Stability> examine_stability(const Session& session,
-                                                         const Analysis& analysis,
-                                                         const DiagnosisOptions& options);
+[[nodiscard]] std::optional<Stability> examine_stability(const Analysis& analysis);
 
 /// What was left out and what became of the name, in a sentence or two. Precondition: the diagnosis
 /// has a stability.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/stability.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -21,7 +22,9 @@ struct Kind {
 };
 constexpr std::array kKinds = {Kind{Removal::What::point, "point", "points"},
                                Kind{Removal::What::column, "column of marks", "columns of marks"},
-                               Kind{Removal::What::row, "row of marks", "rows of marks"}};
+                               Kind{Removal::What::row, "row of marks", "rows of marks"},
+                               Kind{Removal::What::distance, "distance", "distances"},
+                               Kind{Removal::What::hole, "hole", "holes"}};
 
 std::vector<const Removal*> of_kind(const Stability& stability, Removal::What what, bool changing) {
   std::vector<const Removal*> found;
@@ -40,12 +43,16 @@ std::string listed(const std::vector<std::string>& parts, std::string_view last)
   return text;
 }
 
-std::string place(const Removal& removal) {
+std::string place(const Diagnosis& diagnosis, const Removal& removal) {
   switch (removal.what) {
     case Removal::What::column:
       return fmt::format("x = {} mm", std::lround(removal.at_mm));
     case Removal::What::row:
       return fmt::format("y = {} mm", std::lround(removal.at_mm));
+    case Removal::What::distance:
+      return words_of_ends(diagnosis.distances.at(removal.index));
+    case Removal::What::hole:
+      return diagnosis.holes.at(removal.index).name;
     case Removal::What::point:
       break;
   }
@@ -53,17 +60,19 @@ std::string place(const Removal& removal) {
 }
 
 /// "point 17", "points 3, 9 and 17", "the column of marks at x = 1200 mm".
-std::string named_places(const Kind& kind, const std::vector<const Removal*>& removals) {
+std::string named_places(const Diagnosis& diagnosis,
+                         const Kind& kind,
+                         const std::vector<const Removal*>& removals) {
   std::vector<std::string> places;
   for (const Removal* one : removals) {
-    if (places.size() < kMostNumbers) places.push_back(place(*one));
+    if (places.size() < kMostNumbers) places.push_back(place(diagnosis, *one));
   }
   if (removals.size() > kMostNumbers) places.emplace_back("others");
   const bool single = removals.size() == 1;
   const std::string where = listed(places, "and");
   const std::string_view noun = single ? kind.one : kind.many;
-  return kind.what == Removal::What::point ? fmt::format("{} {}", noun, where)
-                                           : fmt::format("the {} at {}", noun, where);
+  const bool line = kind.what == Removal::What::column || kind.what == Removal::What::row;
+  return line ? fmt::format("the {} at {}", noun, where) : fmt::format("{} {}", noun, where);
 }
 
 std::string fate(const Removal& removal) {
@@ -78,17 +87,13 @@ std::string fate(const Removal& removal) {
                      listed(names, removal.verdict == Verdict::named_set ? "or" : "and"));
 }
 
-std::string percent(double probability) {
-  if (probability > kBeyondDoubt) return "more than 99 %";
-  return fmt::format("{:.0f} %", 100.0 * probability);
-}
-
 /// Whether a column or row that was left out holds the point.
 bool lies_on(const Diagnosis& diagnosis, const Removal& line, std::size_t point) {
   const auto found = std::find_if(diagnosis.points.begin(),
                                   diagnosis.points.end(),
                                   [&](const PointPicture& p) { return p.index == point; });
-  if (line.what == Removal::What::point || found == diagnosis.points.end()) return false;
+  const bool is_line = line.what == Removal::What::column || line.what == Removal::What::row;
+  if (!is_line || found == diagnosis.points.end()) return false;
   const double at_mm = line.what == Removal::What::column ? found->mark.x_mm : found->mark.y_mm;
   return std::abs(at_mm - line.at_mm) < kLineGap_mm;
 }
@@ -129,9 +134,10 @@ std::string stability_in_words(const Diagnosis& diagnosis) {
   if (weakest->probability > kBeyondDoubt) return text;
   return text + fmt::format(
                     " What is named is least sure without {}: its probability is then {}, "
-                    "with all points {}.",
-                    named_places(kind, {&*weakest}),
+                    "with all {} {}.",
+                    named_places(diagnosis, kind, {&*weakest}),
                     percent(weakest->probability),
+                    diagnosis.observations == Observations::points ? "points" : "readings",
                     percent(stability.probability));
 }
 
@@ -151,7 +157,7 @@ std::string rests_on(const Diagnosis& diagnosis) {
     text += fmt::format(" {} rests on {}{}: without {} {}.",
                         diagnosis.causes.size() == 1 ? "The name" : "What is named",
                         changes.size() == 1 ? "" : "each of ",
-                        named_places(kind, changes),
+                        named_places(diagnosis, kind, changes),
                         changes.size() == 1 ? "it" : "the first of these",
                         fate(*changes.front()));
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/gain.hpp"
+#include "grid/diagnosis/leading.hpp"
 #include "grid/map/spatial_blocks.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -16,7 +16,7 @@ constexpr double kSlip = 6.0;  // sigmas: a point so far off does not place the 
 /// Residuals with the placement of the sheet, and nothing else, fitted: whitened rows of points.
 class Placed {
  public:
-  Placed(const Session& to, const LinearisedSystem& system) : to_(to), system_(system) {
+  explicit Placed(const LinearisedSystem& system) : system_(system) {
     const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
     by_sheet_ = system.by_setting.rightCols(system.setting.size() - machine);
     sigma_ = system.sigma.tail(system.sigma.size() - machine);
@@ -33,9 +33,7 @@ class Placed {
       const Eigen::VectorXd x = normal.llt().solve(scaled.transpose() * weight.cwiseProduct(left));
       result = left - scaled * x;
       std::vector<double> size;
-      for (std::size_t i = 0; i < to_.points.size(); ++i) {
-        size.push_back(result.segment<2>(2 * static_cast<Eigen::Index>(i)).norm());
-      }
+      for (const SystemUnit& unit : system_.units) size.push_back(unit.segment(result).norm());
       std::vector<double> sorted = size;
       std::nth_element(sorted.begin(),
                        sorted.begin() + static_cast<std::ptrdiff_t>(size.size() / 2),
@@ -43,7 +41,8 @@ class Placed {
       // The median length of two standard normals is 1.18.
       const double s = std::max(1.0, sorted[size.size() / 2] / 1.18);
       for (std::size_t i = 0; i < size.size(); ++i) {
-        weight.segment<2>(2 * static_cast<Eigen::Index>(i))
+        const SystemUnit& unit = system_.units[i];
+        weight.segment(unit.first_row, unit.rows)
             .setConstant(size[i] > kSlip * s ? 0.0 : 1.0);
       }
     }
@@ -51,21 +50,18 @@ class Placed {
   }
 
  private:
-  const Session& to_;
   const LinearisedSystem& system_;
   Eigen::MatrixXd by_sheet_;
   Eigen::VectorXd sigma_;
 };
 
 /// What a model of the first session leaves of the second, its sheet not yet placed.
-Eigen::VectorXd left_of(const Session& from,
-                        const Analysis& a,
+Eigen::VectorXd left_of(const Analysis& a,
                         const Estimate& model,
                         const Session& to,
+                        const State& state,
                         const LinearisedSystem& system) {
   const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
-  const MarginalisedSystem& marginalised =
-      a.comparison.marginalised_systems[a.decision.marginalised];
   Eigen::VectorXd left =
       system.e - system.by_setting.leftCols(machine) * model.setting_change.head(machine);
   for (std::size_t k = 0; k < model.regressors.size(); ++k) {
@@ -73,16 +69,16 @@ Eigen::VectorXd left_of(const Session& from,
     // A drift, a skip or a miscount belongs to its session; play belongs to the machine, but shows
     // only where the order of the visits is known.
     if (d.cause.effect->misread != nullptr) continue;
-    if (d.cause.effect->needs == model::effects::DataNeed::order && !to.ordered) continue;
-    const auto g = signature(to, a.state, system, d.cause, d.values);
+    if (d.cause.effect->needs == model::effects::DataNeed::order && !to.ordered()) continue;
+    const auto g = signature(to, state, system, d.cause, d.values);
     if (g) left -= *g * model.coefficient(static_cast<Eigen::Index>(k));
   }
   if (model.discrepancy_weights.size() > 0) {
-    for (std::size_t i = 0; i < to.points.size(); ++i) {
-      left.segment<2>(2 * static_cast<Eigen::Index>(i)) -=
-          system.points[i].whitening *
-          discrepancy_at(
-              from, a.system, marginalised, model, {to.points[i].mark, system.points[i].by_mark});
+    for (const SystemUnit& unit : system.units) {
+      const SystemPlace& place = system.places[unit.places.front().place];
+      left.segment<2>(unit.first_row) -=
+          unit.whitening *
+          discrepancy_at(a.system, marginalised_system(a), model, discrepancy_place(place));
     }
   }
   return left;
@@ -90,7 +86,7 @@ Eigen::VectorXd left_of(const Session& from,
 
 std::vector<std::size_t> block_numbers(const Session& session) {
   std::vector<LengthPoint> points;
-  for (const SessionPoint& p : session.points) points.push_back({p.index, p.mark, p.lengths});
+  for (const SessionPlace& p : session.places) points.push_back({p.index, p.mark, p.lengths});
   std::vector<std::size_t> number(points.size(), 0);
   const auto blocks = spatial_blocks(points);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -103,21 +99,17 @@ HeldOut summary(const Session& to,
                 const LinearisedSystem& system,
                 const Eigen::VectorXd& left,
                 std::uint64_t seed) {
-  const auto chain = chain_residuals(system, left);
   std::vector<Eigen::Vector2d> tool;
-  for (std::size_t i = 0; i < chain.size(); ++i)
-    tool.push_back(tool_shift(system.points[i], chain[i]));
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    tool.push_back(error_of_unit(system, left, u));
+  }
   return summarise(tool, block_numbers(to), seed);
 }
 
-double floor_of(const Session& to, const LinearisedSystem& system) {
+double floor_of(const LinearisedSystem& system) {
   double sum = 0.0;
-  for (const PointState& p : system.points) {
-    const Eigen::Matrix2d inverse = p.by_mark.inverse();
-    sum += 2.0 * std::pow(to.noise.position_mm, 2) +
-           (inverse * inverse.transpose()).trace() * std::pow(to.noise.length_mm, 2);
-  }
-  return std::sqrt(sum / static_cast<double>(system.points.size()));
+  for (std::size_t u = 0; u < system.units.size(); ++u) sum += noise_of_unit_mm2(system, u).trace();
+  return std::sqrt(sum / static_cast<double>(system.units.size()));
 }
 
 }  // namespace
@@ -130,38 +122,39 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   // The second grid is seen by the first one's machine, whatever its file says.
   MeasuredGrid other = to;
   other.machine = from.machine;
-  if (!other.noise)
-    other.noise = StatedNoise{first->noise.length_mm, first->noise.position_mm, first->noise_dof};
+  if (!other.noise) {
+    const auto& own = *parts_of<observation::ChainLengthReadings>(*first).front().second;
+    other.noise = StatedNoise{own.noise().length_mm, own.noise().position_mm, own.noise_dof()};
+  }
   other.readings.clear();
   auto second = make_session(other);
   if (!second) return tl::unexpected(second.error());
   DiagnosisOptions options;
   options.seed = diagnosis.seed;
-  const auto a = analyse(*first, options);
-  if (!a) return tl::unexpected(a.error());
-  const auto system = linearise(*second, a->state, {});
+  const auto analysis = analyse(*first, options);
+  if (!analysis) return tl::unexpected(analysis.error());
+  const Analysis& a = *analysis;
+  // The other sheet was placed for itself.
+  State state{a.state.machine, std::vector<model::SheetPlacement>(second->sheets)};
+  if (first->sheets == second->sheets) state.sheets = a.state.sheets;
+  const auto system = linearise(*second, state, {});
   const auto stated = linearise(*second, stated_state(*second), {});
   if (!system || !stated) {
     return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::point_unreachable,
                                            "a point of the other grid cannot be reached"});
   }
-  const MarginalisedSystem& marginalised =
-      a->comparison.marginalised_systems[a->decision.marginalised];
-  const std::vector<int>& causes = a->decision.regressors;
-  const Placed place(*second, *system);
+  const Placed place(*system);
   const auto predicted_by = [&](const std::vector<int>& regressors, int discrepancy) {
-    const Estimate model = estimate(*first, a->system, marginalised, regressors, discrepancy);
-    return summary(
-        *second, *system, place(left_of(*first, *a, model, *second, *system)), options.seed);
+    const Estimate model = estimate(a.system, marginalised_system(a), regressors, discrepancy);
+    return summary(*second, *system, place(left_of(a, model, *second, state, *system)), options.seed);
   };
   Transfer result;
-  result.points = second->points.size();
-  result.as_delivered =
-      summary(*second, *stated, Placed(*second, *stated)(stated->e), options.seed);
+  result.points = second->places.size();
+  result.as_delivered = summary(*second, *stated, Placed(*stated)(stated->e), options.seed);
   result.calibrated = predicted_by({}, -1);
-  result.extended = predicted_by(causes, -1);
-  result.extended_and_surface = predicted_by(causes, a->decision.best_discrepancy);
-  result.noise_floor_mm = floor_of(*second, *system);
+  result.extended = predicted_by(a.decision.regressors, -1);
+  result.extended_and_surface = predicted_by(a.decision.regressors, a.decision.best_discrepancy);
+  result.noise_floor_mm = floor_of(*system);
   return result;
 }
 

@@ -14,11 +14,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-std::string percent(double probability) {
-  if (probability > 0.995) return "more than 99 %";
-  return fmt::format("{:.0f} %", 100.0 * probability);
-}
-
 std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {
   std::string text = fmt::format("{}{}", cause.effect->cause, side_words(cause));
   if (parameters.empty()) return text;
@@ -36,6 +31,9 @@ std::string joined(const std::vector<std::string>& parts, std::string_view last)
   return text;
 }
 
+/// What is held out: distances where no chain was read at marks.
+bool speaks_of_distances(const Diagnosis& d) { return d.observations == Observations::distances; }
+
 std::string gain_words(const Diagnosis& d) {
   if (!d.gain) return "";
   if (d.gain->extended.rms_mm >= d.gain->calibrated.rms_mm) {
@@ -43,13 +41,13 @@ std::string gain_words(const Diagnosis& d) {
         " Held out, naming it does not make {} truer ({:.2f} mm with and without; noise "
         "alone "
         "makes {:.2f} mm): the machine is not extended.",
-        d.observations == Observations::points ? "the tool" : "distances",
+        speaks_of_distances(d) ? "distances" : "the tool",
         d.gain->calibrated.rms_mm,
         d.gain->noise_floor_mm);
   }
   return fmt::format(
       " Held out, the {} error falls from {:.2f} to {:.2f} mm; noise alone makes {:.2f} mm.",
-      d.observations == Observations::points ? "tool's" : "distances'",
+      speaks_of_distances(d) ? "distances'" : "tool's",
       d.gain->calibrated.rms_mm,
       d.gain->extended.rms_mm,
       d.gain->noise_floor_mm);
@@ -72,9 +70,11 @@ std::string distance_words(const Diagnosis& d, const Outlier& bad) {
 /// The outliers by number, or by their ends.
 std::vector<std::string> bad_ones(const Diagnosis& d) {
   std::vector<std::string> result;
-  for (const Outlier& b : d.bad_points) {
-    result.push_back(d.observations == Observations::distances ? distance_words(d, b)
-                                                               : fmt::format("{}", b.index + 1));
+  for (const Outlier& b : d.outliers) {
+    result.push_back(b.of == Observations::distances ? distance_words(d, b)
+                     : d.observations == Observations::both
+                         ? fmt::format("point {}", b.index + 1)
+                         : fmt::format("{}", b.index + 1));
   }
   return result;
 }
@@ -115,10 +115,10 @@ std::string several_words(const Diagnosis& d) {
 
 std::string unknown_words(const Diagnosis& d) {
   std::string text =
-      d.observations == Observations::points
-          ? "The points show a pattern that repeats over the bed and that no cause in the "
-            "catalogue "
-            "explains"
+      !speaks_of_distances(d)
+          ? fmt::format("The {} show a pattern that repeats over the bed and that no cause in the "
+                        "catalogue explains",
+                        name(d.observations))
           : "The holes lie beside where their chain lengths put them, neighbours alike and farther "
             "than noise takes them, and no cause in the catalogue explains it";
   if (!d.left_over.follows.empty()) {
@@ -139,12 +139,12 @@ std::string bad_words(const Diagnosis& d) {
                      bad.size() == 1 ? "it" : "them");
 }
 
-std::string nothing_words(const Session& session, const Diagnosis& d) {
+std::string nothing_words(const Diagnosis& d, std::size_t units) {
   std::string text = fmt::format(
       "Nothing is found beyond the settings: what is left {} the {} {} is as large as the "
       "stated noise.",
-      session.distances ? "of" : "at",
-      session.units(),
+      d.observations == Observations::points ? "at" : "of",
+      units,
       name(d.observations));
   if (d.family_wise_p < 0.05) {
     text += fmt::format(
@@ -155,7 +155,7 @@ std::string nothing_words(const Session& session, const Diagnosis& d) {
   return text;
 }
 
-std::string sentence(const Session& session, const Diagnosis& d) {
+std::string sentence(const Diagnosis& d, std::size_t units) {
   switch (d.verdict) {
     case Verdict::named:
       return named_words(d);
@@ -163,7 +163,7 @@ std::string sentence(const Session& session, const Diagnosis& d) {
       return set_words(d);
     case Verdict::several_causes:
       return several_words(d);
-    case Verdict::unknown_pattern:
+    case Verdict::model_discrepancy:
       return unknown_words(d);
     case Verdict::noise_larger_than_stated:
       return fmt::format(
@@ -171,20 +171,20 @@ std::string sentence(const Session& session, const Diagnosis& d) {
           "the tape, at the {} and at play in the sled.",
           name(d.observations),
           d.noise_factor,
-          session.distances ? "drill" : "marking");
-    case Verdict::bad_points:
+          speaks_of_distances(d) ? "drill" : "marking");
+    case Verdict::outliers:
       return bad_words(d);
     case Verdict::nothing_found:
       break;
   }
-  return nothing_words(session, d);
+  return nothing_words(d, units);
 }
 
 /// Before a part is changed for the sake of one reading, that is read again.
 void say_what_to_read_again(Diagnosis& d) {
   const std::vector<std::size_t> points = points_it_rests_on(d);
   if (points.size() != 1) return;
-  const bool is_bad = std::any_of(d.bad_points.begin(), d.bad_points.end(), [&](const Outlier& b) {
+  const bool is_bad = std::any_of(d.outliers.begin(), d.outliers.end(), [&](const Outlier& b) {
     return b.index == points.front();
   });
   if (is_bad) return;
@@ -214,10 +214,12 @@ void say_what_to_do(Diagnosis& d) {
                         : "",
                     100.0 * d.next_measurements.back().raises_probability_to));
   }
-  if (!d.bad_points.empty() && d.what_to_do.size() < 3) {
+  if (!d.outliers.empty() && d.what_to_do.size() < 3) {
     d.what_to_do.push_back(
         fmt::format("Measure {}{} again.",
-                    d.observations == Observations::points ? "point " : "the distance ",
+                    d.observations == Observations::points      ? "point "
+                    : d.observations == Observations::distances ? "the distance "
+                                                                : "",
                     joined(bad_ones(d), "and")));
   }
   for (const CalibratedSetting& s : d.settings) {
@@ -228,7 +230,7 @@ void say_what_to_do(Diagnosis& d) {
                                        s.calibrated,
                                        name(d.observations)));
   }
-  if (d.what_to_do.empty() && d.verdict == Verdict::unknown_pattern) {
+  if (d.what_to_do.empty() && d.verdict == Verdict::model_discrepancy) {
     d.what_to_do.emplace_back(
         "Use the measured map (chaintrue fit): it corrects a pattern that repeats, whatever makes "
         "it.");
@@ -245,16 +247,18 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
   if (!d.causes.empty()) {
     const Cause& lead = d.causes.front();
     text = fmt::format("{} show what fits, not what is: look at the part before changing it.",
-                       d.observations == Observations::points ? "Points" : "Distances");
+                       d.observations == Observations::points      ? "Points"
+                       : d.observations == Observations::distances ? "Distances"
+                                                                   : "Readings");
     if (lead.rival) {
       text += fmt::format(
           " A cause outside the catalogue that looks alike would carry the same "
           "name; the nearest inside it is this: {}{} (likeness {:.3f}).",
           lead.rival->effect->cause,
           side_words(*lead.rival),
-          lead.rival_rho);
+          lead.rival_collinearity);
     }
-  } else if (d.verdict == Verdict::unknown_pattern) {
+  } else if (d.verdict == Verdict::model_discrepancy) {
     text =
         "That no cause in the catalogue explains it does not prove that none of them acts as well.";
   } else {
@@ -263,11 +267,11 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
         "not have shown.";
   }
   text += rests_on(d);
-  if (session.distances) {
+  if (speaks_of_distances(d)) {
     text +=
         " Distances do not know in which order the holes were cut, nor where the machine stands as "
         "a whole: drift, skipped teeth and play cannot be seen, nor how high the motors are.";
-  } else if (!session.ordered) {
+  } else if (!session.ordered()) {
     text += " The order of the visits is not known: drift, skipped teeth and play cannot be seen.";
   }
   return text;
@@ -275,15 +279,28 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
 
 }  // namespace
 
-void put_into_words(const Session& session, Diagnosis& d) {
-  if (session.noise_from_repeats) {
+void put_into_words(const Analysis& a, Diagnosis& d) {
+  const Session& session = a.session;
+  if (!a.settled) {
+    d.notes.emplace_back(
+        "Calibrating had not come to rest after its last pass: the settings are uncertain by more "
+        "than their sigmas. Look for a reading that is far off, or for a setting stated wrongly.");
+  }
+  const auto chains = parts_of<observation::ChainLengthReadings>(session);
+  if (session.noise_from_repeats && !chains.empty()) {
+    const observation::PointNoise& noise = chains.front().second->noise();
     d.notes.push_back(fmt::format(
         "No noise was stated: {:.2f} mm in length and {:.2f} mm in position come from the repeats.",
-        session.noise.length_mm,
-        session.noise.position_mm));
+        noise.length_mm,
+        noise.position_mm));
   }
   if (d.stability) d.notes.push_back(stability_in_words(d));
-  d.sentence = sentence(session, d);
+  if (speaks_of_distances(d) && d.left_over.p_value < kFalseAlarm) {
+    d.notes.emplace_back(
+        "What these distances leave is alike among neighbours. Which coordinate it follows they "
+        "cannot say: a distance joins two places. Points with the chains read there can.");
+  }
+  d.sentence = sentence(d, session.units.size());
   d.not_proved = not_proved(session, d);
   say_what_to_do(d);
 }

@@ -131,4 +131,12 @@ std::string reading_words(std::string_view what, std::string_view side) {
   return std::string(what);
 }
 
+std::string percent(double probability) {
+  const double in_percent = 100.0 * probability;
+  if (in_percent > 99.9) return "above 99.9 %";
+  if (in_percent < 0.1) return "below 0.1 %";
+  return in_percent > 99.0 || in_percent < 1.0 ? fmt::format("{:.1f} %", in_percent)
+                                               : fmt::format("{:.0f} %", in_percent);
+}
+
 }  // namespace chaintrue::grid::diagnosis

@@ -50,7 +50,8 @@ Json effect_json(const Effect& effect) {
 }
 
 Json rival_json(const synthetic::Rival& rival) {
-  return {{"effect", rival.effect->id}, {"side", side_json(rival.side)}, {"rho", rival.rho}};
+  return {
+      {"effect", rival.effect->id}, {"side", side_json(rival.side)}, {"rho", rival.collinearity}};
 }
 
 Json strength_json(const synthetic::StrengthAt& at) {
@@ -58,7 +59,7 @@ Json strength_json(const synthetic::StrengthAt& at) {
   Json inseparable = Json::array();
   for (const synthetic::Rival& rival : s.inseparable) inseparable.push_back(rival_json(rival));
   return {{"points", at.columns * at.rows},
-          {"delta_at_usual_size", s.delta},
+          {"delta_at_usual_size", s.signal_to_noise},
           {"share_left_by_calibration", s.share_left},
           {"seen_from", s.seen_size},
           {"named_from", s.named_size ? Json(*s.named_size) : Json(nullptr)},

@@ -87,12 +87,35 @@ void outlier_keys(Record<Diagnosis>& record) {
         const auto read = indices.read(at);
         if (!read) return;
         for (const int index : *read)
-          object.bad_points.push_back({.index = static_cast<std::size_t>(index)});
+          object.outliers.push_back({.index = static_cast<std::size_t>(index)});
       },
       [](const Diagnosis& object) {
         Json json = Json::array();
-        for (const Outlier& bad : object.bad_points) json.push_back(bad.index);
+        for (const Outlier& bad : object.outliers) {
+          if (bad.of == Observations::distances && object.observations == Observations::both)
+            continue;
+          json.push_back(bad.index);
+        }
         return std::optional<Json>(std::move(json));
+      });
+  record.custom(
+      "bad_distances",
+      false,
+      indices.expected,
+      [](const Cursor& at, Diagnosis& object) {
+        const auto read = indices.read(at);
+        if (!read) return;
+        for (const int index : *read)
+          object.outliers.push_back(
+              {.of = Observations::distances, .index = static_cast<std::size_t>(index)});
+      },
+      [](const Diagnosis& object) {
+        Json json = Json::array();
+        for (const Outlier& bad : object.outliers) {
+          if (bad.of == Observations::distances && object.observations == Observations::both)
+            json.push_back(bad.index);
+        }
+        return json.empty() ? std::nullopt : std::optional<Json>(std::move(json));
       });
   record.custom(
       "bad_point_shifts",
@@ -101,20 +124,20 @@ void outlier_keys(Record<Diagnosis>& record) {
       [](const Cursor& at, Diagnosis& object) {
         const auto read = shifts.read(at);
         if (!read) return;
-        if (read->size() != object.bad_points.size())
+        if (read->size() != object.outliers.size())
           return at.expect("as many shifts as there are bad_points");
         for (std::size_t i = 0; i < read->size(); ++i) {
           const Shift& shift = (*read)[i];
-          object.bad_points[i].shift_mm = {shift.x_mm.value_or(0.0), shift.y_mm.value_or(0.0)};
-          object.bad_points[i].off_mm = shift.off_mm.value_or(0.0);
-          object.bad_points[i].distance = (*read)[i].sigmas;
+          object.outliers[i].shift_mm = {shift.x_mm.value_or(0.0), shift.y_mm.value_or(0.0)};
+          object.outliers[i].off_mm = shift.off_mm.value_or(0.0);
+          object.outliers[i].distance = (*read)[i].sigmas;
         }
       },
       [](const Diagnosis& object) {
         Json json = Json::array();
-        for (const Outlier& bad : object.bad_points) {
+        for (const Outlier& bad : object.outliers) {
           json.push_back(shift_record().write(
-              object.observations == Observations::distances
+              bad.of == Observations::distances
                   ? Shift{{}, {}, bad.off_mm, bad.distance}
                   : Shift{bad.shift_mm.x() + 0.0, bad.shift_mm.y() + 0.0, {}, bad.distance}));
         }
@@ -125,8 +148,9 @@ void outlier_keys(Record<Diagnosis>& record) {
 /// The word stands only where it is not points, and the pictures of holes only where there are any.
 void distance_keys(Record<Diagnosis>& record) {
   static const Value<Observations> word =
-      choice<Observations>({{std::string(name(Observations::points)), Observations::points},
-                            {std::string(name(Observations::distances)), Observations::distances}});
+      choice<Observations>({{"points", Observations::points},
+                            {"distances", Observations::distances},
+                            {"points_and_distances", Observations::both}});
   record
       .custom(
           "observations",
@@ -146,6 +170,9 @@ void distance_keys(Record<Diagnosis>& record) {
 }
 
 void check_diagnosis(const Cursor& at, Diagnosis& object) {
+  if (object.observations == Observations::distances) {
+    for (Outlier& bad : object.outliers) bad.of = Observations::distances;
+  }
   if (!at.child("verdict").clean() || !at.child("causes").clean()) return;
   const bool names_one = object.verdict == Verdict::named || object.verdict == Verdict::named_set ||
                          object.verdict == Verdict::several_causes;

@@ -156,14 +156,14 @@ const Record<SameCause>& same_cause_record() {
 /// The effect that these data tell from a cause least.
 struct Rival {
   CauseId cause;
-  double rho = 0.0;
+  double collinearity = 0.0;
 };
 
 const Record<Rival>& rival_record() {
   static const auto record = [] {
     Record<Rival> rival("a rival");
     cause_keys(rival, kCause);
-    rival.required("rho", &Rival::rho, number(kShare));
+    rival.required("rho", &Rival::collinearity, number(kShare));
     return rival;
   }();
   return record;
@@ -183,7 +183,7 @@ const Record<Cause>& cause_record() {
     Record<Cause> cause("a cause");
     cause_keys(cause, kCause);
     cause.required("probability", &Cause::probability, number(kShare))
-        .required("delta", &Cause::delta, number(kPositive))
+        .required("delta", &Cause::signal_to_noise, number(kPositive))
         .required("share_left", &Cause::share_left, number(kShare))
         .required("same_as", &Cause::same_as, list(object(same_cause_record())));
     parameter_keys(cause);
@@ -195,12 +195,12 @@ const Record<Cause>& cause_record() {
           const auto rival = rival_record().read(at);
           if (!rival) return;
           object.rival = rival->cause;
-          object.rival_rho = rival->rho;
+          object.rival_collinearity = rival->collinearity;
         },
         [](const Cause& object) {
-          return std::optional<Json>(object.rival
-                                         ? rival_record().write({*object.rival, object.rival_rho})
-                                         : Json(nullptr));
+          return std::optional<Json>(
+              object.rival ? rival_record().write({*object.rival, object.rival_collinearity})
+                           : Json(nullptr));
         });
     cause.required("order_assumed", &Cause::order_assumed, boolean());
     return cause;
@@ -223,7 +223,7 @@ const Record<Hypothesis>& hypothesis_record() {
 const Record<LeftOver>& left_over_record() {
   static const auto record = [] {
     Record<LeftOver> left("what is left over");
-    left.required("delta", &LeftOver::delta, number(kPositive));
+    left.required("delta", &LeftOver::signal_to_noise, number(kPositive));
     nullable_text(left, "follows", &LeftOver::follows, text());
     left.required("share", &LeftOver::share, number(kShare))
         .required("p_value", &LeftOver::p_value, number(kShare));
@@ -272,7 +272,7 @@ const Record<Term>& term_record() {
     term.required("parameter", &Term::parameter, text())
         .required("value", &Term::value, number(kAny))
         .required("sigma", &Term::sigma, number(kPositive))
-        .required("delta", &Term::delta, number(kPositive))
+        .required("delta", &Term::signal_to_noise, number(kPositive))
         .required("share_left", &Term::share_left, number(kShare))
         .required("p_value", &Term::p_value, number(kShare))
         .required("probability", &Term::probability, number(kShare));
@@ -290,22 +290,22 @@ const Record<Separation>& separation_record() {
     }
     // Null: no strength is enough.
     const Value<double> needed = number(kPositive);
-    separation.required("rho", &Separation::rho, number(kShare))
+    separation.required("rho", &Separation::collinearity, number(kShare))
         .custom(
             "delta_needed",
             false,
             needed.expected,
             [needed](const Cursor& at, Separation& object) {
-              if (const auto value = needed.read(at)) object.delta_needed = *value;
+              if (const auto value = needed.read(at)) object.signal_to_noise_needed = *value;
             },
             [needed](const Separation& object) {
-              return std::optional<Json>(std::isfinite(object.delta_needed)
-                                             ? needed.write(object.delta_needed)
+              return std::optional<Json>(std::isfinite(object.signal_to_noise_needed)
+                                             ? needed.write(object.signal_to_noise_needed)
                                              : Json(nullptr));
             })
         .check([](const Cursor& at, Separation& object) {
           if (at.child("delta_needed").json().is_null()) {
-            object.delta_needed = std::numeric_limits<double>::infinity();
+            object.signal_to_noise_needed = std::numeric_limits<double>::infinity();
           }
         });
     return separation;

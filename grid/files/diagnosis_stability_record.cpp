@@ -16,9 +16,9 @@ Value<diagnosis::Verdict> verdict_word() {
   for (const Verdict verdict : {Verdict::named,
                                 Verdict::named_set,
                                 Verdict::several_causes,
-                                Verdict::unknown_pattern,
+                                Verdict::model_discrepancy,
                                 Verdict::noise_larger_than_stated,
-                                Verdict::bad_points,
+                                Verdict::outliers,
                                 Verdict::nothing_found}) {
     names.emplace_back(diagnosis::name(verdict), verdict);
   }
@@ -32,19 +32,33 @@ constexpr Range kAny{"", -1e12, 1e12};
 constexpr Range kShare{"", 0.0, 1.0};
 constexpr int kMostPoints = 1000000;
 
-/// A place in the points: where it is one that is left out.
-void index_key(Record<Removal>& record) {
+bool is_line(const Removal& removal) {
+  return removal.what == Removal::What::column || removal.what == Removal::What::row;
+}
+
+/// What has a number: among the points, the distances or the holes.
+struct Numbered {
+  Removal::What what;
+  const char* key;
+  const char* expected;
+};
+constexpr Numbered kNumbered[] = {{Removal::What::point, "point", "a point's index"},
+                                  {Removal::What::distance, "distance", "a distance's index"},
+                                  {Removal::What::hole, "hole", "a hole's index"}};
+
+/// The number, where it is one of the kind that is left out. Lines say that they are no point.
+void index_key(const Numbered& numbered, Record<Removal>& record) {
   static const Value<int> whole = integer(0, kMostPoints);
   record.custom(
-      "point",
+      numbered.key,
       false,
       whole.expected,
       [](const Cursor& at, Removal& object) {
         if (const auto value = whole.read(at)) object.index = static_cast<std::size_t>(*value);
       },
-      [](const Removal& object) {
-        return std::optional<Json>(object.what == Removal::What::point ? Json(object.index)
-                                                                       : Json(nullptr));
+      [what = numbered.what](const Removal& object) {
+        if (object.what == what) return std::optional<Json>(object.index);
+        return what == Removal::What::point ? std::optional<Json>(nullptr) : std::nullopt;
       });
 }
 
@@ -58,8 +72,7 @@ void line_key(Record<Removal>& record) {
         if (const auto value = at.number(kMm)) object.at_mm = *value;
       },
       [](const Removal& object) {
-        return std::optional<Json>(object.what == Removal::What::point ? Json(nullptr)
-                                                                       : Json(object.at_mm));
+        return std::optional<Json>(is_line(object) ? Json(object.at_mm) : Json(nullptr));
       });
 }
 
@@ -70,8 +83,10 @@ const Record<Removal>& removal_record() {
                      &Removal::what,
                      choice<Removal::What>({{"point", Removal::What::point},
                                             {"column", Removal::What::column},
-                                            {"row", Removal::What::row}}));
-    index_key(removal);
+                                            {"row", Removal::What::row},
+                                            {"distance", Removal::What::distance},
+                                            {"hole", Removal::What::hole}}));
+    for (const Numbered& numbered : kNumbered) index_key(numbered, removal);
     line_key(removal);
     static const Value<int> count = integer(1, kMostPoints);
     removal
@@ -91,11 +106,15 @@ const Record<Removal>& removal_record() {
         .required("support", &Removal::support, number(kAny))
         .check([](const Cursor& at, Removal& object) {
           if (!at.clean() || !at.has("what")) return;
-          const bool is_point = object.what == Removal::What::point;
-          const Cursor place = at.child(is_point ? "point" : "at_mm");
-          if (place.json().is_null()) {
-            place.missing(is_point ? "a point's index" : "a number in mm");
+          const char* key = "at_mm";
+          const char* expected = "a number in mm";
+          for (const Numbered& numbered : kNumbered) {
+            if (numbered.what != object.what) continue;
+            key = numbered.key;
+            expected = numbered.expected;
           }
+          const Cursor place = at.child(key);
+          if (place.json().is_null()) place.missing(expected);
         });
     return removal;
   }();

@@ -46,6 +46,7 @@ ReadHoles finish(StatedHoles stated,
   set.hole_sigma_mm = options.hole_sigma_mm.value_or(stated.hole_sigma_mm);
   set.noise_dof = stated.noise_dof;
   set.sheet = stated.sheet;
+  set.readings = std::move(stated.readings);
   set.holes = std::move(stated.holes);
   check_names(set.holes, places, problems);
   set.distances = resolved_distances(stated.distances, set.holes, places, problems);
@@ -119,6 +120,7 @@ std::string write_holes(const MeasuredHoles& set) {
   stated.hole_sigma_mm = set.hole_sigma_mm;
   stated.noise_dof = set.noise_dof;
   stated.sheet = set.sheet;
+  stated.readings = set.readings;
   stated.holes = set.holes;
   for (const HoleDistance& distance : set.distances) {
     stated.distances.push_back(

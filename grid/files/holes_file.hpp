@@ -8,6 +8,7 @@
 ///       "tape": {"sigma_mm": 0.5, "hook_offset_mm": 40},
 ///       "hole_sigma_mm": 0.3, "noise_dof": 15,
 ///       "sheet": {"width_mm": 2440, "height_mm": 1220, "size_sigma_mm": 1},
+///       "readings": [ {"what": "link_pitch_mm", "side": "left", "value": 6.353, "sigma": 0.001} ],
 ///       "holes": [ {"name": "A", "x_mm": -900, "y_mm": 400}, ... ],
 ///       "distances": [ {"from": "A", "to": "B", "distance_mm": 1840.5, "sigma_mm": 0.5},
 ///                      {"from": "A", "to": "top", "distance_mm": 249} ] }
@@ -15,6 +16,8 @@
 /// `from` and `to` name holes, or count them from 0; `to` may be an edge of the sheet: left, right,
 /// top, bottom. A hole without a name bears its number. The machine says which controller cut the
 /// holes and with which settings.
+///
+/// `readings` are those of a chaintrue_grid, and optional.
 ///
 /// A CSV has two tables: lines below `hole,x_mm,y_mm`, and lines below
 /// `from,to,distance_mm,sigma_mm` (the last column may be missing). The rest comes as options.

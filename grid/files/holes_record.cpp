@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "grid/files/machine_record.hpp"
+#include "grid/files/reading_record.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -116,6 +117,7 @@ const Record<StatedHoles>& holes_record() {
           .optional("hole_sigma_mm", &StatedHoles::hole_sigma_mm, number({"mm", 0.0, 100.0}))
           .optional("noise_dof", &StatedHoles::noise_dof, number({"", 1.0, 1e9}))
           .optional("sheet", &StatedHoles::sheet, object(sheet_record()))
+          .sparse("readings", &StatedHoles::readings, list(object(reading_record())))
           .custom(
               "holes",
               true,

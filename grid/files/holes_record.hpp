@@ -26,6 +26,7 @@ struct StatedHoles {
   double hole_sigma_mm = MeasuredHoles{}.hole_sigma_mm;
   double noise_dof = MeasuredHoles{}.noise_dof;
   SheetSize sheet;
+  std::vector<ExtraReading> readings;
   std::vector<Hole> holes;
   std::vector<bool> is_hole_spoilt;
   std::vector<StatedDistance> distances;

@@ -76,7 +76,7 @@ class Proposals {
                            p.bad_point / static_cast<double>(readings_.groups.size()));
       bad.hypothesis.count = static_cast<int>(i);
       for (const Eigen::Index row : readings_.groups[i]) {
-        bad.more_variance[row] = kBadReadingSigmaMm * kBadReadingSigmaMm;
+        bad.more_variance[row] = kOutlierSigmaMm * kOutlierSigmaMm;
       }
       add(std::move(bad));
     }

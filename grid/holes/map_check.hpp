@@ -59,7 +59,7 @@ inline constexpr double kPitchGrowthSigma = 5e-4;
 inline constexpr double kMotorShiftSigmaMm = 5.0;
 /// Of a smooth change that none of these is, and of a reading that is simply wrong.
 inline constexpr double kUnknownSigmaMm = 3.0;
-inline constexpr double kBadReadingSigmaMm = 20.0;
+inline constexpr double kOutlierSigmaMm = 20.0;
 
 /// Probabilities beforehand; a group's share is divided evenly among its members.
 struct CheckPriors {

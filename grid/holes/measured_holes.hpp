@@ -20,6 +20,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/measured_grid.hpp"
 #include "model/machine.hpp"
 
 namespace chaintrue::grid {
@@ -77,6 +78,7 @@ struct MeasuredHoles {
   /// How well these two are known, in degrees of freedom.
   double noise_dof = 15.0;
   SheetSize sheet;
+  std::vector<ExtraReading> readings;  ///< of the machine itself
   std::vector<Hole> holes;
   std::vector<HoleDistance> distances;
 };

@@ -15,7 +15,7 @@ struct RepeatNoise {
   double dof = 0.0;     ///< how well that is known
 };
 
-/// From the scatter of a fit's residuals within each group of repeats; bad points do not count.
+/// From the scatter of a fit's residuals within each group of repeats; outliers do not count.
 /// Empty where there are fewer than four degrees of freedom (two repeats): that is too little to go
 /// by.
 [[nodiscard]] std::optional<RepeatNoise> noise_from_repeats(const PointsFit& fit,

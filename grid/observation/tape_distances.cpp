@@ -222,25 +222,35 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
     result.units_.push_back({row, 1, k});
   }
   result.sheet_ = sheet_measured(result.set_);
+  if (result.set_.tape.hook_sigma_mm) {
+    std::set<std::size_t> sessions;
+    for (const HoleDistance& d : result.set_.distances) sessions.insert(d.session);
+    result.hook_sessions_.assign(sessions.begin(), sessions.end());
+  }
   result.state_nuisances();
   return result;
 }
 
-tl::expected<TapeDistances, std::string> TapeDistances::of(const MeasuredHoles& set) {
+tl::expected<TapeDistances, std::string> TapeDistances::with_hooks(
+    MeasuredHoles set, std::vector<std::size_t> hook_sessions) {
+  auto result = in_given_order(std::move(set));
+  if (!result) return result;
+  result->hook_sessions_ = std::move(hook_sessions);
+  result->state_nuisances();
+  return result;
+}
+
+tl::expected<TapeDistances, std::string> TapeDistances::of(const MeasuredHoles& set,
+                                                         NumberedFrom first) {
   const Sorted sorted = sorted_set(set);
   auto result = in_given_order(sorted.set);
   if (!result) return result;
-  for (Place& place : result->places_) place.index = sorted.hole[place.index];
-  for (Unit& unit : result->units_) unit.index = sorted.distance[unit.index];
+  for (Place& place : result->places_) place.index = first.hole + sorted.hole[place.index];
+  for (Unit& unit : result->units_) unit.index = first.distance + sorted.distance[unit.index];
   return result;
 }
 
 void TapeDistances::state_nuisances() {
-  if (set_.tape.hook_sigma_mm) {
-    std::set<std::size_t> sessions;
-    for (const HoleDistance& d : set_.distances) sessions.insert(d.session);
-    hook_sessions_.assign(sessions.begin(), sessions.end());
-  }
   const auto hooks = static_cast<Eigen::Index>(hook_sessions_.size());
   const Eigen::Index of_holes = 2 * static_cast<Eigen::Index>(set_.holes.size());
   nuisance_sigma_.resize(2 + hooks + of_holes);

@@ -71,13 +71,24 @@ inline constexpr double kSheetTurnRad = 0.03;
 /// Directions in which the edges that were measured tell where the sheet lies.
 [[nodiscard]] SheetPrior sheet_measured(const MeasuredHoles& set);
 
+/// Where a set's holes and distances stand among those of several sets.
+struct NumberedFrom {
+  std::size_t hole = 0;
+  std::size_t distance = 0;
+};
+
 class TapeDistances final : public Observation {
  public:
   /// Sorts holes by place and distances by their holes. Fails in words where a command is out of
   /// the controller's reach. \throws std::invalid_argument for a set without a machine.
-  [[nodiscard]] static tl::expected<TapeDistances, std::string> of(const MeasuredHoles& set);
+  [[nodiscard]] static tl::expected<TapeDistances, std::string> of(const MeasuredHoles& set,
+                                                                   NumberedFrom first = {});
   /// The same in the order of the set.
   [[nodiscard]] static tl::expected<TapeDistances, std::string> in_given_order(MeasuredHoles set);
+  /// The same with the hooks of these sessions as nuisances, whether the set has readings of them
+  /// or not.
+  [[nodiscard]] static tl::expected<TapeDistances, std::string> with_hooks(
+      MeasuredHoles set, std::vector<std::size_t> hook_sessions);
 
   [[nodiscard]] const Kind& kind() const override { return tape_distances; }
   [[nodiscard]] Eigen::Index rows() const override { return measured_.size(); }

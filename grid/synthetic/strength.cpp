@@ -200,36 +200,38 @@ const StrengthTable::Entry& StrengthTable::usual(const Effect& effect, EffectSid
 EffectStrength StrengthTable::strength(const Effect& effect, EffectSide side) const {
   const Entry& own = usual(effect, side);
   EffectStrength result;
-  result.delta = own.left.norm();
-  result.share_left = own.norm > 0.0 ? result.delta / own.norm : 0.0;
+  result.signal_to_noise = own.left.norm();
+  result.share_left = own.norm > 0.0 ? result.signal_to_noise / own.norm : 0.0;
   const EffectParameter& size = effect.parameters.front();
-  const double per_size = result.delta / std::abs(size.nominal);
-  result.seen_size = kSeenAtDelta / per_size;
+  const double per_size = result.signal_to_noise / std::abs(size.nominal);
+  result.seen_size = kSeenAtSignalToNoise / per_size;
   // The most alike place of each rival.
   std::vector<Rival> rivals;
   for (const Entry& other : entries_) {
     if (other.effect == &effect && other.side == side) continue;
     const double length = other.left.norm();
-    if (!(length > 0.0 && result.delta > 0.0)) continue;
-    const double rho = std::min(1.0, std::abs(own.left.dot(other.left)) / (length * result.delta));
+    if (!(length > 0.0 && result.signal_to_noise > 0.0)) continue;
+    const double collinearity =
+        std::min(1.0, std::abs(own.left.dot(other.left)) / (length * result.signal_to_noise));
     const auto same = std::find_if(rivals.begin(), rivals.end(), [&](const Rival& r) {
       return r.effect == other.effect && r.side == other.side;
     });
     if (same == rivals.end()) {
-      rivals.push_back({other.effect, other.side, rho});
+      rivals.push_back({other.effect, other.side, collinearity});
     } else {
-      same->rho = std::max(same->rho, rho);
+      same->collinearity = std::max(same->collinearity, collinearity);
     }
   }
-  std::stable_sort(
-      rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.rho > b.rho; });
-  double needed = kSeenAtDelta;
+  std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) {
+    return a.collinearity > b.collinearity;
+  });
+  double needed = kSeenAtSignalToNoise;
   for (const Rival& rival : rivals) {
-    if (rival.rho >= kInseparable) {
+    if (rival.collinearity >= kInseparable) {
       result.inseparable.push_back(rival);
     } else {
       result.nearest = rival;
-      needed = std::max(needed, 1.645 * std::sqrt(2.0 / (1.0 - rival.rho)));
+      needed = std::max(needed, 1.645 * std::sqrt(2.0 / (1.0 - rival.collinearity)));
       break;
     }
   }

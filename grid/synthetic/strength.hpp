@@ -6,12 +6,13 @@
 ///
 /// Notation
 ///   r_i    residual of a visit that the effect causes, reading minus what the stated machine says
-///   at the mark as
-///          written: dL - J dw; in the two chains [mm]
+///          at the mark as written: dL - J dw; in the two chains [mm]
 ///   C_i    J S_xy J' + diag(s_L^2): covariance of that residual, from position and length noise
-///   g      all r_i, whitened by C_i; J_s the settings' sensitivities, whitened alike, their stated
-///   sigmas as further rows M      projection orthogonal to J_s; delta = |M g|, the strength in
-///   units of noise rho    |cos| of the angle between M g of two effects
+///   g      all r_i, whitened by C_i
+///   J_s    the settings' sensitivities, whitened alike, their stated sigmas as further rows
+///   M      projection orthogonal to J_s
+///   delta  |M g|: the signal-to-noise ratio
+///   rho    |cos| of the angle between M g of two effects: their collinearity
 ///
 /// An effect is seen at delta 4.8 (1 in 100 false alarms over the catalogue, 9 in 10 found) and
 /// told from a rival in 95 of 100 cases at 1.645 sqrt(2 / (1 - rho)): the rival looks better with
@@ -37,7 +38,7 @@
 
 namespace chaintrue::grid::synthetic {
 
-inline constexpr double kSeenAtDelta = 4.8;
+inline constexpr double kSeenAtSignalToNoise = 4.8;
 inline constexpr double kInseparable = 0.9995;
 
 /// Marks of a regular grid, visited row by row.
@@ -61,15 +62,15 @@ struct SessionSignature {
 struct Rival {
   const model::effects::Effect* effect = nullptr;
   model::effects::EffectSide side = model::effects::EffectSide::none;
-  double rho = 0.0;
+  double collinearity = 0.0;
 };
 
 struct EffectStrength {
-  /// delta at the usual size.
-  double delta = 0.0;
+  /// At the usual size.
+  double signal_to_noise = 0.0;
   /// Share of the unprojected signature that the calibration leaves.
   double share_left = 0.0;
-  /// Of the effect's first parameter, for kSeenAtDelta.
+  /// Of the effect's first parameter, for kSeenAtSignalToNoise.
   double seen_size = 0.0;
   /// Nobody else's signature is nearer, those of the class left aside.
   std::optional<Rival> nearest;

@@ -118,6 +118,8 @@ struct Effect {
   double (*elongation)(Values) = nullptr;
   /// In mm.
   double (*misread)(const VisitNote&, Values) = nullptr;
+  /// It acts at the visit of its place alone, not from there on.
+  bool at_one_visit = false;
   /// Empty where the effect can act on such a machine, otherwise what it would need.
   std::string_view (*needs_machine)(const EquilibriumParameters&) = nullptr;
 };

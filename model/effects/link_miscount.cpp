@@ -56,6 +56,7 @@ extern constinit const Effect link_miscount{
     .remedy_kind = RemedyKind::correct_the_data,
     .remedy = "read that point again; its reading is corrected or set aside",
     .misread = misread,
+    .at_one_visit = true,
 };
 
 }  // namespace chaintrue::model::effects

@@ -13,8 +13,20 @@ run("installing" ${CMAKE_COMMAND} --install ${BUILD_DIR} --component library --p
 run("configuring" ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/build -G Ninja
   -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
 run("building" ${CMAKE_COMMAND} --build ${WORK_DIR}/build)
-run("running" ${WORK_DIR}/build/consumer)
+run("running" ${WORK_DIR}/build/consumer ${SOURCE_DIR}/../../fixtures/grids/seven_by_four.json ${WORK_DIR}/diagnosis.json)
 message("${output}")
+file(READ ${WORK_DIR}/diagnosis.json diagnosis)
+if(NOT output MATCHES "left [0-9.]+ mm, right [0-9.]+ mm" OR NOT diagnosis MATCHES "\"file_type\": \"chaintrue_diagnosis\"")
+  message(FATAL_ERROR "the consumer answered:\n${output}\nand wrote:\n${diagnosis}")
+endif()
+
+# The documentation shows this program and no other.
+file(READ ${SOURCE_DIR}/main.cpp program)
+file(READ ${SOURCE_DIR}/../../docs/library.md page)
+string(FIND "${page}" "${program}" shown)
+if(shown EQUAL -1)
+  message(FATAL_ERROR "docs/library.md does not show tests/consumer/main.cpp as it is")
+endif()
 
 # Every installed header must stand on its own feet: nothing may reach for a file that was not installed, nor for a
 # library that the package does not ask for.

@@ -56,6 +56,7 @@ std::shared_ptr<const Observation> marks(const Wanted& wanted) {
   }
   if (wanted.slip) places[kSpoilt].mark.x_mm += 20.0;
   turn_over(places, wanted);
+  for (std::size_t i = 0; i < places.size(); ++i) places[i].index = i;
   return std::make_shared<ChainLengthReadings>(
       std::move(places), true, PointNoise{0.2, 0.3}, 15.0, SheetPrior{20.0, 0.01});
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "grid/synthetic/strength.hpp"
 #include "model/effects/catalogue.hpp"
@@ -120,14 +120,14 @@ TEST_P(EveryEffect, IsFoundWithItsSize) {
   const auto side = effect.sides.front();
   std::vector<double> values = model::effects::nominal_values(effect);
   if (!effect.parameters.front().integer) {
-    // About delta 25 on the 7 x 4 grid of the default machine, found from the usual size's
-    // strength.
+    // About a signal-to-noise ratio of 25 on the 7 x 4 grid of the default machine, found from the
+    // usual size's strength.
     synthetic::StrengthTable table(
         model::Machine{}, synthetic::regular_session({}, 7, 4), StatedNoise{0.2, 0.3, 12.0});
-    const double factor = 25.0 / table.strength(effect, side).delta;
+    const double factor = 25.0 / table.strength(effect, side).signal_to_noise;
     const double limit = effect.parameters.front().upper / values.front();
     values.front() *= std::min(factor, 0.9 * limit);
-    if (table.strength(effect, side).delta * std::min(factor, 0.9 * limit) < 10.0) {
+    if (table.strength(effect, side).signal_to_noise * std::min(factor, 0.9 * limit) < 10.0) {
       GTEST_SKIP() << effect.id << " never shows enough on this grid: calibration takes it up";
     }
   }

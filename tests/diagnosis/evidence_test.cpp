@@ -30,7 +30,10 @@ LinearisedSystem small_system(double lowest) {
   system.by_setting.col(0) << 0.5, 0.4, 0.6, 0.5, 0.3, 0.2;
   system.g.resize(6, 1);
   system.g.col(0) << 1.0, -0.5, 1.5, 0.2, -1.0, 0.7;
-  system.points.resize(3);
+  for (Eigen::Index row = 0; row < 6; row += 2) {
+    system.units.push_back({.first_row = row, .rows = 2});
+    system.unit_of_row.insert(system.unit_of_row.end(), 2, static_cast<int>(row / 2));
+  }
   system.setting = Eigen::VectorXd::Zero(1);
   system.expected_change = Eigen::VectorXd::Constant(1, 0.4);
   system.sigma = Eigen::VectorXd::Constant(1, 2.0);
@@ -55,8 +58,8 @@ double brute_force_at(const LinearisedSystem& system,
                       const MarginalisedSystem& marginalised,
                       double lowest,
                       bool with_cause,
-                      double delta_sigma) {
-  const double size_sigma = delta_sigma / marginalised.g.col(0).norm();
+                      double prior_sigma) {
+  const double size_sigma = prior_sigma / marginalised.g.col(0).norm();
   double total = 0.0;
   const double step_u = 0.05;
   for (double u = -3.0; u <= 3.0; u += step_u) {  // u = log of the noise's square
@@ -106,10 +109,11 @@ double brute_force(const LinearisedSystem& system,
                    const MarginalisedSystem& marginalised,
                    double lowest,
                    bool with_cause) {
-  return std::log((1.0 - kWideDeltaPrior) *
-                      brute_force_at(system, marginalised, lowest, with_cause, kUsualDelta) +
-                  kWideDeltaPrior *
-                      brute_force_at(system, marginalised, lowest, with_cause, kWideDelta));
+  return std::log(
+      (1.0 - kWideSignalToNoisePrior) *
+          brute_force_at(system, marginalised, lowest, with_cause, kUsualSignalToNoise) +
+      kWideSignalToNoisePrior *
+          brute_force_at(system, marginalised, lowest, with_cause, kWideSignalToNoise));
 }
 
 TEST(Evidence, OfNothingEqualsTheIntegral) {

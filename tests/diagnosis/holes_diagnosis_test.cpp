@@ -10,7 +10,7 @@
 #include <cstdlib>
 
 #include "grid/diagnosis/analysis.hpp"
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/synthetic/random.hpp"
@@ -113,8 +113,7 @@ TEST(HolesDiagnosisBadInput, AHoleOutOfReach) {
   expect_refused(set, DiagnosisFailure::Reason::point_unreachable, "hole A at (0.0, 5000.0)");
 }
 
-// The unknowns of the system reproduce the covariance that a set of distances has as one
-// observation.
+// The system's columns reproduce the covariance that a set of distances has as one observation.
 TEST(HolesDiagnosis, RowsAreTheObservation) {
   MeasuredHoles set = holes({}, 3);
   set.distances.push_back({.from = 0, .edge = SheetEdge::left, .distance_mm = 50.0});
@@ -124,20 +123,25 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
   const State state = stated_state(*session);
   const auto system = linearise(*session, state, {});
   ASSERT_TRUE(system);
-  const auto line = session->distances->linearise(
-      {model::ReadingModel(state.machine), state.sheet}, session->settings);
+  const observation::Observation& tape = *session->parts.front().observation;
+  const auto line = tape.linearise(state.view(session->parts.front()), session->settings);
   ASSERT_TRUE(line);
-  const auto tape = system->row_sigma_mm.asDiagonal();
+  Eigen::VectorXd sigma(system->e.size());
+  for (const SystemUnit& unit : system->units) sigma(unit.first_row) = unit.sigma;
+  const auto to_mm = sigma.asDiagonal();
   const Eigen::MatrixXd nuisance =
-      tape * nuisance_columns(*system) * system->sigma.tail(system->nuisances).asDiagonal();
+      to_mm * nuisance_columns(*system) * system->sigma.tail(system->nuisances).asDiagonal();
   Eigen::MatrixXd covariance = nuisance * nuisance.transpose();
-  covariance.diagonal() += system->row_sigma_mm.cwiseAbs2();
+  covariance.diagonal() += sigma.cwiseAbs2();
   // Two ways to the same sums of some forty products each.
-  EXPECT_LT((covariance - observation::marginal_covariance(*line, session->distances->nuisance_sigma())).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((tape * system->e - (session->distances->measured() - line->predicted)).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((covariance - observation::marginal_covariance(*line, tape.nuisance_sigma()))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-12);
+  EXPECT_LT((to_mm * system->e - (tape.measured() - line->predicted)).cwiseAbs().maxCoeff(), 1e-9);
   const auto settings = static_cast<Eigen::Index>(session->settings.size());
   EXPECT_LT(
-      (tape * system->by_setting.leftCols(settings) - line->by_setting).cwiseAbs().maxCoeff(),
+      (to_mm * system->by_setting.leftCols(settings) - line->by_setting).cwiseAbs().maxCoeff(),
       1e-9 * line->by_setting.cwiseAbs().maxCoeff());
 }
 
@@ -173,11 +177,11 @@ TEST(HolesDiagnosis, AdditionsToTheChainsMoveDistancesAsThePathDoes) {
   const auto path = signature(
       *session, state, *system, {&pitch, model::effects::EffectSide::left}, {kElongation});
   ASSERT_TRUE(path);
-  Eigen::VectorXd linear = Eigen::VectorXd::Zero(session->rows());
+  Eigen::VectorXd linear = Eigen::VectorXd::Zero(session->rows);
   for (std::size_t u = 0; u < system->units.size(); ++u) {
-    for (const SeenPlace& seen : system->units[u]) {
-      const double added = -kElongation * session->points[seen.place].lengths.left_mm;
-      linear(static_cast<Eigen::Index>(u)) += seen.by_chain(0, 0) * added;
+    for (const SeenPlace& seen : system->units[u].places) {
+      const double added = -kElongation * session->places[seen.place].lengths.left_mm;
+      linear(system->units[u].first_row) += seen.by_chain(0, 0) * added;
     }
   }
   // 1e-5 of the chain is some 0.02 mm; what is not linear in it is a millionth of that.
@@ -223,13 +227,13 @@ TEST(HolesDiagnosis, TheFileHoldsAllOfIt) {
   MeasuredHoles set = holes({{"chain_pitch_error", "left", {{"elongation", 0.0015}}}}, 5);
   set.distances[3].distance_mm += 15.0;
   const Diagnosis found = diagnosed(set, {});
-  ASSERT_EQ(found.bad_points.size(), 1u);
-  EXPECT_EQ(found.bad_points[0].index, 3u);
+  ASSERT_EQ(found.outliers.size(), 1u);
+  EXPECT_EQ(found.outliers[0].index, 3u);
   const std::string text = files::write_diagnosis(found);
   const Diagnosis again = files::parse_diagnosis(text, "d.json");
   EXPECT_EQ(files::write_diagnosis(again), text);
   EXPECT_EQ(again.observations, Observations::distances);
-  EXPECT_EQ(again.bad_points[0].off_mm, found.bad_points[0].off_mm);
+  EXPECT_EQ(again.outliers[0].off_mm, found.outliers[0].off_mm);
   std::string spoilt = text;
   spoilt.replace(spoilt.find("\"off_mm\""), 8, "\"of_mmm\"");
   EXPECT_THROW((void)files::parse_diagnosis(spoilt, "d.json"), files::InputError);
@@ -280,12 +284,12 @@ TEST(HolesDiagnosis, ADistanceThatIsOffIsNamedWithItsAmount) {
     const std::size_t k = seed % set.distances.size();
     set.distances[k].distance_mm -= 12.0;
     const Diagnosis found = diagnosed(set);
-    for (const Outlier& bad : found.bad_points) {
+    for (const Outlier& bad : found.outliers) {
       if (bad.index != k) {
         ++others;
         continue;
       }
-      right += found.verdict == Verdict::bad_points;
+      right += found.verdict == Verdict::outliers;
       // One sigma of the tape, of both holes and of what the others leave open: about 1 mm.
       EXPECT_NEAR(bad.off_mm, -12.0, 4.0);
       EXPECT_THAT(found.sentence, HasSubstr("mm too short"));

@@ -25,9 +25,9 @@ TEST(NormalPlot, HoldsItsListsInOrderAndTheMeanInsideTheBand) {
   const Session session = session_of(1);
   const auto a = analyse(session, {});
   ASSERT_TRUE(a);
-  const auto plot = normal_plot(session, *a, 1);
+  const auto plot = normal_plot(*a);
   ASSERT_TRUE(plot);
-  EXPECT_EQ(plot->values.size(), 2 * session.points.size());
+  EXPECT_EQ(plot->values.size(), 2 * session.units.size());
   EXPECT_TRUE(std::is_sorted(plot->values.begin(), plot->values.end()));
   EXPECT_TRUE(std::is_sorted(plot->expected.begin(), plot->expected.end()));
   double square = 0.0;
@@ -44,10 +44,10 @@ TEST(NormalPlot, IsTheSameForNoiseOfAnySize) {
   const Session session = session_of(2);
   auto a = analyse(session, {});
   ASSERT_TRUE(a);
-  const auto one = normal_plot(session, *a, 1);
+  const auto one = normal_plot(*a);
   a->estimate.left *= 4.0;  // a power of two: no rounding
   a->estimate.left_beside_discrepancy *= 4.0;
-  const auto other = normal_plot(session, *a, 1);
+  const auto other = normal_plot(*a);
   ASSERT_TRUE(one && other);
   EXPECT_EQ(one->values, other->values);
   EXPECT_EQ(one->p_value, other->p_value);
@@ -61,7 +61,7 @@ TEST(NormalPlot, NoiseIsOddAsOftenAsItSays) {
     const Session session = session_of(100 + static_cast<std::uint64_t>(k));
     const auto a = analyse(session, {});
     ASSERT_TRUE(a);
-    const auto plot = normal_plot(session, *a, 1);
+    const auto plot = normal_plot(*a);
     ASSERT_TRUE(plot);
     below_tenth += plot->p_value < 0.1 ? 1 : 0;
     below_hundredth += plot->p_value < 0.01 ? 1 : 0;
@@ -78,7 +78,7 @@ TEST(NormalPlot, WhatIsNoNoiseLeavesTheBand) {
   for (Eigen::VectorXd* left : {&a->estimate.left, &a->estimate.left_beside_discrepancy}) {
     *left = left->array().cube().matrix();
   }
-  const auto plot = normal_plot(session, *a, 1);
+  const auto plot = normal_plot(*a);
   ASSERT_TRUE(plot);
   EXPECT_LT(plot->p_value, 0.01);
   bool outside = false;

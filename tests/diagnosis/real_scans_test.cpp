@@ -14,7 +14,7 @@
 #include <optional>
 #include <set>
 
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/optical_file.hpp"
 #include "grid/map/length_points.hpp"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/synthetic/generator.hpp"
 
 namespace chaintrue::grid::diagnosis::testing_support {

@@ -54,12 +54,12 @@ TEST(LeavingOut, ColumnsAndRowsHoldEveryPointOnce) {
   const auto groups = groups_to_leave_out(*session);
   for (const auto& [what, lines] :
        {std::pair(Removal::What::column, 7), std::pair(Removal::What::row, 4)}) {
-    std::vector<int> times(session->points.size(), 0);
+    std::vector<int> times(session->units.size(), 0);
     int found = 0;
     for (const LeftOut& group : groups) {
       if (group.what != what) continue;
       ++found;
-      for (const std::size_t i : group.points) ++times[i];
+      for (const std::size_t i : group.units) ++times[i];
     }
     EXPECT_EQ(found, lines);
     EXPECT_THAT(times, testing::Each(1));
@@ -84,7 +84,7 @@ TEST(Downdating, OfAllPointsIsTheComparison) {
   const auto a = analyse(*session, verdict_alone());
   ASSERT_TRUE(a);
   ASSERT_FALSE(a->decision.listed.empty());
-  const Downdating downdating(*session, *a, verdict_alone());
+  const Downdating downdating(*a);
   const auto all = downdating.without({});
   EXPECT_TRUE(all.seen);
   EXPECT_EQ(all.comparison.best().regressors, a->comparison.best().regressors);
@@ -105,15 +105,15 @@ TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
     const auto a = analyse(*session, verdict_alone());
     ASSERT_TRUE(a);
     ASSERT_EQ(a->decision.verdict, Verdict::named);
-    const auto stability = examine_stability(*session, *a, verdict_alone());
+    const auto stability = examine_stability(*a);
     ASSERT_TRUE(stability);
     const auto groups = groups_to_leave_out(*session);
     ASSERT_EQ(stability->removals.size(), groups.size());
     for (std::size_t k = 0; k < groups.size(); k += 3) {
-      std::vector<bool> excluded(session->points.size(), false);
-      for (const std::size_t i : groups[k].points) excluded[i] = true;
+      std::vector<bool> excluded(session->units.size(), false);
+      for (const std::size_t i : groups[k].units) excluded[i] = true;
       const ModelComparison comparison = compare_models(
-          *session, a->system, excluded, {verdict_alone().steps, true, std::nullopt});
+          a->system, excluded, {verdict_alone().steps, true, std::nullopt});
       const Decision decision = decide(a->system, comparison, excluded, true, a->decision.classes);
       EXPECT_EQ(stability->removals[k].stands, still_named(a->decision, decision)) << "group " << k;
       // What the models of all points leave aside: sets of outliers and discrepancies that only
@@ -186,11 +186,11 @@ TEST(Stability, OnePointMakesNoName) {
     if (found->notes.empty() || found->notes.front().find("would make a name") == std::string::npos)
       continue;
     ++refused;
-    EXPECT_EQ(found->verdict, Verdict::bad_points) << found->sentence;
+    EXPECT_EQ(found->verdict, Verdict::outliers) << found->sentence;
     EXPECT_TRUE(found->causes.empty());
     EXPECT_THAT(found->notes.front(), HasSubstr(fmt::format("Point {} by itself", point + 1)));
-    ASSERT_EQ(found->bad_points.size(), 1u);
-    EXPECT_EQ(found->bad_points.front().index, point);
+    ASSERT_EQ(found->outliers.size(), 1u);
+    EXPECT_EQ(found->outliers.front().index, point);
     EXPECT_TRUE(found->extended_machine.effects.empty());
   }
   EXPECT_GT(refused, 0) << "no reading makes a name any more: choose others";

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/gcode/formula_target.hpp"
+#include "tests/gcode/random_program.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/moves.hpp"
 #include "tools/gcode/verifier.hpp"
@@ -169,7 +170,7 @@ TEST_F(Limits, TakesHardlyMoreCommandsThanTheToleranceNeeds) {
     }
     const auto outcome = compensate(program, corrector);
     EXPECT_LE(static_cast<double>(outcome.summary.commands - 1), 1.5 * least) << "least " << least;
-    EXPECT_LE(verified(program, outcome.text, corrector).largest_mm(), tolerance);
+    EXPECT_EQ(verified(program, outcome.text, corrector).fault, "");
   }
 }
 
@@ -189,40 +190,12 @@ TEST_F(Limits, PlayIsTakenUpWhereAChainTurnsAround) {
   options.half_play_mm = verify_options.half_play_mm;
   const auto corrected = compensate(program, corrector, options);
   EXPECT_EQ(corrected.message, "");
-  EXPECT_LE(verified(program, corrected.text, corrector, verify_options).largest_mm(),
-            options.tolerance_mm);
+  EXPECT_EQ(verified(program, corrected.text, corrector, verify_options).fault, "");
 }
 
 /// A machine that differs from what its controller believes, by centimetres of motor position and
 /// by what the firmware leaves out.
-class RealMachine final : public TargetMap {
- public:
-  explicit RealMachine(const model::Machine& machine)
-      : kinematics_(model::make_controller_kinematics(machine)) {}
-  [[nodiscard]] tl::expected<model::ChainLengths, TargetFailure> lengths(
-      model::BedPoint point) const override {
-    const auto found = kinematics_->lengths(point);
-    if (!found) return tl::unexpected(TargetFailure::unreachable);
-    return *found;
-  }
-  [[nodiscard]] tl::expected<TargetAnswer, TargetFailure> query(
-      model::BedPoint point) const override {
-    const auto found = lengths(point);
-    if (!found) return tl::unexpected(found.error());
-    return TargetAnswer{*found, {}, TargetStatus::inside};
-  }
-  [[nodiscard]] TargetStatus status(model::BedPoint) const override { return TargetStatus::inside; }
-  [[nodiscard]] tl::expected<model::BedPoint, TargetFailure> tool(
-      model::ChainLengths lengths) const override {
-    const auto found = kinematics_->command(lengths);
-    if (!found) return tl::unexpected(TargetFailure::unreachable);
-    return *found;
-  }
-  [[nodiscard]] BedRectangle bounds() const override { return {-1219.2, 1219.2, -609.6, 609.6}; }
-
- private:
-  std::unique_ptr<const model::ControllerKinematics> kinematics_;
-};
+using RealMachine = testing_support::TrueMachine;
 
 class RealController : public testing::TestWithParam<model::ControllerKind> {};
 
@@ -245,6 +218,7 @@ TEST_P(RealController, HoldsTheToleranceOnATrueMachine) {
   const auto outcome = compensate(program, corrector, options);
   ASSERT_EQ(outcome.message, "");
   const auto summary = verified(program, outcome.text, corrector);
+  EXPECT_EQ(summary.fault, "");
   EXPECT_LE(summary.largest_mm(), options.tolerance_mm);
   EXPECT_GT(verified(program, program, corrector).largest_mm(), 1.0);
 }
@@ -273,6 +247,7 @@ TEST_F(Limits, VerifySeesEveryKindOfFault) {
   EXPECT_GT(verified(program, good + "G1 X50 Y50\n", corrector_).largest_mm(), 20.0);
   EXPECT_GT(verified(program, without(" Z-1"), corrector_).largest_mm(), 0.9);
   EXPECT_EQ(verified(program, without("M5\n"), corrector_).words_differ, "missing: M5");
+  EXPECT_TRUE(verified(program, good, corrector_).holds());
 }
 
 }  // namespace

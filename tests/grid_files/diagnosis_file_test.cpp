@@ -75,9 +75,9 @@ TEST(DiagnosisFile, ReadsBackWhatItWrote) {
   EXPECT_EQ(removals.back().at_mm, -1100.0);
   EXPECT_EQ(removals.back().points, 4U);
   EXPECT_EQ(read.normal_plot->high, (std::vector<double>{-0.6, 0.7, 2.0}));
-  EXPECT_EQ(read.bad_points[0].shift_mm, Eigen::Vector2d(3.0, -4.0));
-  EXPECT_EQ(read.separations[1].delta_needed, 3.1);
-  EXPECT_TRUE(std::isinf(read.separations[2].delta_needed));
+  EXPECT_EQ(read.outliers[0].shift_mm, Eigen::Vector2d(3.0, -4.0));
+  EXPECT_EQ(read.separations[1].signal_to_noise_needed, 3.1);
+  EXPECT_TRUE(std::isinf(read.separations[2].signal_to_noise_needed));
 }
 
 TEST(DiagnosisFile, HasItsKeysInTheOrderPromised) {

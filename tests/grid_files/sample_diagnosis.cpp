@@ -83,12 +83,12 @@ void add_causes(Diagnosis& found) {
   diagnosis::Cause named;
   named.cause = cause("chain_pitch_error", EffectSide::left);
   named.probability = 0.97;
-  named.delta = 11.3;
+  named.signal_to_noise = 11.3;
   named.share_left = 0.28;
   named.parameters = {{"elongation", kElongation, 0.0001}};
   named.same_as = {{cause("tape_scale", EffectSide::both), {{"scale", -kElongation, 0.0001}}}};
   named.rival = cause("tooth_skip", EffectSide::left);
-  named.rival_rho = 0.81;
+  named.rival_collinearity = 0.81;
   named.order_assumed = true;
   found.causes = {named};
   found.hypotheses = {{"chain_pitch_error", "left", 0.97},
@@ -181,7 +181,7 @@ Diagnosis sample_diagnosis() {
   found.not_proved = "Another cause outside the catalogue may look the same at these points.";
   found.notes = {"The order of the visits was assumed, row by row."};
   found.left_over = {2.1, "angle_left", 0.31, 0.4};
-  found.bad_points = {{9, {3.0, -4.0}, 8.4}};
+  found.outliers = {{.index = 9, .shift_mm = {3.0, -4.0}, .distance = 8.4}};
   found.not_testable = {{cause("drift", EffectSide::left), "the points bear no order"}};
   found.bounds = {{cause("beam_flex"), "flexibility_mm_per_n", 0.004},
                   {cause("side_pull"), "force_n", 1.3}};
@@ -220,7 +220,7 @@ Diagnosis quiet_diagnosis() {
   found.notes.clear();
   found.causes.clear();
   found.left_over = {};
-  found.bad_points.clear();
+  found.outliers.clear();
   found.hypotheses = {{"nothing", "", 0.99}, {"unknown", "", 0.01}};
   found.separations.clear();
   found.next_measurements.clear();

@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/holes/holes_fit.hpp"
 #include "grid/holes/sets_together.hpp"
 
@@ -267,12 +267,12 @@ TEST_F(RealSets, WhatADiagnosisSaysOfEach) {
     // One cause is not to be had from 8 or 16 distances of a real frame; four sets together show
     // what the fit shows as a bend of the bed.
     EXPECT_TRUE(found->causes.empty()) << found->sentence;
-    EXPECT_TRUE(found->bad_points.empty());
+    EXPECT_TRUE(found->outliers.empty());
     if (set.name == "a to d") {
-      EXPECT_EQ(found->verdict, diagnosis::Verdict::unknown_pattern);
+      EXPECT_EQ(found->verdict, diagnosis::Verdict::model_discrepancy);
     }
     fmt::print("{} ({} distances): {}\n", set.name, set.distances.size(), found->sentence);
-    for (const auto& bad : found->bad_points)
+    for (const auto& bad : found->outliers)
       fmt::print("  bad: {} {:+.1f} mm\n", words_of(set, set.distances[bad.index]), bad.off_mm);
     for (const auto& one : found->hypotheses) {
       if (one.probability > 0.1)

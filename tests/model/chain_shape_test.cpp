@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "model/chain_shape.hpp"
+#include "tests/model/oracle/chain_shape.hpp"
 
 #include <gmock/gmock.h>
 

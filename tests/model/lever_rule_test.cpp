@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "model/lever_rule.hpp"
+#include "tests/model/oracle/lever_rule.hpp"
 
 #include <gmock/gmock.h>
 

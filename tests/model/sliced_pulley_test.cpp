@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "model/sliced_pulley.hpp"
+#include "tests/model/oracle/sliced_pulley.hpp"
 
 #include <gmock/gmock.h>
 

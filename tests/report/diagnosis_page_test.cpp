@@ -159,7 +159,7 @@ TEST_F(DiagnosisPage, OfHolesDrawsDistances) {
   pair.from = "A";
   pair.to = {"G"};
   found.next_measurements = {hole, pair};
-  ASSERT_EQ(found.bad_points.size(), 1u);
+  ASSERT_EQ(found.outliers.size(), 1u);
   const std::string html = page_of(found);
   for (const char* text : {"What it does to the distances",
                            "What these distances can tell apart",

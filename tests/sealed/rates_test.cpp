@@ -66,7 +66,7 @@ TEST(Rates, TwoHiddenCausesAreBothNamed) {
 }
 
 TEST(Rates, WhatNoCatalogueListsIsRefused) {
-  const auto refused = [](const Trial& t) { return t.verdict == Verdict::unknown_pattern; };
+  const auto refused = [](const Trial& t) { return t.verdict == Verdict::model_discrepancy; };
   const auto misnamed = [](const Trial& t) {
     return t.verdict == Verdict::named && t.causes.front().probability >= 0.95;
   };
@@ -77,7 +77,7 @@ TEST(Rates, WhatNoCatalogueListsIsRefused) {
 }
 
 TEST(Rates, BadPointsAreSetAside) {
-  const auto clean = [](const Trial& t) { return t.verdict == Verdict::bad_points; };
+  const auto clean = [](const Trial& t) { return t.verdict == Verdict::outliers; };
   const auto slips = trials(options(Mix::bad_points, 28), 9400, 20);
   tell(slips, clean);
   EXPECT_GE(count(slips, clean), fewest(20, 0.97));

@@ -94,9 +94,9 @@ TEST(Traps, OnePointIsNotAMachine) {
         posed({{Cause::link_miscount, Where::left, 1.0, 11.0}}, Order::serpentine_columns, seed);
     const Diagnosis found = diagnosed(read(set));
     std::vector<std::size_t> bad;
-    for (const auto& b : found.bad_points) bad.push_back(b.index);
+    for (const auto& b : found.outliers) bad.push_back(b.index);
     EXPECT_THAT(bad, Contains(11u));
-    if (found.verdict != Verdict::bad_points) {
+    if (found.verdict != Verdict::outliers) {
       EXPECT_TRUE(led_by(found, "link_miscount:left")) << found.sentence;
     }
     EXPECT_TRUE(found.extended_machine.effects.empty());
@@ -161,9 +161,9 @@ TEST(Traps, ExchangedPointsAreTheTwoBadOnes) {
     grid::MeasuredGrid grid = read(posed({}, Order::serpentine_rows, seed));
     std::swap(grid.points[7].lengths, grid.points[20].lengths);
     const Diagnosis found = diagnosed(grid);
-    EXPECT_EQ(found.verdict, Verdict::bad_points) << found.sentence;
+    EXPECT_EQ(found.verdict, Verdict::outliers) << found.sentence;
     std::vector<std::size_t> bad;
-    for (const auto& b : found.bad_points) bad.push_back(b.index);
+    for (const auto& b : found.outliers) bad.push_back(b.index);
     EXPECT_THAT(bad, testing::UnorderedElementsAre(7u, 20u));
   }
 }

@@ -61,30 +61,31 @@ TEST(Strength, FollowsNoiseAndPoints) {
   const auto session = regular_session(machine, 7, 4);
   const StrengthTable table(machine, session, noise_of(0.2, 0.3));
   const EffectStrength s = table.strength(kink, EffectSide::left);
-  EXPECT_NEAR(
-      s.seen_size * s.delta / 4.5, kSeenAtDelta, 1e-9);  // 4.5 mm/rad is the usual size; rounding
+  // 4.5 mm/rad is the usual size.
+  EXPECT_NEAR(s.seen_size * s.signal_to_noise / 4.5, kSeenAtSignalToNoise, 1e-9);  // rounding
   EXPECT_GT(s.share_left, 0.0);
   EXPECT_LE(s.share_left, 1.0);
   const StrengthTable twice(machine, session, noise_of(0.4, 0.6));
   // The settings' stated sigmas do not double, so that more than half of it is left.
-  EXPECT_GT(twice.strength(kink, EffectSide::left).delta, 0.5 * s.delta);
-  EXPECT_LT(twice.strength(kink, EffectSide::left).delta, s.delta);
+  EXPECT_GT(twice.strength(kink, EffectSide::left).signal_to_noise, 0.5 * s.signal_to_noise);
+  EXPECT_LT(twice.strength(kink, EffectSide::left).signal_to_noise, s.signal_to_noise);
   std::vector<model::Visit> repeated = session;
   for (const model::Visit& visit : session) {
     repeated.push_back({visit.position, visit.order + static_cast<int>(session.size())});
   }
   const StrengthTable more(machine, repeated, noise_of(0.2, 0.3));
   // Every point twice: at most sqrt 2, as the settings are known better too.
-  EXPECT_GT(more.strength(kink, EffectSide::left).delta, s.delta);
-  EXPECT_LE(more.strength(kink, EffectSide::left).delta, std::sqrt(2.0) * s.delta * (1.0 + 1e-12));
+  EXPECT_GT(more.strength(kink, EffectSide::left).signal_to_noise, s.signal_to_noise);
+  EXPECT_LE(more.strength(kink, EffectSide::left).signal_to_noise,
+            std::sqrt(2.0) * s.signal_to_noise * (1.0 + 1e-12));
 }
 
 TEST(Strength, MirroredEffectsAreEquallyStrong) {
   const Machine machine;
   const StrengthTable table(machine, regular_session(machine, 7, 4), noise_of(0.2, 0.3));
   const auto& pitch = *find_effect("chain_pitch_error");
-  EXPECT_NEAR(table.strength(pitch, EffectSide::left).delta,
-              table.strength(pitch, EffectSide::right).delta,
+  EXPECT_NEAR(table.strength(pitch, EffectSide::left).signal_to_noise,
+              table.strength(pitch, EffectSide::right).signal_to_noise,
               1e-6);
 }
 

@@ -3,7 +3,7 @@
 // measurements.
 #include <benchmark/benchmark.h>
 
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/synthetic/generator.hpp"
 
 namespace {

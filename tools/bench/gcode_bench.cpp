@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compensating G-code as it comes from CAM programs: a relief of short straight cuts and a plate of
 // arcs, on a map that was fitted to fixtures/grids/seven_by_four.json. items_per_second are input
-// blocks. gcode/compensate/200_mb streams a program of 200 MB that is made as it is read;
+// blocks. gcode/compensate_and_verify runs the output on the simulated controller and machine too,
+// as the command does. gcode/compensate/200_mb streams a program of 200 MB that is made as it is read;
 // peak_rss_mb is the whole process's, map and benchmark included.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include "grid/map/fit.hpp"
 #include "tools/gcode/compensation_target.hpp"
 #include "tools/gcode/compensator.hpp"
+#include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -122,11 +124,33 @@ void compensate(benchmark::State& state, const std::function<LineSource()>& open
       static_cast<double>(bytes_out) / 1e6 / static_cast<double>(state.iterations());
 }
 
+void compensate_and_verify(benchmark::State& state, const std::function<LineSource()>& open) {
+  const Fitted& machine = fitted();
+  std::uint64_t blocks = 0;
+  for (auto _ : state) {
+    std::string text;
+    Compensator compensator(
+        machine.corrector, {}, [&text](std::string_view bytes) { text += bytes; });
+    LineSource source = open();
+    const auto summary = compensator.run(source, {});
+    LineSource original = open();
+    LineSource written = LineSource::from_text(std::move(text));
+    const auto proof = verify(original, written, machine.corrector, {}, {});
+    if (!summary || compensator.findings().problem_count > 0 || !proof || !proof->holds()) {
+      state.SkipWithError(proof ? proof->fault.c_str() : proof.error().problem.message().c_str());
+      return;
+    }
+    blocks += summary->blocks;
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(blocks));
+}
+
 void compensate_relief(benchmark::State& state) {
   compensate(state, [] { return LineSource(std::make_unique<ReliefStream>(2'000'000)); });
 }
 
-void compensate_arcs(benchmark::State& state) {
+/// A plate of 2000 arcs.
+std::string arcs() {
   std::string text = "G21 G90 F1500\nG0 X-500 Y-300\n";
   for (int i = 0; i < 2000; ++i)
     text += fmt::format(
@@ -139,7 +163,22 @@ void compensate_arcs(benchmark::State& state) {
     const std::size_t radius = text.find(" R", at);
     text.erase(radius, text.find('\n', radius) - radius);
   }
+  return text;
+}
+
+void compensate_arcs(benchmark::State& state) {
+  const std::string text = arcs();
   compensate(state, [&text] { return LineSource::from_text(text); });
+}
+
+void verify_relief(benchmark::State& state) {
+  compensate_and_verify(
+      state, [] { return LineSource(std::make_unique<ReliefStream>(2'000'000)); });
+}
+
+void verify_arcs(benchmark::State& state) {
+  const std::string text = arcs();
+  compensate_and_verify(state, [&text] { return LineSource::from_text(text); });
 }
 
 void compensate_200_mb(benchmark::State& state) {
@@ -148,6 +187,8 @@ void compensate_200_mb(benchmark::State& state) {
 
 BENCHMARK(compensate_relief)->Name("gcode/compensate")->Unit(benchmark::kMillisecond);
 BENCHMARK(compensate_arcs)->Name("gcode/compensate/arcs")->Unit(benchmark::kMillisecond);
+BENCHMARK(verify_relief)->Name("gcode/compensate_and_verify")->Unit(benchmark::kMillisecond);
+BENCHMARK(verify_arcs)->Name("gcode/compensate_and_verify/arcs")->Unit(benchmark::kMillisecond);
 BENCHMARK(compensate_200_mb)
     ->Name("gcode/compensate/200_mb")
     ->Unit(benchmark::kSecond)

@@ -11,10 +11,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
@@ -36,6 +35,7 @@ using grid::diagnosis::Diagnosis;
 struct DiagnoseCommand {
   GridInput input;
   TapeInput tape;
+  std::vector<std::string> with;
   std::string output;
   std::string report;
   std::string extended_machine;
@@ -103,34 +103,75 @@ std::string extended_machine_text(const Diagnosis& found, const std::string& sou
   return files::write_machine(found.extended_machine, comments);
 }
 
-using Measured = std::variant<grid::MeasuredGrid, grid::MeasuredHoles>;
 using Outcome = tl::expected<Diagnosis, std::string>;
 
 std::string sentence_of(const std::string& path, const grid::diagnosis::DiagnosisFailure& failure) {
   return fmt::format("{}: {}", files::name_in_messages(path), failure.sentence);
 }
 
+/// "28 points and 20 distances"
+std::string counted(const grid::Measured& measured) {
+  std::size_t points = 0;
+  std::size_t distances = 0;
+  for (const auto& own : measured.grids) points += own.points.size();
+  for (const auto& set : measured.holes) distances += set.distances.size();
+  if (distances == 0) return fmt::format("{} points", points);
+  if (points == 0) return fmt::format("{} distances", distances);
+  return fmt::format("{} points and {} distances", points, distances);
+}
+
 /// Seconds, where there are hundreds of points: a person is told to wait.
-template <class Set>
-Outcome watched(const DiagnoseCommand& command, const Set& measured, std::string_view what) {
+Outcome watched(const DiagnoseCommand& command, const grid::Measured& measured) {
   grid::diagnosis::DiagnosisOptions options;
   options.seed = command.seed;
   options.order_assumed = !command.assume_order.empty();
   options.accept_class = command.accept_class;
   const bool is_watched = ::isatty(STDERR_FILENO) != 0;
-  if (is_watched) fmt::print(stderr, "Diagnosing {} ...", what);
+  if (is_watched) fmt::print(stderr, "Diagnosing {} ...", counted(measured));
   auto found = grid::diagnosis::diagnose(measured, options);
   if (is_watched) fmt::print(stderr, "\r\x1b[K");
   if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
-  if (found->grid_name.empty())
-    found->grid_name = measured.name.empty() ? file_name(command.input.grid) : measured.name;
+  if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
   return *std::move(found);
 }
 
-Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredGrid& measured) {
-  auto found = watched(command, measured, fmt::format("{} points", measured.points.size()));
+/// What one grid by itself allows for.
+void refuse_for_others(const DiagnoseCommand& command, const grid::Measured& measured) {
+  if (measured.holes.empty() && measured.grids.size() == 1) return;
+  OptionProblems problems;
+  const auto refuse = [&](const char* option, const std::string& value, const char* why) {
+    if (value.empty()) return;
+    const char* of = measured.grids.empty() ? "holes" : "several files";
+    problems.add(option, value, fmt::format("to be left out of {}: {}", of, why));
+  };
+  refuse(
+      "--corrected-grid", command.corrected_grid, "a tape's distances are no marks and readings");
+  refuse("--held-out", command.held_out, "each set of holes is diagnosed by itself");
+  if (measured.grids.empty()) {
+    refuse("--assume-order", command.assume_order, "distances do not know the order of the cuts");
+  }
+  problems.throw_if_any();
+}
+
+/// How well what was found predicts the grid of --held-out.
+tl::expected<grid::diagnosis::Transfer, std::string> held_out(const DiagnoseCommand& command,
+                                                              const grid::MeasuredGrid& measured,
+                                                              const Diagnosis& found) {
+  GridInput other = command.input;
+  other.grid = command.held_out;
+  const grid::MeasuredGrid to = read_grid_input(other);
+  auto transferred = grid::diagnosis::transfer(measured, found, to);
+  if (!transferred) return tl::unexpected(sentence_of(command.held_out, transferred.error()));
+  if (transferred->to.empty())
+    transferred->to = to.name.empty() ? file_name(command.held_out) : to.name;
+  return *std::move(transferred);
+}
+
+Outcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
+  refuse_for_others(command, measured);
+  if (!measured.grids.empty()) assume_order(command, measured.grids.front());
+  auto found = watched(command, measured);
   if (!found) return found;
-  if (!found->stated_noise) found->stated_noise = measured.noise;
   if (!command.assume_order.empty()) {
     found->notes.insert(found->notes.begin(),
                         fmt::format("The visiting order was not measured but assumed: {}, lines "
@@ -138,46 +179,15 @@ Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredGrid& meas
                                     command.assume_order));
   }
   if (command.held_out.empty()) return found;
-  GridInput other = command.input;
-  other.grid = command.held_out;
-  const grid::MeasuredGrid to = read_grid_input(other);
-  const auto transferred = grid::diagnosis::transfer(measured, *found, to);
-  if (!transferred) return tl::unexpected(sentence_of(command.held_out, transferred.error()));
-  found->transferred = *transferred;
-  if (found->transferred->to.empty())
-    found->transferred->to = to.name.empty() ? file_name(command.held_out) : to.name;
+  auto transferred = held_out(command, measured.grids.front(), *found);
+  if (!transferred) return tl::unexpected(transferred.error());
+  found->transferred = *std::move(transferred);
   return found;
 }
 
-Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredHoles& set) {
-  return watched(command, set, fmt::format("{} distances", set.distances.size()));
-}
-
-/// What is said of points alone.
-void refuse_for_holes(const DiagnoseCommand& command) {
-  OptionProblems problems;
-  const auto refuse = [&](const char* option, const std::string& value, const char* why) {
-    if (!value.empty())
-      problems.add(option, value, fmt::format("to be left out of holes: {}", why));
-  };
-  refuse(
-      "--corrected-grid", command.corrected_grid, "a tape's distances are no marks and readings");
-  refuse("--held-out", command.held_out, "each set of holes is diagnosed by itself");
-  refuse("--assume-order", command.assume_order, "distances do not know the order of the cuts");
-  problems.throw_if_any();
-}
-
-Outcome diagnosed(const DiagnoseCommand& command, Measured& input) {
-  if (const auto* holes = std::get_if<grid::MeasuredHoles>(&input)) {
-    refuse_for_holes(command);
-    return diagnosed(command, *holes);
-  }
-  assume_order(command, std::get<grid::MeasuredGrid>(input));
-  return diagnosed(command, std::get<grid::MeasuredGrid>(input));
-}
-
 int run_diagnose(const DiagnoseCommand& command) {
-  Measured input = read_measured_input(command.input, command.tape, MeasuredUse::fit);
+  grid::Measured input =
+      read_measured(command.input, command.tape, command.with, MeasuredUse::fit);
   const auto found = diagnosed(command, input);
   if (!found) {
     fmt::print(stderr, "{}\n", found.error());
@@ -194,7 +204,7 @@ int run_diagnose(const DiagnoseCommand& command) {
   add(command.extended_machine, [&] { return extended_machine_text(*found, source); });
   add(command.corrected_grid, [&] {
     return corrected_grid_text(
-        *found, std::get<grid::MeasuredGrid>(input), !command.assume_order.empty());
+        *found, input.grids.front(), !command.assume_order.empty());
   });
   const bool is_stdout_taken = std::any_of(
       outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });
@@ -230,6 +240,9 @@ void add_diagnose(CLI::App& app, Run& run) {
       "diagnose", "What the simulation gets wrong, why, and what naming the cause gains");
   add_grid_options(*verb, command->input);
   add_tape_options(*verb, command->tape);
+  verb->add_option("--with",
+                   command->with,
+                   "More grids and holes of the same machine: all are weighed in one estimate");
   add_diagnose_outputs(*verb, *command);
   verb->add_option("--held-out",
                    command->held_out,

@@ -92,10 +92,11 @@ Chart separation_chart(const Diagnosis& found) {
   for (const auto& pair : found.separations) {
     const std::string first = cause_title(pair.first), second = cause_title(pair.second);
     const double a = number_of(first), b = number_of(second);
-    const std::string needed =
-        std::isfinite(pair.delta_needed) ? fmt::format("{:.1f}", pair.delta_needed) : "never";
-    cells.rows.push_back({a, b, first, second, pair.rho, needed});
-    cells.rows.push_back({b, a, second, first, pair.rho, needed});
+    const std::string needed = std::isfinite(pair.signal_to_noise_needed)
+                                   ? fmt::format("{:.1f}", pair.signal_to_noise_needed)
+                                   : "never";
+    cells.rows.push_back({a, b, first, second, pair.collinearity, needed});
+    cells.rows.push_back({b, a, second, first, pair.collinearity, needed});
   }
   DataTable list{"names", {"number", "what"}, {}};
   for (std::size_t i = 0; i < names.size(); ++i)

@@ -29,12 +29,16 @@ constexpr const char* kChains[] = {"left", "right"};
 /// From this chance down something is said to stand out.
 constexpr double kSurprising = 0.01;
 
-std::string left_out_name(const Removal& removal) {
+std::string left_out_name(const Diagnosis& found, const Removal& removal) {
   switch (removal.what) {
     case Removal::What::column:
       return fmt::format("column at x = {} mm", std::lround(removal.at_mm));
     case Removal::What::row:
       return fmt::format("row at y = {} mm", std::lround(removal.at_mm));
+    case Removal::What::distance:
+      return "distance " + words_of_ends(found.distances.at(removal.index));
+    case Removal::What::hole:
+      return fmt::format("hole {} with all its distances", found.holes.at(removal.index).name);
     case Removal::What::point:
       break;
   }
@@ -110,19 +114,20 @@ Table removals_table(const Diagnosis& found) {
       std::count_if(order.begin(), order.end(), [](const Removal* r) { return !r->stands; });
   order.resize(std::min(order.size(), kShown + static_cast<std::size_t>(changes)));
   Table table{{{"left out"},
-               {"points", true},
+               {std::string(name(found.observations)), true},
                {"what is named then has", true},
                {"its odds fall by a factor of", true},
                {"the verdict then names"}},
               {},
-              fmt::format("With all points it has {}. Shown are those that change the verdict, and "
+              fmt::format("With all {} it has {}. Shown are those that change the verdict, and "
                           "of the others the {} on which most rests.",
+                          name(found.observations),
                           percent(found.stability->probability),
                           kShown)};
   for (const Removal* removal : order) {
     constexpr double kMost = 6.9;  // a thousand
     const double factor = std::exp(removal->support);
-    table.rows.push_back({{left_out_name(*removal),
+    table.rows.push_back({{left_out_name(found, *removal),
                            fmt::format("{}", removal->points),
                            percent(removal->probability),
                            removal->support > kMost ? std::string("above 1000")

@@ -38,7 +38,7 @@ constexpr VerdictLights kVerdicts[] = {
     {Verdict::named, Tone::good, Tone::good, "yes", Tone::good, "yes, one cause"},
     {Verdict::named_set, Tone::caution, Tone::good, "yes", Tone::caution, "one of a few"},
     {Verdict::several_causes, Tone::good, Tone::good, "yes", Tone::good, "yes, several together"},
-    {Verdict::unknown_pattern,
+    {Verdict::model_discrepancy,
      Tone::bad,
      Tone::good,
      "yes, a pattern",
@@ -50,7 +50,7 @@ constexpr VerdictLights kVerdicts[] = {
      "noise, larger than stated",
      Tone::caution,
      "no cause"},
-    {Verdict::bad_points, Tone::caution, Tone::caution, "bad points", Tone::caution, "no cause"},
+    {Verdict::outliers, Tone::caution, Tone::caution, "bad points", Tone::caution, "no cause"},
     {Verdict::nothing_found,
      Tone::good,
      Tone::good,
@@ -220,8 +220,9 @@ Section separation_section(const Diagnosis& found) {
     table.rows.push_back(
         {{cause_title(pair.first),
           cause_title(pair.second),
-          fixed(pair.rho, 3),
-          std::isfinite(pair.delta_needed) ? fixed(pair.delta_needed, 1) : "never"},
+          fixed(pair.collinearity, 3),
+          std::isfinite(pair.signal_to_noise_needed) ? fixed(pair.signal_to_noise_needed, 1)
+                                                     : "never"},
          false});
   }
   table.caption =
@@ -296,7 +297,7 @@ report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
   if (found.normal_plot) page.sections.push_back(normal_section(found));
   if (!found.terms.empty()) page.sections.push_back(terms_section(found));
   if (!found.separations.empty()) page.sections.push_back(separation_section(found));
-  if (!found.bad_points.empty()) page.sections.push_back(bad_points_section(found));
+  if (!found.outliers.empty()) page.sections.push_back(outliers_section(found));
   if (!found.bounds.empty() || !found.not_testable.empty())
     page.sections.push_back(bounds_section(found));
   if (!found.settings.empty()) page.sections.push_back(settings_section(found));

@@ -75,7 +75,7 @@ Section terms_section(const Diagnosis& found) {
     const std::string fate = fate_of(found, term);
     table.rows.push_back({{cause_title(term.cause),
                            typeset(size_in_words(term.parameter, term.value, term.sigma)),
-                           fixed(term.delta, 1),
+                           fixed(term.signal_to_noise, 1),
                            share_percent(term.share_left),
                            share_percent(term.p_value),
                            percent(term.probability),
@@ -104,12 +104,12 @@ Section bounds_section(const Diagnosis& found) {
 
 namespace {
 
-Section bad_distances_section(const Diagnosis& found) {
+Section distance_outliers_section(const Diagnosis& found) {
   Table table{{{"distance"}, {"read less predicted, mm", true}, {"in sigmas", true}},
               {},
               "Against what all the other distances make of it. They were set aside; measure them "
               "again."};
-  for (const auto& bad : found.bad_points)
+  for (const auto& bad : found.outliers)
     table.rows.push_back(
         {{reading_name(found, bad.index), fixed(bad.off_mm, 2), fixed(bad.distance, 1)}, true});
   return {"Bad distances", {std::move(table)}};
@@ -117,13 +117,13 @@ Section bad_distances_section(const Diagnosis& found) {
 
 }  // namespace
 
-Section bad_points_section(const Diagnosis& found) {
-  if (is_of_distances(found)) return bad_distances_section(found);
+Section outliers_section(const Diagnosis& found) {
+  if (is_of_distances(found)) return distance_outliers_section(found);
   Table table{{{"point"}, {"right of its mark, mm", true}, {"up, mm", true}, {"in sigmas", true}},
               {},
               "Where the tool would have to have been for the reading to be right. They were set "
               "aside; measure them again."};
-  for (const auto& bad : found.bad_points)
+  for (const auto& bad : found.outliers)
     table.rows.push_back({{point_name(bad.index),
                            fixed(bad.shift_mm.x(), 2),
                            fixed(bad.shift_mm.y(), 2),

@@ -14,7 +14,7 @@ namespace chaintrue::cli {
 [[nodiscard]] report::Section terms_section(const grid::diagnosis::Diagnosis& found);
 /// What was looked for and is absent, and what these points cannot show.
 [[nodiscard]] report::Section bounds_section(const grid::diagnosis::Diagnosis& found);
-[[nodiscard]] report::Section bad_points_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] report::Section outliers_section(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] report::Section settings_section(const grid::diagnosis::Diagnosis& found);
 /// Assumptions, noise and corrections of the data.
 [[nodiscard]] report::Section method_section(const grid::diagnosis::Diagnosis& found);

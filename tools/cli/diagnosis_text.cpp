@@ -132,9 +132,9 @@ void write_settings(Text& text, const Diagnosis& found) {
 }
 
 void write_rest(Text& text, const Diagnosis& found) {
-  if (!found.bad_points.empty()) {
+  if (!found.outliers.empty()) {
     text.heading(fmt::format("Bad {}, to be measured again", name(found.observations)));
-    for (const auto& bad : found.bad_points) {
+    for (const auto& bad : found.outliers) {
       if (is_of_distances(found)) {
         text.line("  {}: read {} ({:.1f} sigmas)",
                   reading_name(found, bad.index),

@@ -154,7 +154,7 @@ std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
   std::string text = fmt::format(
       "Something is left over that noise does not explain: its strength is {:.1f} in units of "
       "noise, and noise alone leaves as much in {} of cases.",
-      left_over.delta,
+      left_over.signal_to_noise,
       share_percent(left_over.p_value));
   if (!left_over.follows.empty()) {
     text += fmt::format(" It follows {} best ({} of its square): look there.",
@@ -194,14 +194,6 @@ std::vector<FollowUpPlace> follow_up_places(const grid::diagnosis::Diagnosis& di
     }
   }
   return places;
-}
-
-std::string percent(double probability) {
-  const double in_percent = 100.0 * probability;
-  if (in_percent > 99.9) return "above 99.9 %";
-  if (in_percent < 0.1) return "below 0.1 %";
-  return in_percent > 99.0 || in_percent < 1.0 ? fmt::format("{:.1f} %", in_percent)
-                                               : fmt::format("{:.0f} %", in_percent);
 }
 
 std::string share_percent(double share) {

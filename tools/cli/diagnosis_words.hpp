@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
 
 namespace chaintrue::cli {
 
@@ -55,8 +56,7 @@ struct FollowUpPlace {
 [[nodiscard]] std::vector<FollowUpPlace> follow_up_places(
     const grid::diagnosis::Diagnosis& diagnosis);
 
-/// 97 %, or "above 99.9 %" and "below 0.1 %": certainty is never claimed.
-[[nodiscard]] std::string percent(double probability);
+using grid::diagnosis::percent;
 /// A share or a chance: 100 % and 0 % are possible, "below 0.1 %" where it is neither.
 [[nodiscard]] std::string share_percent(double share);
 [[nodiscard]] std::string capitalised(std::string text);

@@ -147,8 +147,9 @@ void print_strengths(const Effect& effect, const synthetic::EffectPicture& pictu
   for (const synthetic::StrengthAt& at : picture.strengths) {
     const synthetic::EffectStrength& s = at.strength;
     std::string nearest =
-        s.nearest ? fmt::format("{} (alike to {:.4f})", rival_words(*s.nearest), s.nearest->rho)
-                  : "none";
+        s.nearest
+            ? fmt::format("{} (alike to {:.4f})", rival_words(*s.nearest), s.nearest->collinearity)
+            : "none";
     for (const synthetic::Rival& same : s.inseparable) {
       nearest += fmt::format("; never apart from {}", rival_words(same));
     }

@@ -139,6 +139,9 @@ void add_gcode(CLI::App& app, Run& run) {
                          options->report,
                          "A page with the path before and after, coloured by the correction");
   add_limits(*compensate, *options);
+  compensate->add_flag("--no-verify",
+                       options->no_verify,
+                       "Write the output without having run it on the simulated machine");
   compensate->footer(
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"

@@ -9,6 +9,7 @@
 
 #include "grid/files/machine_file.hpp"
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/gcode/controller_check.hpp"
 #include "tools/gcode/path_lengths.hpp"
 #include "tools/gcode/survey.hpp"
 
@@ -80,6 +81,12 @@ int run_gcode_check(const GcodeOptions& options) {
   if (!survey) {
     report(options.program, findings);
     return report(options.program, survey.error());
+  }
+  if (const auto kind = controller_kind(options.controller)) {
+    gcode::ControllerCheck check(gcode::firmware(*kind), findings);
+    auto once_more = text.open();
+    const auto outcome = gcode::run_program(once_more, options.dialect(), check);
+    if (!outcome) return report(options.program, outcome.error());
   }
   print_survey(*survey, options.json);
   if (options.map.empty()) return report(options.program, findings);

@@ -11,6 +11,51 @@
 #include "tools/report/path_report.hpp"
 
 namespace chaintrue::cli {
+namespace {
+
+/// What running the output on the simulated controller and machine came to.
+struct Proof {
+  std::string fault;  ///< empty where it holds
+  double largest_mm = 0.0;
+};
+
+Proof prove(const GcodeOptions& options,
+            const GcodeMachine& machine,
+            const GcodeText& text,
+            PendingFile& output) {
+  auto original = text.open();
+  auto written = output.written();
+  const auto outcome = gcode::verify(original,
+                                     written,
+                                     machine.corrector(),
+                                     options.dialect(),
+                                     verify_options(options, machine));
+  if (!outcome) return {outcome.error().problem.message(), 0.0};
+  return {outcome->fault, outcome->largest_mm()};
+}
+
+/// For the page: whether the file is safe to run, in a sentence.
+std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, const Proof& proof) {
+  const char* controller = machine.corrector().firmware().name;
+  if (options.no_verify) {
+    return "Whether the file is safe to run is not known: it was written without having been run "
+           "on the simulated machine (--no-verify). Run gcode verify before cutting.";
+  }
+  if (!proof.fault.empty()) {
+    return fmt::format("Not safe to run, and not written: on a simulated {}, {}.",
+                       controller,
+                       proof.fault);
+  }
+  return fmt::format(
+      "The file is safe to run: on a simulated {} the tool stays within {:.3f} mm of the path "
+      "(tolerance {:g} mm), at the intended feeds, with every word at its place.",
+      controller,
+      proof.largest_mm,
+      options.tolerance_mm);
+}
+
+}  // namespace
+
 int run_gcode_compensate(const GcodeOptions& options) {
   const GcodeMachine machine(options);
   const GcodeText text(options.program);
@@ -20,10 +65,10 @@ int run_gcode_compensate(const GcodeOptions& options) {
   report::PathReport picture;
   if (!options.report.empty()) {
     settings.on_command =
-        [&picture](const gcode::Move& move, const gcode::Station& from, const gcode::Station& to) {
-          const auto correction = [](const gcode::Station& station) {
-            return report::ToolVector{station.command.x_mm - station.target.x_mm,
-                                      station.command.y_mm - station.target.y_mm};
+        [&picture](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
+          const auto correction = [](const gcode::PathSample& sample) {
+            return report::ToolVector{sample.command.x_mm - sample.target.x_mm,
+                                      sample.command.y_mm - sample.target.y_mm};
           };
           picture.add({move.line,
                        move.kind == gcode::MoveKind::rapid,
@@ -45,7 +90,10 @@ int run_gcode_compensate(const GcodeOptions& options) {
     fmt::print(stderr, "nothing is written\n");
     return code;
   }
-  output.commit();
+  Proof proof;
+  if (!options.no_verify) proof = prove(options, machine, text, output);
+  const bool holds = proof.fault.empty();
+  if (holds) output.commit();
   const std::string words = fmt::format(
       "{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
       "line {}",
@@ -57,20 +105,42 @@ int run_gcode_compensate(const GcodeOptions& options) {
       summary->largest_correction_mm,
       summary->largest_correction_line);
   fmt::print(stderr, "{}\n", words);
+  if (!holds) {
+    fmt::print(stderr,
+               "{}: run on a simulated {}, the compensated program does not hold {} mm: {}\n"
+               "the program is not written; try another --tolerance-mm, or --no-verify for a look "
+               "at that line\n",
+               grid::files::name_in_messages(options.program),
+               machine.corrector().firmware().name,
+               options.tolerance_mm,
+               proof.fault);
+  } else if (!options.no_verify) {
+    fmt::print(stderr,
+               "run on a simulated {}: the tool stays within {:.4f} mm of the path, tolerance {} "
+               "mm\n",
+               machine.corrector().firmware().name,
+               proof.largest_mm,
+               options.tolerance_mm);
+  }
   if (!options.report.empty()) {
     const model::Bed& bed = machine.machine().bed;
     picture.name = options.program;
-    picture.verdict = words + ".";
+    picture.verdict = verdict(options, machine, proof);
     picture.sheet = {
         -0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
     picture.figures = {
         {fmt::format("{:.2f} mm", summary->largest_correction_mm), "largest correction"},
         {fmt::format("{:g} mm", options.tolerance_mm), "tolerance of the path"},
         {fmt::format("{:.1f} m", summary->path_mm / 1000.0), "path"},
-        {fmt::format("{}", summary->commands), "commands written"}};
+        {fmt::format("{}", summary->commands), holds ? "commands written" : "commands"}};
+    if (!options.no_verify) {
+      picture.figures.insert(
+          picture.figures.begin(),
+          {fmt::format("{:.3f} mm", proof.largest_mm), "largest distance from the path"});
+    }
     grid::files::write_whole_file(options.report, report::render(report::page_of(picture)));
   }
-  return kDone;
+  return holds ? kDone : kCheckFailed;
 }
 
 }  // namespace chaintrue::cli

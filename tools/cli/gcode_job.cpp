@@ -74,6 +74,13 @@ model::BedPoint GcodeOptions::home_mm() const {
   return point;
 }
 
+std::optional<model::ControllerKind> controller_kind(std::string_view name) {
+  for (const KindName& kind : kKinds) {
+    if (kind.name == name) return kind.kind;
+  }
+  return std::nullopt;
+}
+
 GcodeMachine::GcodeMachine(const GcodeOptions& options) {
   const std::string text = grid::files::read_whole_file(options.map);
   gcode::FileHash hash;
@@ -94,9 +101,7 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options) {
                        "a map that knows its machine; this one does not, so say with --machine "
                        "what the controller believes"}});
   }
-  for (const KindName& kind : kKinds) {
-    if (kind.name == options.controller) machine_.controller.kind = kind.kind;
-  }
+  if (const auto kind = controller_kind(options.controller)) machine_.controller.kind = *kind;
   half_play_mm_ = gcode::half_play_mm(machine_);
   kinematics_ = model::make_controller_kinematics(machine_);
   corrector_ = std::make_unique<gcode::Corrector>(
@@ -193,6 +198,13 @@ PendingFile::~PendingFile() {
 
 void PendingFile::write(std::string_view bytes) {
   file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+gcode::LineSource PendingFile::written() {
+  file_.flush();
+  auto source = gcode::LineSource::from_file(temporary_.string());
+  if (!file_ || !source) throw InputError({{path_, "", "", "room for the whole file"}});
+  return std::move(*source);
 }
 
 void PendingFile::commit() {

@@ -9,11 +9,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "grid/map/compensation_map.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/gcode/compensation_target.hpp"
 #include "tools/gcode/compensator.hpp"
+#include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::cli {
 
@@ -37,12 +39,16 @@ struct GcodeOptions {
   bool home_is_zero = false;
   bool skip_deletable = false;
   bool tools_have_no_diameter = false;
+  bool no_verify = false;  ///< compensate: write without having run the output
   bool json = false;
 
   [[nodiscard]] gcode::Dialect dialect() const;
   /// Of --home. \throws InputError where it is no pair of numbers.
   [[nodiscard]] model::BedPoint home_mm() const;
 };
+
+/// Of --controller; empty where it is not given.
+[[nodiscard]] std::optional<model::ControllerKind> controller_kind(std::string_view name);
 
 /// Map, machine and controller, which belong together.
 class GcodeMachine {
@@ -70,6 +76,10 @@ class GcodeMachine {
 /// What compensating needs to know, the program's own hash left out.
 [[nodiscard]] gcode::CompensateOptions compensate_options(const GcodeOptions& options,
                                                           const GcodeMachine& machine);
+
+/// What running the output on the simulated machine needs to know.
+[[nodiscard]] gcode::VerifyOptions verify_options(const GcodeOptions& options,
+                                                  const GcodeMachine& machine);
 
 /// A program's lines; standard input for "-", which is kept in memory. \throws InputError where it
 /// cannot be read.
@@ -99,6 +109,8 @@ class PendingFile {
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
   void write(std::string_view bytes);
+  /// What has been written so far, as a program. \throws InputError where it could not be written.
+  [[nodiscard]] gcode::LineSource written();
   /// \throws InputError where not everything could be written.
   void commit();
 

@@ -7,35 +7,11 @@
 #include <string>
 
 #include "tools/cli/gcode_verbs.hpp"
-#include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
-gcode::VerifySummary verified(const GcodeOptions& options,
-                              const GcodeMachine& machine,
-                              const GcodeText& original,
-                              const GcodeText& run,
-                              model::BedPoint run_home,
-                              int& code) {
-  gcode::VerifyOptions settings;
-  settings.tolerance_mm = options.tolerance_mm;
-  settings.home = options.home_mm();
-  settings.run_home = run_home;
-  settings.half_play_mm = machine.half_play_mm();
-  settings.rapids_whole = options.keep_rapids_whole;
-  auto a = original.open();
-  auto b = run.open();
-  const auto summary = gcode::verify(a, b, machine.corrector(), options.dialect(), settings);
-  if (summary) return *summary;
-  code = report(summary.error().in_original ? options.program : options.other,
-                summary.error().problem);
-  return {};
-}
-
-std::string worst_in_words(const gcode::VerifySummary& summary) {
-  const bool at_feeds = summary.feeds.largest_mm >= summary.rapids.largest_mm;
-  const gcode::Deviation& worst = at_feeds ? summary.feeds : summary.rapids;
+std::string in_words(const gcode::Deviation& worst) {
   return fmt::format(
       "{:.4f} mm from the intended path, at X{:.3f} Y{:.3f} Z{:.3f} (line {} of the original, line "
       "{} of the file run)",
@@ -47,55 +23,103 @@ std::string worst_in_words(const gcode::VerifySummary& summary) {
       worst.run_line);
 }
 
+const gcode::Deviation& worst(const gcode::VerifySummary& summary) {
+  return summary.feeds.largest_mm >= summary.rapids.largest_mm ? summary.feeds : summary.rapids;
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+void print_json(const gcode::VerifySummary& summary,
+                const gcode::Result<gcode::Deviation>& control,
+                double tolerance_mm) {
+  fmt::print(
+      "{{\"holds\": {}, \"largest_mm\": {:.6f}, \"feeds_mm\": {:.6f}, \"rapids_mm\": {:.6f}, "
+      "\"original_line\": {}, \"tolerance_mm\": {}, \"uncompensated_mm\": {}, "
+      "\"tick_overshoot_mm\": {:.6f}, \"commands\": {}, \"places\": {}, \"strays\": {}, "
+      "\"words_differ\": {}, \"motion_differs\": {}, \"fault\": {}}}\n",
+      summary.holds(),
+      summary.largest_mm(),
+      summary.feeds.largest_mm,
+      summary.rapids.largest_mm,
+      summary.feeds.original_line,
+      tolerance_mm,
+      control ? fmt::format("{:.6f}", control->largest_mm) : "null",
+      summary.tick_overshoot_mm,
+      summary.commands,
+      summary.places,
+      summary.strays,
+      quoted(summary.words_differ),
+      quoted(summary.motion_differs),
+      quoted(summary.fault));
+}
+
+void print_words(const gcode::VerifySummary& summary,
+                 const gcode::Result<gcode::Deviation>& control,
+                 const GcodeOptions& options,
+                 std::string_view controller) {
+  fmt::print("{}: the tool strays at most {}\n",
+             summary.holds() ? "holds" : "does not hold",
+             in_words(worst(summary)));
+  if (!summary.fault.empty()) fmt::print("the first fault: {}\n", summary.fault);
+  fmt::print("tolerance {} mm, {} commands, {} places compared, controller {}\n",
+             options.tolerance_mm,
+             summary.commands,
+             summary.places,
+             controller);
+  if (control) fmt::print("without compensation: {}\n", in_words(*control));
+  if (summary.tick_overshoot_mm > 0.0) {
+    fmt::print(
+        "the controller's last tick overshoots a command's end by up to {:.3f} mm and comes "
+        "back, as in every file\n",
+        summary.tick_overshoot_mm);
+  }
+  if (!summary.words_differ.empty())
+    fmt::print("the words that pass through differ: {}\n", summary.words_differ);
+}
+
 }  // namespace
+
+gcode::VerifyOptions verify_options(const GcodeOptions& options, const GcodeMachine& machine) {
+  gcode::VerifyOptions result;
+  result.tolerance_mm = options.tolerance_mm;
+  result.decimals = options.decimals;
+  result.home = options.home_mm();
+  result.half_play_mm = machine.half_play_mm();
+  result.rapids_whole = options.keep_rapids_whole;
+  // The rounding of F, and of short pieces, takes a hundredth.
+  result.speed_share = options.steepest_correction + 0.01;
+  return result;
+}
 
 int run_gcode_verify(const GcodeOptions& options) {
   const GcodeMachine machine(options);
   const GcodeText original(options.program);
   const GcodeText other(options.other);
-  int code = kDone;
-  const auto summary = verified(options, machine, original, other, {}, code);
-  if (code != kDone) return code;
-  int control_code = kDone;
-  const auto control =
-      verified(options, machine, original, original, options.home_mm(), control_code);
-  const bool holds = summary.largest_mm() <= options.tolerance_mm && summary.words_differ.empty();
-  if (options.json) {
-    fmt::print(
-        "{{\"holds\": {}, \"largest_mm\": {:.6f}, \"feeds_mm\": {:.6f}, \"rapids_mm\": {:.6f}, "
-        "\"original_line\": {}, "
-        "\"tolerance_mm\": {}, \"uncompensated_mm\": {}, \"tick_overshoot_mm\": {:.6f}, "
-        "\"commands\": {}, \"places\": {}}}\n",
-        holds,
-        summary.largest_mm(),
-        summary.feeds.largest_mm,
-        summary.rapids.largest_mm,
-        summary.feeds.original_line,
-        options.tolerance_mm,
-        control_code == kDone ? fmt::format("{:.6f}", control.largest_mm()) : "null",
-        summary.tick_overshoot_mm,
-        summary.commands,
-        summary.places);
-  } else {
-    fmt::print("{}: the tool strays at most {}\n",
-               holds ? "holds" : "does not hold",
-               worst_in_words(summary));
-    fmt::print("tolerance {} mm, {} commands, {} places compared, controller {}\n",
-               options.tolerance_mm,
-               summary.commands,
-               summary.places,
-               machine.corrector().firmware().name);
-    if (control_code == kDone) fmt::print("without compensation: {}\n", worst_in_words(control));
-    if (summary.tick_overshoot_mm > 0.0) {
-      fmt::print(
-          "the controller's last tick overshoots a command's end by up to {:.3f} mm and comes "
-          "back, as in every file\n",
-          summary.tick_overshoot_mm);
-    }
-    if (!summary.words_differ.empty())
-      fmt::print("the words that pass through differ: {}\n", summary.words_differ);
+  const gcode::VerifyOptions settings = verify_options(options, machine);
+  auto intended = original.open();
+  auto run = other.open();
+  const auto summary =
+      gcode::verify(intended, run, machine.corrector(), options.dialect(), settings);
+  if (!summary) {
+    return report(summary.error().in_original ? options.program : options.other,
+                  summary.error().problem);
   }
-  return holds ? kDone : kCheckFailed;
+  auto again = original.open();
+  const auto control =
+      gcode::uncompensated(again, machine.corrector(), options.dialect(), settings);
+  if (options.json) {
+    print_json(*summary, control, options.tolerance_mm);
+  } else {
+    print_words(*summary, control, options, machine.corrector().firmware().name);
+  }
+  return summary->holds() ? kDone : kCheckFailed;
 }
 
 }  // namespace chaintrue::cli

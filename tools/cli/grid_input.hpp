@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
-#include "grid/holes/measured_holes.hpp"
-#include "grid/measured_grid.hpp"
+#include "grid/measured.hpp"
 
 namespace chaintrue::cli {
 
@@ -45,5 +45,12 @@ enum class MeasuredUse { fit, check };
 /// A grid or a set of holes, as the file is. \throws files::InputError.
 [[nodiscard]] std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(
     const GridInput& input, const TapeInput& tape, MeasuredUse use);
+
+/// That and the files of --with: any mix of grids and holes of one machine, whose settings all that
+/// state some share. \throws files::InputError.
+[[nodiscard]] grid::Measured read_measured(const GridInput& input,
+                                           const TapeInput& tape,
+                                           const std::vector<std::string>& with,
+                                           MeasuredUse use);
 
 }  // namespace chaintrue::cli

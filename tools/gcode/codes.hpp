@@ -44,6 +44,12 @@ struct MCode {
   const char* refusal;
 };
 
+/// G73 and G81 to G89; a motion is given in tenths.
+[[nodiscard]] constexpr bool is_cycle(int motion) {
+  return motion == 730 || (motion >= 810 && motion <= 890);
+}
+[[nodiscard]] constexpr bool is_arc(int motion) { return motion == 20 || motion == 30; }
+
 /// Null where the code is not known.
 [[nodiscard]] const GCode* find_g(int tenths);
 [[nodiscard]] const MCode* find_m(int number);

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
+
+#include "tools/gcode/arc_curve.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -19,12 +22,21 @@ constexpr double kStretch = 1.05;
 /// a safety of two.
 constexpr double kUncheckedShare = 0.25;
 constexpr double kCurvatureSafety = 2.0;
-/// Between nearer points rounding makes slopes of its own.
-constexpr double kSlopeBase_mm = 1.0;
 
-double chord_tolerance(const CompensateOptions& options) {
-  const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -options.decimals);
-  const double left = (options.tolerance_mm - rounding) / kStretch;
+/// What verify's own errors take of the tolerance, and a little of the chords' between the places
+/// where they are checked.
+constexpr double kSpare = 0.045;
+/// Half a unit of single precision below 2048 mm, in X and Y.
+constexpr double kSinglePrecision_mm = 0.5 * 1.25e-4 * 1.5;
+/// Share of the tolerance that interpolating an arc's correction may cost.
+constexpr double kArcShare = 0.005;
+/// A circle keeps its shape even where the tolerance would let it become a point.
+constexpr double kMostTurn_rad = 0.25 * std::numbers::pi;
+
+double chord_tolerance(const CompensateOptions& options, bool single_precision) {
+  const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -options.decimals) +
+                          (single_precision ? kSinglePrecision_mm : 0.0);
+  const double left = ((1.0 - kSpare) * options.tolerance_mm - rounding) / kStretch;
   if (!(left > 0.0)) {
     throw std::invalid_argument(
         fmt::format("a tolerance of {} mm leaves nothing beside rounding to {} decimals",
@@ -42,26 +54,18 @@ int sign(double value, int otherwise) { return value > 0.0 ? 1 : value < 0.0 ? -
 
 }  // namespace
 
-void Findings::add(Problem problem) {
-  ++problem_count;
-  if (problems.size() < kMostKept) problems.push_back(std::move(problem));
-}
-
-void Findings::add(Note note) {
-  ++note_count;
-  if (notes.size() < kMostKept) notes.push_back(std::move(note));
-}
-
 Compensator::Compensator(const Corrector& corrector, CompensateOptions options, ByteSink out)
     : corrector_(corrector),
       options_(std::move(options)),
       emitter_(std::move(out), options_.decimals),
-      segmenter_(corrector, chord_tolerance(options_)) {
+      segmenter_(corrector,
+                 chord_tolerance(options_, corrector.firmware().single_precision)) {
   const double curvature = kCurvatureSafety * corrector.sampled_curvature_per_mm();
   const bool straight = corrector.firmware().chain_linear_piece_mm == 0.0;
   if (straight) {
     unchecked_length_mm_ =
-        std::sqrt(8.0 * kUncheckedShare * chord_tolerance(options_) / std::max(curvature, 1e-9));
+        std::sqrt(8.0 * kUncheckedShare *
+                  chord_tolerance(options_, corrector.firmware().single_precision) / std::max(curvature, 1e-9));
   }
 }
 
@@ -92,106 +96,26 @@ Move Compensator::placed(const Move& move) const {
 }
 
 Curve Compensator::curve(const Move& move, ChainDirections directions) const {
-  return [this, &move, directions](double t) -> tl::expected<Station, CorrectionFailure> {
+  return [this, &move, directions](double t) -> tl::expected<PathSample, CorrectionFailure> {
     const Point target = at(move, t);
     const auto command =
         corrector_.command({target.x_mm, target.y_mm}, options_.half_play_mm, directions);
     if (!command) return tl::unexpected(command.error());
-    return Station{t, target, {command->x_mm, command->y_mm, target.z_mm}};
+    return PathSample{t, target, {command->x_mm, command->y_mm, target.z_mm}};
   };
 }
 
-void Compensator::object(const Move& move, CorrectionFailure failure, double x_mm, double y_mm) {
-  if (objected_line_ == move.line) return;
-  objected_line_ = move.line;
-  findings_.add(Problem{failure == CorrectionFailure::controller ? ProblemName::outside_controller
-                                                                 : ProblemName::outside_map,
-                        {move.line, 0},
-                        fmt::format("X{:.3f} Y{:.3f} {}", x_mm, y_mm, explain(failure))});
-}
-
-/// Holds a station against the limits.
-void Compensator::examine(const Move& move, const Station& station) {
-  const double dx = station.command.x_mm - station.target.x_mm;
-  const double dy = station.command.y_mm - station.target.y_mm;
-  const double size = std::hypot(dx, dy);
-  if (size > summary_.largest_correction_mm) {
-    summary_.largest_correction_mm = size;
-    summary_.largest_correction_line = move.line;
-  }
-  const auto once_a_line = [&](ProblemName name, std::string sentence) {
-    if (objected_line_ == move.line) return;
-    objected_line_ = move.line;
-    findings_.add(Problem{name, {move.line, 0}, std::move(sentence)});
-  };
-  if (size > options_.largest_correction_mm) {
-    once_a_line(
-        ProblemName::correction_too_large,
-        fmt::format(
-            "X{:.3f} Y{:.3f} would be corrected by {:.2f} mm, more than the {} mm that are allowed",
-            station.target.x_mm,
-            station.target.y_mm,
-            size,
-            options_.largest_correction_mm));
-  }
-  if (const auto& box = options_.clamp_box) {
-    const double beyond = std::max(std::fabs(station.command.x_mm) - box->half_width_mm,
-                                   std::fabs(station.command.y_mm) - box->half_height_mm);
-    if (beyond > 0.0) {
-      once_a_line(
-          ProblemName::outside_controller,
-          fmt::format("X{:.3f} Y{:.3f} needs the command X{:.3f} Y{:.3f}, {:.2f} mm beyond the bed "
-                      "that the controller "
-                      "clamps to without a word; enlarge the bed in its settings by {:.0f} mm",
-                      station.target.x_mm,
-                      station.target.y_mm,
-                      station.command.x_mm,
-                      station.command.y_mm,
-                      beyond,
-                      std::ceil(2.0 * beyond)));
-    }
-  }
-  if (here_) {
-    const double way = std::hypot(station.target.x_mm - here_->target.x_mm,
-                                  station.target.y_mm - here_->target.y_mm);
-    if (way >= kSlopeBase_mm && !has_play()) {
-      const double slope = std::hypot(dx - (here_->command.x_mm - here_->target.x_mm),
-                                      dy - (here_->command.y_mm - here_->target.y_mm)) /
-                           way;
-      summary_.steepest_correction = std::max(summary_.steepest_correction, slope);
-      if (slope > options_.steepest_correction) {
-        once_a_line(ProblemName::correction_too_steep,
-                    fmt::format("before X{:.3f} Y{:.3f} the correction changes by {:.3f} mm per "
-                                "mm, more than the {} that are allowed",
-                                station.target.x_mm,
-                                station.target.y_mm,
-                                slope,
-                                options_.steepest_correction));
-      }
-    }
-  }
-  if (corrector_.map().status({station.target.x_mm, station.target.y_mm}) ==
-      TargetStatus::extrapolated) {
-    findings_.add(Note{move.line,
-                       "extrapolated",
-                       fmt::format("X{:.3f} Y{:.3f} lies outside the measured points: the "
-                                   "correction there is extrapolated",
-                                   station.target.x_mm,
-                                   station.target.y_mm)});
-  }
-}
-
-Result<void> Compensator::emit(const Move& move, double feed, const Station& station) {
-  examine(move, station);
-  if (here_ && options_.on_command) options_.on_command(move, *here_, station);
-  here_ = station;
+Result<void> Compensator::emit(const Move& move, double feed, const PathSample& sample) {
+  examine(move, sample);
+  if (here_ && options_.on_command) options_.on_command(move, *here_, sample);
+  here_ = sample;
   // What is written after a problem is thrown away.
   if (findings_.problem_count > 0) return {};
   const bool named_z = move.names_z;
   const auto written = emitter_.command(move.kind == MoveKind::rapid,
                                         move.line,
-                                        model::BedPoint{station.command.x_mm, station.command.y_mm},
-                                        named_z ? std::optional(station.target.z_mm) : std::nullopt,
+                                        model::BedPoint{sample.command.x_mm, sample.command.y_mm},
+                                        named_z ? std::optional(sample.target.z_mm) : std::nullopt,
                                         feed);
   if (!written) return tl::unexpected(written.error());
   return {};
@@ -216,12 +140,12 @@ Result<void> Compensator::piece(
     const Move& move, double feed, double from, double to, ChainDirections directions) {
   const Curve commands = curve(move, directions);
   Result<void> outcome;
-  const auto visit = [&](const Station& station) {
-    if (outcome) outcome = emit(move, feed, station);
+  const auto visit = [&](const PathSample& sample) {
+    if (outcome) outcome = emit(move, feed, sample);
   };
   // Without play the last command is this one's start.
   const bool known = here_ && !has_play() && from == 0.0 && here_->target == move.from;
-  const auto start = known ? Station{0.0, here_->target, here_->command} : commands(from);
+  const auto start = known ? PathSample{0.0, here_->target, here_->command} : commands(from);
   if (!start) {
     const Point place = at(move, from);
     object(move, start.error(), place.x_mm, place.y_mm);
@@ -242,12 +166,40 @@ Result<void> Compensator::piece(
     visit(*end);
     return outcome;
   }
-  const auto done = segmenter_.run(commands, *start, to, length, visit);
+  const double turn = move.arc ? std::fabs(move.arc->sweep_rad) * (to - from) : 0.0;
+  const double longest = turn > kMostTurn_rad ? length * kMostTurn_rad / turn : length;
+  const auto done = move.arc && !has_play()
+                        ? along_arc(move, feed, commands, *start, {length, longest}, outcome)
+                        : segmenter_.run(commands, *start, to, {length, longest}, visit);
   if (!done) {
     const Point place = here_ ? here_->target : at(move, from);
     object(move, done.error(), place.x_mm, place.y_mm);
   }
   return outcome;
+}
+
+/// The places of the commands are found on the interpolated curve; what is written is exact.
+tl::expected<void, CorrectionFailure> Compensator::along_arc(const Move& move,
+                                                             double feed,
+                                                             const Curve& exact,
+                                                             const PathSample& start,
+                                                             Segmenter::Extent extent,
+                                                             Result<void>& outcome) {
+  ArcCurve arc(move, exact, kArcShare * options_.tolerance_mm);
+  double behind = start.t;
+  std::optional<CorrectionFailure> failure;
+  const auto done = segmenter_.run([&](double t) { return arc.at(t, behind); },
+                                   start,
+                                   1.0,
+                                   extent,
+                                   [&](const PathSample& sample) {
+                                     behind = sample.t;
+                                     const auto command = exact(sample.t);
+                                     if (!command) failure = command.error();
+                                     if (command && outcome) outcome = emit(move, feed, *command);
+                                   });
+  if (failure) return tl::unexpected(*failure);
+  return done;
 }
 
 /// In pieces between the places where a chain turns around, if that matters.
@@ -337,6 +289,15 @@ Result<void> Compensator::move(const Move& original) {
 }
 
 Result<void> Compensator::word(const PassedWord& word) {
+  if (word.text.starts_with("G43") && !corrector_.firmware().tool_lengths) {
+    return refuse(ProblemName::not_emittable,
+                  {word.line, 0},
+                  fmt::format("{}: {} keeps no tool lengths, so every height behind it could be "
+                              "wrong; take G43 out and set Z to zero with each tool",
+                              word.text,
+                              corrector_.firmware().name));
+  }
+  note_unknown(word);
   return findings_.problem_count > 0 ? Result<void>{} : emitter_.word(word);
 }
 

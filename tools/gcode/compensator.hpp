@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,7 @@ struct CompensateOptions {
   std::string map_hash;
   std::string input_hash;
   /// Called for every command in X and Y, with its start and end; for pictures.
-  std::function<void(const Move&, const Station&, const Station&)> on_command;
+  std::function<void(const Move&, const PathSample&, const PathSample&)> on_command;
 };
 
 /// What the run found. Problems and notes keep the first hundred of their kind, and count all.
@@ -93,6 +94,7 @@ class Compensator final : private Sink {
   Result<void> move(const Move& move) override;
   Result<void> word(const PassedWord& word) override;
   Result<void> comment(const Comment& comment) override;
+  void note_unknown(const PassedWord& word);
   void note(const Note& note) override;
   Result<void> end(std::size_t line, std::string_view word) override;
 
@@ -101,8 +103,14 @@ class Compensator final : private Sink {
   Result<void> along(const Move& move, double feed);
   Result<void> piece(
       const Move& move, double feed, double from, double to, ChainDirections directions);
-  Result<void> emit(const Move& move, double feed, const Station& station);
-  void examine(const Move& move, const Station& station);
+  tl::expected<void, CorrectionFailure> along_arc(const Move& move,
+                                                  double feed,
+                                                  const Curve& exact,
+                                                  const PathSample& start,
+                                                  Segmenter::Extent extent,
+                                                  Result<void>& outcome);
+  Result<void> emit(const Move& move, double feed, const PathSample& sample);
+  void examine(const Move& move, const PathSample& sample);
   void object(const Move& move, CorrectionFailure failure, double x_mm, double y_mm);
   [[nodiscard]] Move placed(const Move& move) const;
   [[nodiscard]] ChainDirections directions_at(const Move& move,
@@ -119,9 +127,10 @@ class Compensator final : private Sink {
   double unchecked_length_mm_ = 0.0;
   Findings findings_;
   CompensateSummary summary_;
-  std::optional<Station> here_;  // empty until the program says where X and Y are
+  std::optional<PathSample> here_;  // empty until the program says where X and Y are
   ChainDirections directions_;
   std::size_t objected_line_ = 0;
+  std::set<std::string, std::less<>> unknown_words_;  // that a note has been made of
 };
 
 }  // namespace chaintrue::gcode

@@ -13,15 +13,13 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// Up to three decimals, more only where a slow feed needs them.
+/// Three decimals, more only where a slow feed needs them to have six digits.
 std::string feed_text(double feed) {
-  for (const int decimals : {3, 6, 9}) {
-    std::string text = fmt::format("{:.{}f}", feed, decimals);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.ends_with('.')) text.pop_back();
-    if (text != "0") return text;
-  }
-  return "0.000000001";
+  const int digits_before = static_cast<int>(std::floor(std::log10(feed))) + 1;
+  std::string text = fmt::format("{:.{}f}", feed, std::clamp(6 - digits_before, 3, 20));
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
 }
 
 /// Does not cut a UTF-8 character in two.
@@ -91,9 +89,10 @@ Result<bool> Emitter::command(bool rapid,
                               std::optional<double> z_mm,
                               double feed_mm_per_min) {
   constexpr double kLargest_mm = 1e8;
+  constexpr double kSlowest = 1e-12;
   const auto too_large = [](double value) { return !(std::fabs(value) < kLargest_mm); };
   if ((xy && (too_large(xy->x_mm) || too_large(xy->y_mm))) || (z_mm && too_large(*z_mm)) ||
-      (!rapid && !(feed_mm_per_min > 0.0 && feed_mm_per_min < 1e12))) {
+      (!rapid && !(feed_mm_per_min > kSlowest && feed_mm_per_min < 1e12))) {
     return refuse(ProblemName::not_emittable,
                   {line, 0},
                   "a coordinate or feed rate of this move is no sensible number");
@@ -145,6 +144,11 @@ Result<void> Emitter::word(const PassedWord& word) {
         {word.line, 0},
         fmt::format("{} cannot be written: some controllers read only what stands before the dot",
                     code));
+  }
+  if (text.size() > kMaxOutputLine) {
+    return refuse(ProblemName::not_emittable,
+                  {word.line, 0},
+                  "a number of this line has more digits than a controller's line holds");
   }
   const bool joins = waiting_line_ == word.line && !waiting_word_.empty() &&
                      ((waiting_word_.front() == 'T' && text == "M6") ||

@@ -98,6 +98,9 @@ class Sink {
   virtual Result<void> word(const PassedWord&) { return {}; }
   virtual Result<void> comment(const Comment&) { return {}; }
   virtual void note(const Note&) {}
+  /// Every code of every executed line ('G' or 'M', in tenths), where wants_codes() says so.
+  virtual void code(std::size_t /*line*/, char /*letter*/, int /*tenths*/) {}
+  [[nodiscard]] virtual bool wants_codes() const { return false; }
   /// The program has ended at this line, by this word (`M2`, `M30`, `%`), or by the end of the file
   /// (empty).
   virtual Result<void> end(std::size_t /*line*/, std::string_view /*word*/) { return {}; }

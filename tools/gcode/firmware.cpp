@@ -9,12 +9,49 @@
 namespace chaintrue::gcode {
 namespace {
 
+constexpr const char* kPassesOver = "passes over, in silence,";
+constexpr const char* kStops = "stops with an error at";
+
 constexpr Firmware kFirmwares[] = {
-    {model::ControllerKind::ideal, "ideal", false, 0.0, 0.0, false},
-    {model::ControllerKind::maslow_classic, "maslow_classic", true, 0.01, 0.0, true},
-    {model::ControllerKind::holey, "holey", true, 0.01, 0.0, true},
-    {model::ControllerKind::fluidnc_wallplotter, "fluidnc_wallplotter", true, 0.0, 10.0, false},
+    {.kind = model::ControllerKind::ideal, .name = "ideal", .tool_lengths = true},
+    {.kind = model::ControllerKind::maslow_classic,
+     .name = "maslow_classic",
+     .single_precision = true,
+     .tick_s = 0.01,
+     .clamps_to_bed = true,
+     .planned_moves = 1,
+     .unknown = kPassesOver,
+     .straight_arc_rad = 0.08},
+    {.kind = model::ControllerKind::holey,
+     .name = "holey",
+     .single_precision = true,
+     .tick_s = 0.01,
+     .clamps_to_bed = true,
+     .planned_moves = 1,
+     .unknown = kPassesOver,
+     .straight_arc_rad = 0.08},
+    {.kind = model::ControllerKind::fluidnc_wallplotter,
+     .name = "fluidnc_wallplotter",
+     .single_precision = true,
+     .chain_linear_piece_mm = 10.0,
+     .planned_moves = 16,
+     .acceleration_mm_per_s2 = 25.0,
+     .unknown = kStops,
+     .arc_chord_mm = 0.002},
 };
+
+constexpr int kMaslowG[] = {0, 10, 20, 30, 40, 100, 200, 210, 382, 400, 900, 910};
+constexpr int kMaslowM[] = {0, 10, 20, 30, 40, 50, 60, 300};
+constexpr int kGrblG[] = {0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 210, 280, 281, 300,
+                          301, 382, 383, 384, 385, 400, 431, 490, 530, 540, 550, 560, 570, 580,
+                          590, 610, 800, 900, 910, 911, 920, 921, 930, 940};
+constexpr int kGrblM[] = {0,  10, 20, 30,  40,  50,  60,  70,  80,
+                          90, 300, 620, 630, 640, 650, 670, 680};
+
+template <std::size_t size>
+bool one_of(const int (&list)[size], int value) {
+  return std::find(std::begin(list), std::end(list), value) != std::end(list);
+}
 
 }  // namespace
 
@@ -24,6 +61,17 @@ const Firmware& firmware(model::ControllerKind kind) {
                        [&](const Firmware& candidate) { return candidate.kind == kind; });
 }
 
+bool knows_code(const Firmware& firmware, char letter, int tenths) {
+  switch (firmware.kind) {
+    case model::ControllerKind::ideal:
+      return true;
+    case model::ControllerKind::fluidnc_wallplotter:
+      return letter == 'G' ? one_of(kGrblG, tenths) : one_of(kGrblM, tenths);
+    default:
+      return letter == 'G' ? one_of(kMaslowG, tenths) : one_of(kMaslowM, tenths);
+  }
+}
+
 std::optional<ClampBox> clamp_box(const model::Machine& machine) {
   if (!firmware(machine.controller.kind).clamps_to_bed) return std::nullopt;
   const model::ControllerSettings& settings = machine.controller.settings;
@@ -31,27 +79,36 @@ std::optional<ClampBox> clamp_box(const model::Machine& machine) {
                   0.5 * settings.bed_height_mm.value_or(machine.bed.height_mm)};
 }
 
-std::optional<model::BedPoint> on_the_way(const Firmware& firmware,
-                                          const model::ControllerKinematics& kinematics,
-                                          model::BedPoint from,
-                                          model::BedPoint to,
-                                          double t) {
-  const auto on_line = [&](double u) {
-    return model::BedPoint{from.x_mm + u * (to.x_mm - from.x_mm),
-                           from.y_mm + u * (to.y_mm - from.y_mm)};
-  };
-  if (firmware.chain_linear_piece_mm == 0.0) return on_line(t);
-  const double length = std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm);
-  const double pieces = std::max(1.0, std::floor(length / firmware.chain_linear_piece_mm));
-  const double piece = std::min(std::floor(t * pieces), pieces - 1.0);
-  const auto a = kinematics.lengths(on_line(piece / pieces));
-  const auto b = kinematics.lengths(on_line((piece + 1.0) / pieces));
-  if (!a || !b) return std::nullopt;
-  const double u = t * pieces - piece;
-  const auto command = kinematics.command(
-      {a->left_mm + u * (b->left_mm - a->left_mm), a->right_mm + u * (b->right_mm - a->right_mm)});
-  if (!command) return std::nullopt;
-  return *command;
+CommandWay::CommandWay(const Firmware& firmware,
+                       const model::ControllerKinematics& kinematics,
+                       model::BedPoint from,
+                       model::BedPoint to,
+                       double doubt_mm)
+    : firmware_(firmware), kinematics_(kinematics), from_(from), to_(to) {
+  if (firmware.chain_linear_piece_mm == 0.0) return;
+  const double length = std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm) - doubt_mm;
+  pieces_ = static_cast<int>(
+      std::clamp(std::floor(length / firmware.chain_linear_piece_mm), 1.0, 1e6));
+}
+
+std::optional<model::BedPoint> CommandWay::at(double t) {
+  if (firmware_.chain_linear_piece_mm == 0.0) return on_line(t);
+  const int piece = std::min(static_cast<int>(t * pieces_), pieces_ - 1);
+  if (piece != piece_) {
+    const auto lengths = [&](int end) -> std::optional<model::ChainLengths> {
+      const auto found = kinematics_.lengths(on_line(static_cast<double>(end) / pieces_));
+      return found ? std::optional(*found) : std::nullopt;
+    };
+    start_ = piece == piece_ + 1 && piece_ >= 0 ? end_ : lengths(piece);
+    end_ = lengths(piece + 1);
+    piece_ = piece;
+  }
+  if (!start_ || !end_) return std::nullopt;
+  const double u = t * pieces_ - piece;
+  const auto command =
+      kinematics_.command({start_->left_mm + u * (end_->left_mm - start_->left_mm),
+                           start_->right_mm + u * (end_->right_mm - start_->right_mm)});
+  return command ? std::optional(*command) : std::nullopt;
 }
 
 }  // namespace chaintrue::gcode

@@ -4,11 +4,19 @@
 /// what it does to targets beyond its sheet. (What chain lengths it pays out for a point is
 /// model/controllers/payout.hpp.)
 ///
-/// Sources: MaslowCNC/Firmware Motion.cpp (coordinatedMove, LOOPINTERVAL 10000 us, float),
-/// Kinematics.cpp
-/// (_verifyValidTarget clamps to half the bed); bdring/FluidNC WallPlotter.cpp
-/// (cartesian_to_motors: pieces of segment_length, 10 mm by default, chain lengths linear within a
-/// piece, float). The holey firmware moves as the classic one does.
+/// Sources, by file of the firmware:
+///   maslow_classic  MaslowCNC/Firmware Motion.cpp (coordinatedMove: a position every LOOPINTERVAL =
+///                   10000 us, float, one move after the other; arc: a line below 0.08 rad),
+///                   Kinematics.cpp (_verifyValidTarget clamps to half the bed), GCode.cpp
+///                   (executeGcodeLine, executeMcodeLine: what is known, the rest is ignored)
+///   holey           the same motion and codes, with its own kinematics
+///   fluidnc_wallplotter  bdring/FluidNC WallPlotter.cpp (cartesian_to_motors: pieces of
+///                   segment_length, 10 mm by default, chain lengths linear within a piece, summed
+///                   up in float), MachineConfig.h (arc_tolerance 0.002 mm, planner_blocks 16),
+///                   Axis.h (acceleration 25 mm/s^2), arcs as in gnea/grbl 1.1 motion_control.c
+///                   (mc_arc: chords by $12, 0.002 mm), planner.h (BLOCK_BUFFER_SIZE 16), codes as
+///                   in gcode.c; N_ARC_CORRECTION only bounds the rounding of a chord's rotation,
+///                   to less than 1e-4 mm, and is not simulated
 #pragma once
 
 #include <optional>
@@ -29,9 +37,23 @@ struct Firmware {
   double chain_linear_piece_mm = 0.0;
   /// Targets beyond half the believed bed are clamped without a word.
   bool clamps_to_bed = false;
+  /// Knows G43 H. The others pass over it, or stop there.
+  bool tool_lengths = false;
+  /// Moves that are planned ahead, and what speed is taken back with (its default).
+  int planned_moves = 0;
+  double acceleration_mm_per_s2 = 0.0;
+  /// What it does to a code that it does not know.
+  const char* unknown = "";
+  /// Arcs become chords that stay this close (grbl's $12, FluidNC's arc_tolerance_mm); 0: arcs.
+  double arc_chord_mm = 0.0;
+  /// Arcs that turn by less are cut as one straight line.
+  double straight_arc_rad = 0.0;
 };
 
 [[nodiscard]] const Firmware& firmware(model::ControllerKind kind);
+
+/// Whether it acts on a code ('G' or 'M', in tenths: G38.2 is 382).
+[[nodiscard]] bool knows_code(const Firmware& firmware, char letter, int tenths);
 
 /// Half the width and height that the controller clamps to; empty where it does not clamp.
 struct ClampBox {
@@ -40,14 +62,38 @@ struct ClampBox {
 };
 [[nodiscard]] std::optional<ClampBox> clamp_box(const model::Machine& machine);
 
-/// The commanded point that stands for where the controller is at the fraction t of a straight
-/// command: on the line, or, where it interpolates chain lengths, where equal lengths would be
-/// commanded. Empty where its own kinematics fail.
-[[nodiscard]] std::optional<model::BedPoint> on_the_way(
-    const Firmware& firmware,
-    const model::ControllerKinematics& kinematics,
-    model::BedPoint from,
-    model::BedPoint to,
-    double t);
+/// A straight command as the controller runs it.
+class CommandWay {
+ public:
+  /// Keeps references.
+  /// \param doubt_mm by how much the command's length may still change (its numbers will be
+  /// rounded): where that decides how many pieces the controller makes, it is taken to make fewer.
+  CommandWay(const Firmware& firmware,
+             const model::ControllerKinematics& kinematics,
+             model::BedPoint from,
+             model::BedPoint to,
+             double doubt_mm = 0.0);
+
+  /// Pieces that are linear in chain length; 1 where the controller follows the line.
+  [[nodiscard]] int pieces() const { return pieces_; }
+  /// The commanded point that stands for where the controller is at the fraction t: on the line,
+  /// or, where it interpolates chain lengths, where equal lengths would be commanded. Empty where
+  /// its own kinematics fail.
+  [[nodiscard]] std::optional<model::BedPoint> at(double t);
+
+ private:
+  [[nodiscard]] model::BedPoint on_line(double t) const {
+    return {from_.x_mm + t * (to_.x_mm - from_.x_mm), from_.y_mm + t * (to_.y_mm - from_.y_mm)};
+  }
+
+  const Firmware& firmware_;
+  const model::ControllerKinematics& kinematics_;
+  model::BedPoint from_;
+  model::BedPoint to_;
+  int pieces_ = 1;
+  int piece_ = -1;  // whose ends are known
+  std::optional<model::ChainLengths> start_;
+  std::optional<model::ChainLengths> end_;
+};
 
 }  // namespace chaintrue::gcode

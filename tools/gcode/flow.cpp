@@ -13,7 +13,6 @@ namespace {
 
 /// LinuxCNC allows ten levels of subroutines.
 constexpr std::size_t kDeepestCall = 10;
-constexpr std::size_t kDeepestBlock = 1000;
 
 /// Where a line's O-word may begin: behind a slash and a line number.
 std::size_t control_start(std::string_view text) {
@@ -312,126 +311,6 @@ Flow::OpenBlock* Flow::innermost(const std::string& label) {
     if (blocks_[i - 1].label == label) return &blocks_[i - 1];
   }
   return nullptr;
-}
-
-Result<void> Flow::begin_loop(const CleanLine& line, const ControlLine& control) {
-  if (blocks_.size() >= kDeepestBlock)
-    return refuse(
-        ProblemName::bad_flow, line.place(0), "loops and conditions are nested too deeply");
-  OpenBlock block{control.label, control.keyword, line_start_, 0, line.number};
-  if (control.keyword == Keyword::do_) {
-    if (control.rest < line.text.size())
-      return refuse(ProblemName::bad_flow, line.place(control.rest), "nothing may follow do");
-    block.start = source_.position();
-    blocks_.push_back(std::move(block));
-    return {};
-  }
-  const auto count = value(line, control.rest);
-  if (!count) return tl::unexpected(count.error());
-  if (control.keyword == Keyword::repeat) {
-    block.start = source_.position();
-    block.remaining = static_cast<long>(std::clamp(std::round(*count), -1.0, 1e15));
-    if (block.remaining <= 0) {
-      const auto end = skip_to(control.label, {Keyword::endrepeat}, line.place(0));
-      if (!end) return tl::unexpected(end.error());
-      return {};
-    }
-    blocks_.push_back(std::move(block));
-    return {};
-  }
-  OpenBlock* open = innermost(control.label);
-  if (open != nullptr && open->kind == Keyword::do_) {  // do ... while
-    const LineSource::Position start = open->start;
-    blocks_.resize(static_cast<std::size_t>(open - blocks_.data()) + (*count != 0.0 ? 1U : 0U));
-    if (*count == 0.0) return {};
-    CHAINTRUE_GCODE_TRY(interpreter_.step(line.place(0)));
-    source_.seek(start);
-    return {};
-  }
-  if (*count == 0.0) {
-    const auto end = skip_to(control.label, {Keyword::endwhile}, line.place(0));
-    if (!end) return tl::unexpected(end.error());
-    return {};
-  }
-  blocks_.push_back(std::move(block));
-  return {};
-}
-
-Result<void> Flow::end_loop(const CleanLine& line, const ControlLine& control) {
-  const Keyword kind = control.keyword == Keyword::endwhile ? Keyword::while_ : Keyword::repeat;
-  OpenBlock* open = innermost(control.label);
-  if (open == nullptr || open->kind != kind) {
-    return refuse(ProblemName::bad_flow,
-                  line.place(0),
-                  fmt::format("o{} ends a loop that does not begin here", control.label));
-  }
-  CHAINTRUE_GCODE_TRY(interpreter_.step(line.place(0)));
-  const LineSource::Position start = open->start;
-  const auto index = static_cast<std::size_t>(open - blocks_.data());
-  if (kind == Keyword::repeat && --open->remaining <= 0) {
-    blocks_.resize(index);
-    return {};
-  }
-  // `while` is read again, and opens its block again where its condition holds.
-  blocks_.resize(kind == Keyword::repeat ? index + 1 : index);
-  source_.seek(start);
-  return {};
-}
-
-Result<void> Flow::condition(const CleanLine& line, const ControlLine& control) {
-  OpenBlock* open = innermost(control.label);
-  const bool begins = control.keyword == Keyword::if_;
-  if (!begins && (open == nullptr || open->kind != Keyword::if_)) {
-    return refuse(ProblemName::bad_flow,
-                  line.place(0),
-                  fmt::format("o{} continues a condition that does not begin here", control.label));
-  }
-  if (!begins) {  // the branch that was taken is over
-    blocks_.resize(static_cast<std::size_t>(open - blocks_.data()));
-    if (control.keyword == Keyword::endif) return {};
-    const auto end = skip_to(control.label, {Keyword::endif}, line.place(0));
-    if (!end) return tl::unexpected(end.error());
-    return {};
-  }
-  if (blocks_.size() >= kDeepestBlock)
-    return refuse(
-        ProblemName::bad_flow, line.place(0), "loops and conditions are nested too deeply");
-  auto holds = value(line, control.rest);
-  while (holds && *holds == 0.0) {
-    const auto branch =
-        skip_to(control.label, {Keyword::elseif, Keyword::else_, Keyword::endif}, line.place(0));
-    if (!branch) return tl::unexpected(branch.error());
-    if (branch->control.keyword == Keyword::endif) return {};
-    if (branch->control.keyword == Keyword::else_) break;
-    holds = value(found_line_, branch->control.rest);
-  }
-  if (!holds) return tl::unexpected(holds.error());
-  blocks_.push_back({control.label, Keyword::if_, {}, 0, line.number});
-  return {};
-}
-
-Result<void> Flow::jump_out(const CleanLine& line, const ControlLine& control) {
-  OpenBlock* open = innermost(control.label);
-  if (open == nullptr || open->kind == Keyword::if_) {
-    return refuse(ProblemName::bad_flow,
-                  line.place(0),
-                  fmt::format("o{} is no loop that could be left here", control.label));
-  }
-  const OpenBlock loop = *open;
-  const auto index = static_cast<std::size_t>(open - blocks_.data());
-  const Keyword end = loop.kind == Keyword::repeat ? Keyword::endrepeat
-                      : loop.kind == Keyword::do_  ? Keyword::while_
-                                                   : Keyword::endwhile;
-  const auto found = skip_to(control.label, {end}, line.place(0));
-  if (!found) return tl::unexpected(found.error());
-  if (control.keyword == Keyword::break_) {
-    blocks_.resize(index);
-    return {};
-  }
-  // continue: the line that ends the loop decides.
-  blocks_.resize(index + 1);
-  source_.seek(found->before);
-  return {};
 }
 
 Result<void> Flow::finish(Place place) const {

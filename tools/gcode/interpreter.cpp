@@ -7,75 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 namespace chaintrue::gcode {
 namespace {
 
-char upper(char letter) { return static_cast<char>(letter - 'a' + 'A'); }
-
-bool is_cycle(int motion) { return motion == 730 || (motion >= 810 && motion <= 890); }
-bool is_arc(int motion) { return motion == 20 || motion == 30; }
 bool has_motion_digits(int motion) { return motion >= 382 && motion <= 385; }
-
-bool one_of(int value, std::initializer_list<int> list) {
-  return std::find(list.begin(), list.end(), value) != list.end();
-}
-
-int tenths(const GCode* code) { return code == nullptr ? -1 : code->tenths; }
-int number(const MCode* code) { return code == nullptr ? -1 : code->number; }
-
-/// Whether a word has something in its block that uses it.
-struct WordUse {
-  char letter;
-  bool (*used)(const Block&, int motion);
-  const char* users;
-};
-
-constexpr WordUse kWordUses[] = {
-    {'d',
-     [](const Block& b, int) {
-       return one_of(tenths(b.code(GGroup::cutter)), {410, 420});
-     },
-     "G41 or G42"},
-    {'e',
-     [](const Block& b, int) {
-       return one_of(number(b.code(MGroup::output)), {67, 68});
-     },
-     "M67 or M68"},
-    {'h', [](const Block& b, int) { return b.is(GGroup::tool_length, 430); }, "G43"},
-    {'i', [](const Block&, int m) { return is_arc(m) || m == 870; }, "G2, G3 or G87"},
-    {'j', [](const Block&, int m) { return is_arc(m) || m == 870; }, "G2, G3 or G87"},
-    {'k', [](const Block&, int m) { return is_arc(m) || m == 870; }, "G2, G3 or G87"},
-    {'l',
-     [](const Block& b, int m) {
-       return is_cycle(m) || b.is(GGroup::once, 100) || number(b.code(MGroup::flow)) == 98;
-     },
-     "G10, M98 or a canned cycle"},
-    {'p',
-     [](const Block& b, int m) {
-       return is_arc(m) || one_of(m, {820, 840, 860, 880, 890}) ||
-              one_of(tenths(b.code(GGroup::once)), {40, 100}) || b.is(GGroup::path_control, 640) ||
-              b.code(MGroup::output) != nullptr ||
-              one_of(number(b.code(MGroup::override)), {50, 51, 52, 53}) ||
-              number(b.code(MGroup::flow)) == 98;
-     },
-     "G2, G3, G4, G10, G64, G82, G84, G86, G88, G89, M50-M53, M62-M68 or M98"},
-    {'q',
-     [](const Block& b, int m) {
-       return one_of(m, {730, 830}) || b.is(GGroup::path_control, 640) ||
-              number(b.code(MGroup::tool)) == 61 ||
-              one_of(number(b.code(MGroup::output)), {67, 68});
-     },
-     "G64, G73, G83, M61, M67 or M68"},
-    {'r',
-     [](const Block& b, int m) { return is_arc(m) || is_cycle(m) || b.is(GGroup::once, 100); },
-     "G2, G3, G10 or a canned cycle"},
-};
-
-std::string with_value(std::string_view word, double value) {
-  return fmt::format("{}{}", word, value == 0.0 ? 0.0 : value);
-}
 
 }  // namespace
 
@@ -117,6 +53,14 @@ void Interpreter::note_once(NoteOnce which, std::size_t line) {
 
 Result<AfterBlock> Interpreter::execute(const Block& block, const std::vector<CommentText>& texts) {
   if (block.deletable) note_once(NoteOnce::deletable_line, block.line);
+  if (sink_.wants_codes()) {
+    for (const GCode* code : block.g) {
+      if (code != nullptr) sink_.code(block.line, 'G', code->tenths);
+    }
+    for (const MCode* code : block.m) {
+      if (code != nullptr) sink_.code(block.line, 'M', 10 * code->number);
+    }
+  }
   const auto motion = motion_to_be(block);
   if (!motion) return tl::unexpected(motion.error());
   CHAINTRUE_GCODE_TRY(check_assignments(block));
@@ -160,50 +104,6 @@ Result<int> Interpreter::motion_to_be(const Block& block) const {
                   "could use them");
   }
   return modes_.motion;
-}
-
-Result<void> Interpreter::check_words(const Block& block, int motion) const {
-  for (const char letter : {'u', 'v', 'w'}) {
-    if (block.has(letter)) {
-      return refuse(ProblemName::unsupported_axis,
-                    block.place(letter),
-                    fmt::format("the axis {} is not supported", upper(letter)));
-    }
-  }
-  for (const WordUse& use : kWordUses) {
-    if (!block.has(use.letter) || use.used(block, motion)) continue;
-    if (use.letter == 'e') {
-      return refuse(ProblemName::unsupported_axis,
-                    block.place('e'),
-                    "an E word (the extruder of a 3D printer) has no meaning on a router");
-    }
-    return refuse(ProblemName::unused_word,
-                  block.place(use.letter),
-                  fmt::format("nothing on the line uses the {} word; it belongs to {}",
-                              upper(use.letter),
-                              use.users));
-  }
-  if (block.is(GGroup::once, 530)) {
-    if (motion != 0 && motion != 10) {
-      return refuse(
-          ProblemName::bad_word_value, block.start(), "G53 needs G0 or G1 and axis words");
-    }
-    const bool incremental =
-        block.code(GGroup::distance) ? block.is(GGroup::distance, 910) : modes_.incremental;
-    if (incremental)
-      return refuse(ProblemName::modal_conflict, block.start(), "G53 cannot be used in G91");
-  }
-  for (const char letter : {'s', 't', 'f'}) {
-    if (block.has(letter) && block.value(letter) < 0.0) {
-      return refuse(ProblemName::bad_word_value,
-                    block.place(letter),
-                    fmt::format("{} is negative", upper(letter)));
-    }
-  }
-  if (block.has('t') && std::round(block.value('t')) != block.value('t')) {
-    return refuse(ProblemName::bad_word_value, block.place('t'), "a tool has a whole number");
-  }
-  return {};
 }
 
 Result<void> Interpreter::check_assignments(const Block& block) const {
@@ -318,74 +218,6 @@ Result<void> Interpreter::set_feed(const Block& block, int motion) {
   return {};
 }
 
-Result<void> Interpreter::pass(const Block& block, std::string text) {
-  return sink_.word({block.line, std::move(text)});
-}
-
-Result<void> Interpreter::output_word(const Block& block) {
-  const MCode* output = block.code(MGroup::output);
-  if (output == nullptr) return {};
-  std::string text = fmt::format("M{}", output->number);
-  const bool analog = output->number >= 67;
-  for (const char letter : analog ? std::string_view("eq") : std::string_view("p")) {
-    if (!block.has(letter)) {
-      return refuse(ProblemName::missing_word,
-                    block.start(),
-                    fmt::format("{} needs {}", text, upper(letter)));
-    }
-    text += with_value(fmt::format(" {}", upper(letter)), block.value(letter));
-  }
-  return pass(block, std::move(text));
-}
-
-Result<void> Interpreter::pass_words(const Block& block) {
-  if (block.has('s')) {
-    modes_.spindle_rpm = block.value('s');
-    CHAINTRUE_GCODE_TRY(pass(block, with_value("S", block.value('s'))));
-  }
-  if (block.has('t')) {
-    modes_.selected_tool = static_cast<long>(block.value('t'));
-    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("T{}", modes_.selected_tool)));
-  }
-  CHAINTRUE_GCODE_TRY(output_word(block));
-  if (const MCode* tool = block.code(MGroup::tool)) {
-    std::string text = fmt::format("M{}", tool->number);
-    if (tool->number == 61) {
-      if (!block.has('q') || block.value('q') < 0.0) {
-        return refuse(ProblemName::missing_word, block.start(), "M61 needs the tool's number as Q");
-      }
-      text += with_value(" Q", block.value('q'));
-      modes_.tool = static_cast<long>(block.value('q'));
-    } else {
-      modes_.tool = modes_.selected_tool;
-    }
-    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
-  }
-  if (const MCode* spindle = block.code(MGroup::spindle)) {
-    modes_.spindle = spindle->number == 5 ? 0 : spindle->number;
-    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("M{}", spindle->number)));
-  }
-  if (const MCode* coolant = block.code(MGroup::coolant)) {
-    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("M{}", coolant->number)));
-  }
-  if (const MCode* override_code = block.code(MGroup::override)) {
-    std::string text = fmt::format("M{}", override_code->number);
-    if (block.has('p') && override_code->number >= 50) text += with_value(" P", block.value('p'));
-    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
-  }
-  return {};
-}
-
-Result<void> Interpreter::dwell(const Block& block) {
-  if (!block.is(GGroup::once, 40)) return {};
-  if (!block.has('p') || block.value('p') < 0.0) {
-    return refuse(
-        ProblemName::missing_word, block.start(), "G4 needs its time as P, not below zero");
-  }
-  note_once(NoteOnce::dwell_unit, block.line);
-  return pass(block, with_value("G4 P", block.value('p')));
-}
-
 void Interpreter::set_modes(const Block& block) {
   if (const GCode* plane = block.code(GGroup::plane)) modes_.plane = plane->tenths;
   if (const GCode* units = block.code(GGroup::units)) modes_.inches = units->tenths == 200;
@@ -403,36 +235,6 @@ void Interpreter::set_modes(const Block& block) {
     modes_.retract_to_r = retract->tenths == 990;
 }
 
-Result<void> Interpreter::tool_length(const Block& block) {
-  if (const GCode* cutter = block.code(GGroup::cutter)) {
-    // G41 and G42 come this far only where tools have no diameter.
-    if (cutter->tenths == 400) CHAINTRUE_GCODE_TRY(pass(block, "G40"));
-  }
-  if (const GCode* code = block.code(GGroup::tool_length)) {
-    std::string text = g_name(code->tenths);
-    if (block.has('h')) text += with_value(" H", block.value('h'));
-    if (code->tenths == 431) {
-      if (block.has('x') || block.has('y') || block.has('a') || block.has('b') || block.has('c')) {
-        return refuse(ProblemName::unsupported_code,
-                      block.start(),
-                      "a tool offset (G43.1) in any axis but Z moves the path");
-      }
-      if (block.has('z')) text += with_value(" Z", length(block, 'z'));
-    }
-    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
-  }
-  if (const GCode* control = block.code(GGroup::path_control)) {
-    modes_.path_control = control->tenths;
-    std::string text = g_name(control->tenths);
-    if (control->tenths == 640 && block.has('p') && !is_arc(modes_.motion)) {
-      text += with_value(" P", length(block, 'p'));
-      if (block.has('q')) text += with_value(" Q", length(block, 'q'));
-    }
-    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
-  }
-  return {};
-}
-
 Result<AfterBlock> Interpreter::after(const Block& block) const {
   AfterBlock result;
   if (const MCode* flow = block.code(MGroup::flow)) {
@@ -440,15 +242,13 @@ Result<AfterBlock> Interpreter::after(const Block& block) const {
       result.flow = AfterBlock::Flow::leave_program;
       return result;
     }
-    const double program = block.find('p').value_or(-1.0);
-    const double repeats = block.find('l').value_or(1.0);
-    if (program < 0.0 || std::round(program) != program || repeats < 0.0) {
+    if (!block.has('p')) {
       return refuse(
           ProblemName::missing_word, block.start(), "M98 needs the number of a program as P");
     }
     result.flow = AfterBlock::Flow::call_program;
-    result.program = static_cast<long>(program);
-    result.repeats = static_cast<long>(repeats);
+    result.program = std::lround(block.value('p'));
+    result.repeats = std::lround(block.find('l').value_or(1.0));
     return result;
   }
   const MCode* stop = block.code(MGroup::stop);

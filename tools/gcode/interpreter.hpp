@@ -104,19 +104,21 @@ class Interpreter {
   // interpreter.cpp: the order of execution.
   Result<void> comments(const Block& block, const std::vector<CommentText>& texts);
   Result<int> motion_to_be(const Block& block) const;
-  Result<void> check_words(const Block& block, int motion) const;
   Result<void> set_feed(const Block& block, int motion);
-  Result<void> pass_words(const Block& block);
-  Result<void> output_word(const Block& block);
-  Result<void> dwell(const Block& block);
   void set_modes(const Block& block);
-  Result<void> tool_length(const Block& block);
-  Result<void> pass(const Block& block, std::string text);
   Result<AfterBlock> after(const Block& block) const;
   void assign(const Block& block);
   void note_once(NoteOnce which, std::size_t line);
   [[nodiscard]] Result<void> check_assignments(const Block& block) const;
   [[nodiscard]] std::string written_out(std::string_view text) const;
+
+  // interpreter_words.cpp: what the words of a block belong to, and those that pass through.
+  Result<void> check_words(const Block& block, int motion) const;
+  Result<void> pass_words(const Block& block);
+  Result<void> output_word(const Block& block);
+  Result<void> dwell(const Block& block);
+  Result<void> tool_length(const Block& block);
+  Result<void> pass(const Block& block, std::string text);
 
   // interpreter_offsets.cpp: coordinate systems, G10, G28, G30, G52, G92.
   void select_system(int system);

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "tools/gcode/interpreter.hpp"
+#include "tools/gcode/word_text.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -71,7 +72,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
                   "after probing only the machine knows where a cycle starts");
   }
   const bool again = modes_.motion == motion;
-  const bool within = (modes_.motion == 730 || (modes_.motion >= 810 && modes_.motion <= 890)) &&
+  const bool within = is_cycle(modes_.motion) &&
                       sticky_.plane == modes_.plane;
   // G98 goes back to where the row of cycles in this plane began.
   if (!within) sticky_.start = cycle.program[cycle.normal];
@@ -172,7 +173,7 @@ Result<void> Interpreter::drill(const Block& block,
                                 double first,
                                 double second) {
   CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, {first, second, cycle.bottom}));
-  if (cycle.motion == 820) CHAINTRUE_GCODE_TRY(pass(block, fmt::format("G4 P{}", cycle.dwell_s)));
+  if (cycle.motion == 820) CHAINTRUE_GCODE_TRY(pass(block, with_value("G4 P", cycle.dwell_s)));
   return cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.clear});
 }
 
@@ -211,7 +212,7 @@ Result<void> Interpreter::tap_or_bore(const Block& block,
                   "the cycle stops the spindle, but it is not turning");
   }
   const std::string start = fmt::format("M{}", modes_.spindle);
-  const std::string dwell = fmt::format("G4 P{}", cycle.dwell_s);
+  const std::string dwell = with_value("G4 P", cycle.dwell_s);
   CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, {first, second, cycle.bottom}));
   if (motion == 840) {
     for (const char* word : {"M5", "M4"}) CHAINTRUE_GCODE_TRY(pass(block, word));

@@ -36,7 +36,9 @@ void name_axes(const Block& block, Move& move) {
   const bool changes_xy = move.to.x_mm != move.from.x_mm || move.to.y_mm != move.from.y_mm;
   move.names_xy = changes_xy || move.arc || block.has('x') || block.has('y') || block.has('@') ||
                   block.has('^');
-  move.names_z = move.to.z_mm != move.from.z_mm || block.has('z');
+  // An arc of G18 or G19 leaves its height even where it comes back to it.
+  const bool upright = move.arc && (move.arc->first.z_mm != 0.0 || move.arc->second.z_mm != 0.0);
+  move.names_z = move.to.z_mm != move.from.z_mm || block.has('z') || upright;
 }
 
 }  // namespace
@@ -176,6 +178,11 @@ Result<void> Interpreter::arc(const Block& block, bool clockwise) {
   }
   if (block.is(GGroup::once, 530)) {
     return refuse(ProblemName::bad_word_value, block.start(), "G53 needs G0 or G1");
+  }
+  if (z_unknown_ && modes_.plane != 170) {
+    return refuse(ProblemName::unsupported_code,
+                  block.start(),
+                  "after probing only the machine knows where an upright arc (G18, G19) starts");
   }
   const auto machine = target(block);
   if (!machine) return tl::unexpected(machine.error());

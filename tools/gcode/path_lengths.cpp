@@ -7,10 +7,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace chaintrue::gcode {
 namespace {
+
+/// A circle smaller than the step still shows its shape.
+constexpr double kRowsPerTurn = 8.0;
 
 class Sampler final : public Sink {
  public:
@@ -23,7 +27,9 @@ class Sampler final : public Sink {
 
   Result<void> move(const Move& move) override {
     const double length = length_mm(move);
-    const double pieces = std::max(1.0, std::ceil(length / every_mm_));
+    const double turns = move.arc ? std::fabs(move.arc->sweep_rad) / (2.0 * std::numbers::pi) : 0.0;
+    const double pieces =
+        std::max({1.0, std::ceil(length / every_mm_), std::ceil(kRowsPerTurn * turns - 1e-9)});
     const double feed = move.kind == MoveKind::rapid               ? 0.0
                         : move.feed.mode == FeedMode::inverse_time ? length * move.feed.value
                                                                    : move.feed.value;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Chain lengths along a program's path: through the end of every move, and between, no further
-/// apart than asked.
+/// apart than asked; at least eight a turn.
 #pragma once
 
 #include <functional>

@@ -18,54 +18,69 @@ constexpr double kAim = 0.93;
 constexpr int kMostTrials = 12;
 /// Chords are checked at least this densely: measured residual surfaces have no shorter waves.
 constexpr double kCheckEvery_mm = 30.0;
-constexpr int kFewestChecks = 5;
+constexpr int kFewestChecks = 6;
+/// Rounding changes a command's length by less, at two decimals and more.
+constexpr double kRounding_mm = 0.02;
+/// Half a unit of single precision below 2048 mm, in X and Y.
+constexpr double kPieceRounding_mm = 0.5 * 1.2207e-4 * 1.4143;
 /// Below this a chord is not cut further: output has three decimals.
 constexpr double kShortest_mm = 0.002;
 
 }  // namespace
 
 tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& curve,
-                                                                const Station& a,
-                                                                const Station& b,
+                                                                const PathSample& a,
+                                                                const PathSample& b,
                                                                 double length_mm) const {
-  const int checks = std::max(
-      kFewestChecks, static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEvery_mm))));
+  int checks = std::max(kFewestChecks,
+                        static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEvery_mm))));
+  CommandWay way(corrector_.firmware(),
+                 corrector_.kinematics(),
+                 {a.command.x_mm, a.command.y_mm},
+                 {b.command.x_mm, b.command.y_mm},
+                 kRounding_mm);
   const bool own_way = corrector_.firmware().chain_linear_piece_mm > 0.0;
+  // Each of the controller's pieces bows: the worst is in the middle of one, or where two meet.
+  if (own_way) checks = 2 * way.pieces() * ((checks + 2 * way.pieces() - 1) / (2 * way.pieces()));
   double worst = 0.0;
-  for (int i = 0; i < checks; ++i) {
-    // Unequal spacing, so that no wave of the surface falls between all checks.
-    const double share = (i + 0.5 + 0.118 * (i % 3 - 1)) / checks;
-    const auto station = curve(a.t + share * (b.t - a.t));
-    if (!station) return tl::unexpected(station.error());
-    const double u = nearest_on_line(a.command, b.command, station->command);
+  double behind = 0.0;
+  for (int i = own_way ? 1 : 0; i < checks; ++i) {
+    // Unequal spacing elsewhere, so that no wave of the surface falls between all checks.
+    const double share = (i + (own_way ? 0.0 : 0.5 + 0.118 * (i % 3 - 1))) / checks;
+    const auto sample = curve(a.t + share * (b.t - a.t));
+    if (!sample) return tl::unexpected(sample.error());
+    // The tool does not go back along its chord: where the curve does, that counts.
+    const double u = std::max(behind, nearest_on_line(a.command, b.command, sample->command));
+    behind = u;
     Point on_way = between(a.command, b.command, u);
     if (own_way) {
-      const auto place = on_the_way(corrector_.firmware(),
-                                    corrector_.kinematics(),
-                                    {a.command.x_mm, a.command.y_mm},
-                                    {b.command.x_mm, b.command.y_mm},
-                                    u);
+      const auto place = way.at(u);
       if (!place) return tl::unexpected(CorrectionFailure::controller);
       on_way.x_mm = place->x_mm;
       on_way.y_mm = place->y_mm;
     }
-    worst = std::max(worst, distance_mm(station->command, on_way));
+    worst = std::max(worst, distance_mm(sample->command, on_way));
   }
-  return worst;
+  // FluidNC adds its pieces up in single precision.
+  return own_way ? worst + way.pieces() * kPieceRounding_mm : worst;
 }
 
 tl::expected<void, CorrectionFailure> Segmenter::run(
     const Curve& curve,
-    const Station& start,
+    const PathSample& start,
     double end,
-    double length_mm,
-    const std::function<void(const Station&)>& visit) {
+    Extent extent,
+    const std::function<void(const PathSample&)>& visit) {
+  const double length_mm = extent.length_mm;
   const double per_mm = length_mm > 0.0 ? (end - start.t) / length_mm : 0.0;
-  Station a = start;
+  PathSample a = start;
   while (a.t < end) {
-    double reach = per_mm > 0.0 ? std::min(end, a.t + last_step_mm_ * per_mm) : end;
-    // What remains behind a station is not worth one of its own.
-    Station best;
+    // The furthest that this command may go.
+    const double furthest =
+        per_mm > 0.0 ? std::min(end, a.t + extent.longest_mm * per_mm * (1.0 + 1e-9)) : end;
+    double reach = per_mm > 0.0 ? std::min(furthest, a.t + last_step_mm_ * per_mm) : end;
+    // What remains behind a sample is not worth one of its own.
+    PathSample best;
     double best_share = 0.0;
     for (int trial = 0; trial < kMostTrials; ++trial) {
       const auto b = curve(reach);
@@ -78,9 +93,9 @@ tl::expected<void, CorrectionFailure> Segmenter::run(
       if (share <= 1.0 || step_mm <= kShortest_mm) {
         best = *b;
         best_share = share;
-        if (reach >= end || share >= kGoodEnough || step_mm <= kShortest_mm) break;
+        if (reach >= furthest || share >= kGoodEnough || step_mm <= kShortest_mm) break;
         if (trial + 4 >= kMostTrials) break;
-        reach = std::min(end, a.t + (reach - a.t) * std::min(factor, 4.0));
+        reach = std::min(furthest, a.t + (reach - a.t) * std::min(factor, 4.0));
       } else {
         const double shrunk = a.t + (reach - a.t) * std::clamp(factor, 0.2, 0.97);
         if (best.t > a.t && shrunk <= best.t) break;

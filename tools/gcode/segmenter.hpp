@@ -3,8 +3,8 @@
 /// Cuts a curve of commanded points into the longest straight commands that stay within a
 /// tolerance.
 ///
-/// From each station the next is set as far on as the tolerance allows (to within 8 %), so that no
-/// other choice of stations on the curve needs markedly fewer. The deviation is measured at
+/// From each sample the next is set as far on as the tolerance allows (to within 8 %), so that no
+/// other choice of samples on the curve needs markedly fewer. The deviation is measured at
 /// interior points of the exact curve, against the way that the controller itself takes between the
 /// two commands, in space and without regard to time.
 #pragma once
@@ -17,14 +17,14 @@
 namespace chaintrue::gcode {
 
 /// A point of the path and what is commanded for it; both have the same height.
-struct Station {
+struct PathSample {
   double t = 0.0;
   Point target;
   Point command;
 };
 
 /// The curve: target and command at t.
-using Curve = std::function<tl::expected<Station, CorrectionFailure>(double t)>;
+using Curve = std::function<tl::expected<PathSample, CorrectionFailure>(double t)>;
 
 class Segmenter {
  public:
@@ -33,20 +33,25 @@ class Segmenter {
   Segmenter(const Corrector& corrector, double tolerance_mm)
       : corrector_(corrector), tolerance_mm_(tolerance_mm) {}
 
-  /// Visits the stations behind `start` up to t = `end`, in order.
-  /// \param length_mm of the curve from start to end; only a first guess and the density of checks
-  /// depend on it.
+  struct Extent {
+    double length_mm = 0.0;
+    double longest_mm = 0.0;
+  };
+
+  /// Visits the samples behind `start` up to t = `end`, in order.
+  /// \param extent the curve's length from start to end, which only a first guess and the density
+  /// of checks depend on, and how much of it one command may cover.
   [[nodiscard]] tl::expected<void, CorrectionFailure> run(
       const Curve& curve,
-      const Station& start,
+      const PathSample& start,
       double end,
-      double length_mm,
-      const std::function<void(const Station&)>& visit);
+      Extent extent,
+      const std::function<void(const PathSample&)>& visit);
 
-  /// The largest distance from the curve between two stations to the way between their commands.
+  /// The largest distance from the curve between two samples to the way between their commands.
   [[nodiscard]] tl::expected<double, CorrectionFailure> deviation_mm(const Curve& curve,
-                                                                     const Station& a,
-                                                                     const Station& b,
+                                                                     const PathSample& a,
+                                                                     const PathSample& b,
                                                                      double length_mm) const;
 
  private:

@@ -1,106 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Two programs side by side: one says where the tool shall be, the other where it is.
+/// Two programs side by side: one says where the tool shall be, the other where it is. Words divide
+/// both into sections; within a section the tool's track is matched with the path.
 #include "tools/gcode/verifier.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <numbers>
 
 #include "tools/gcode/path.hpp"
+#include "tools/gcode/path_matcher.hpp"
+#include "tools/gcode/program_stream.hpp"
+#include "tools/gcode/simulated_machine.hpp"
 
 namespace chaintrue::gcode {
 namespace {
 
-/// Places between two commands that are compared: this far apart, at most so many.
-constexpr double kEvery_mm = 6.0;
-constexpr int kMostPlaces = 64;
+/// Shares of the tolerance that the simulation's own errors take; what is left is for the file.
+constexpr double kArcShare = 0.01;       // arcs of the path become chords
+constexpr double kFlatnessShare = 0.01;  // so does the tool's track
+constexpr double kFieldShare = 0.005;    // interpolating the map backwards
+constexpr double kLeft = 1.0 - kArcShare - kFlatnessShare - kFieldShare;
+constexpr int kFewestChordsPerTurn = 16;
+/// Shorter commands are rounded too coarsely to tell their stretch.
+constexpr double kLeastStretched_mm = 2.0;
 
-Move shifted(Move move, model::BedPoint home) {
-  for (Point* point : {&move.from, &move.to}) {
-    point->x_mm += home.x_mm;
-    point->y_mm += home.y_mm;
-  }
-  if (move.arc) {
-    move.arc->centre.x_mm += home.x_mm;
-    move.arc->centre.y_mm += home.y_mm;
-  }
-  return move;
+bool same_xy(Point a, Point b) { return a.x_mm == b.x_mm && a.y_mm == b.y_mm; }
+
+/// Where a program begins: with a place in X and Y, or with a cut where it stands.
+bool begins(const Move& move) {
+  return move.names_xy || (move.kind != MoveKind::rapid && move.to.z_mm < move.from.z_mm);
 }
 
-/// A program's events, pulled instead of pushed.
-class Stream final : private Sink {
- public:
-  Stream(LineSource& source, const Dialect& dialect, model::BedPoint home)
-      : program_(source, dialect, *this), home_(home) {}
+double speed(const Move& move) {
+  return move.feed.mode == FeedMode::inverse_time ? length_mm(move) * move.feed.value
+                                                  : move.feed.value;
+}
 
-  /// The move behind `ahead` others, or null at the end.
-  Result<const Move*> peek(std::size_t ahead) {
-    while (moves_.size() <= ahead && !ended_) {
-      const auto more = program_.step();
-      if (!more) return tl::unexpected(more.error());
-      ended_ = !*more;
-    }
-    return ahead < moves_.size() ? &moves_[ahead] : nullptr;
-  }
-  void pop() { moves_.pop_front(); }
+/// Before X and Y are known only heights are compared.
+Point height_of(Point point) { return {0.0, 0.0, point.z_mm}; }
 
-  /// Passed words since the last call, in order.
-  std::deque<std::string>& words() { return words_; }
+std::string words(Point point) {
+  return fmt::format("X{:.3f} Y{:.3f} Z{:.3f}", point.x_mm, point.y_mm, point.z_mm);
+}
 
- private:
-  Result<void> move(const Move& move) override {
-    moves_.push_back(shifted(move, home_));
-    return {};
-  }
-  Result<void> word(const PassedWord& word) override {
-    words_.push_back(word.text == "G61.1" ? "G61" : word.text);
-    return {};
-  }
-
-  Program program_;
-  model::BedPoint home_;
-  std::deque<Move> moves_;
-  std::deque<std::string> words_;
-  bool ended_ = false;
-};
-
-/// The parameter in [from, to] of the point of a move that is nearest to p.
-double nearest(const Move& move, Point p, double from, double to) {
-  if (!move.arc) {
-    return std::clamp(nearest_on_line(move.from, move.to, p), from, to);
-  }
-  // Coarse, then golden section: distance to an arc has one minimum between neighbouring samples
-  // this dense.
-  const int samples =
-      std::max(16, static_cast<int>(std::ceil(std::fabs(move.arc->sweep_rad) / 0.2)));
-  double best = from;
-  double least = distance_mm(at(move, from), p);
-  for (int i = 1; i <= samples; ++i) {
-    const double t = from + (to - from) * i / samples;
-    const double distance = distance_mm(at(move, t), p);
-    if (distance < least) {
-      least = distance;
-      best = t;
-    }
-  }
-  double low = std::max(from, best - (to - from) / samples);
-  double high = std::min(to, best + (to - from) / samples);
-  const double golden = 1.0 / std::numbers::phi;
-  while (high - low > 1e-10) {
-    const double a = high - golden * (high - low);
-    const double b = low + golden * (high - low);
-    if (distance_mm(at(move, a), p) < distance_mm(at(move, b), p)) {
-      high = b;
-    } else {
-      low = a;
-    }
-  }
-  const double refined = 0.5 * (low + high);
-  return distance_mm(at(move, refined), p) < least ? refined : best;
+std::string words(const PathPiece& piece) {
+  return piece.rapid ? std::string("a rapid") : fmt::format("F{:.6g}", piece.speed_mm_per_min);
 }
 
 class Verification {
@@ -112,259 +58,288 @@ class Verification {
                const VerifyOptions& options)
       : intended_(original, dialect, options.home),
         run_(run, dialect, options.run_home),
-        corrector_(corrector),
-        options_(options) {}
+        options_(options),
+        machine_(corrector,
+                 {options.half_play_mm,
+                  kFlatnessShare * options.tolerance_mm,
+                  kFieldShare * options.tolerance_mm,
+                  options.rapids_whole}),
+        matcher_({kLeft * options.tolerance_mm,
+                  options.speed_share,
+                  least_run_mm(options),
+                  PathMatcher::Limits{}.most_open},
+                 [this](PathPiece& piece) { return next_piece(piece); }) {}
 
   tl::expected<VerifySummary, VerifyProblem> result() {
-    for (;;) {
-      const auto command = run_.peek(0);
-      if (!command) return tl::unexpected(VerifyProblem{false, command.error()});
-      compare_words();
-      if (*command == nullptr) break;
-      ++summary_.commands;
-      if (auto done = execute(**command); !done) return tl::unexpected(done.error());
+    static_cast<void>(matcher_.begin({}, {}, 0));
+    while (!problem_ && !stopped_) {
+      const auto event = run_.peek();
+      if (!event) return tl::unexpected(VerifyProblem{false, event.error()});
+      if ((*event)->kind == ProgramEvent::Kind::move) {
+        ++summary_.commands;
+        execute((*event)->move);
+      } else {
+        compare(**event);
+        if ((*event)->kind == ProgramEvent::Kind::end) break;
+      }
       run_.pop();
     }
-    if (auto done = finish(); !done) return tl::unexpected(done.error());
+    if (problem_) return tl::unexpected(*problem_);
+    take(summary_.feeds, matcher_.largest(false));
+    take(summary_.rapids, matcher_.largest(true));
+    summary_.tick_overshoot_mm = machine_.tick_overshoot_mm();
     return summary_;
   }
 
  private:
-  using Outcome = tl::expected<void, VerifyProblem>;
-
-  tl::unexpected<VerifyProblem> fail(bool in_original, Problem problem) {
-    return tl::unexpected(VerifyProblem{in_original, std::move(problem)});
+  static void take(Deviation& deviation, const PathMatcher::Pair& pair) {
+    deviation = {
+        pair.distance_mm, pair.intended, pair.tool, pair.intended_line, pair.tool_line};
   }
 
-  double as_read(double value_mm) const {
-    return corrector_.firmware().single_precision
-               ? static_cast<double>(static_cast<float>(value_mm))
-               : value_mm;
+  void fail(bool in_original, const Problem& problem) {
+    if (!problem_) problem_ = VerifyProblem{in_original, problem};
   }
-  Point as_read(Point point) const {
-    return {as_read(point.x_mm), as_read(point.y_mm), as_read(point.z_mm)};
-  }
-
-  /// Where the tool is when the controller believes to be at `command`.
-  tl::expected<Point, VerifyProblem> tool(Point command, std::size_t line) {
-    const model::BedPoint place{command.x_mm, command.y_mm};
-    tl::expected<model::BedPoint, CorrectionFailure> found =
-        tl::unexpected(CorrectionFailure::controller);
-    const bool play = options_.half_play_mm.left_mm != 0.0 || options_.half_play_mm.right_mm != 0.0;
-    if (!play) {
-      found = corrector_.tool(place);
-    } else if (const auto paid = corrector_.paid_out(place)) {
-      // Play: a chain follows only when the motor has crossed the gap.
-      const auto follow = [](std::optional<double>& chain, double motor, double half) {
-        chain = chain ? std::clamp(*chain, motor - half, motor + half) : motor - half;
-        return *chain;
-      };
-      const auto point =
-          corrector_.map().tool({follow(left_, paid->left_mm, options_.half_play_mm.left_mm),
-                                 follow(right_, paid->right_mm, options_.half_play_mm.right_mm)});
-      if (point) found = *point;
-    }
-    if (!found) {
-      return fail(false,
-                  Problem{ProblemName::outside_map,
-                          {line, 0},
-                          fmt::format("X{:.3f} Y{:.3f}: the tool's place {}",
-                                      command.x_mm,
-                                      command.y_mm,
-                                      explain(found.error()))});
-    }
-    return Point{found->x_mm, found->y_mm, command.z_mm};
+  /// The original's next event; null where it has a problem.
+  const ProgramEvent* expected() {
+    const auto event = intended_.peek();
+    if (!event) fail(true, event.error());
+    return event ? *event : nullptr;
   }
 
-  Outcome execute(const Move& command) {
-    if (!started_) {
-      if (!begins(command)) return {};
-      return start(command);
-    }
-    const Point from = as_read(command.from);
-    const Point to = as_read(command.to);
-    const double length = length_mm(command);
-    int places = static_cast<int>(
-        std::clamp(std::ceil(length / kEvery_mm), 2.0, static_cast<double>(kMostPlaces)));
-    if (command.arc) places = std::max(places, 48);
-    const bool rapid = command.kind == MoveKind::rapid;
-    const double step_mm = tick_way_mm(command);
-    if (step_mm > 0.0) {
-      const double steps = length / step_mm;
-      summary_.tick_overshoot_mm =
-          std::max(summary_.tick_overshoot_mm, (std::ceil(steps) - steps) * step_mm);
-    }
-    for (int i = 1; i <= places; ++i) {
-      double t = static_cast<double>(i) / places;
-      // The controller stands only at its ticks, and at the end.
-      if (step_mm > 0.0 && i < places)
-        t = std::min(1.0, std::round(t * length / step_mm) * step_mm / length);
-      if (options_.rapids_whole && rapid && i < places) continue;
-      const Point place = command.arc ? at(command, t) : between(from, to, t);
-      const auto on_way = command.arc ? std::optional(model::BedPoint{place.x_mm, place.y_mm})
-                                      : on_the_way(corrector_.firmware(),
-                                                   corrector_.kinematics(),
-                                                   {from.x_mm, from.y_mm},
-                                                   {to.x_mm, to.y_mm},
-                                                   t);
-      if (!on_way) {
-        return fail(false,
-                    Problem{ProblemName::outside_controller,
-                            {command.line, 0},
-                            "the controller's own kinematics fail here"});
-      }
-      const auto where =
-          tool({as_read(on_way->x_mm), as_read(on_way->y_mm), place.z_mm}, command.line);
-      if (!where) return tl::unexpected(where.error());
-      if (auto done = match(*where, command.line, options_.rapids_whole && rapid); !done)
-        return done;
-    }
-    return {};
-  }
-
-  double tick_way_mm(const Move& command) const {
-    if (corrector_.firmware().tick_s == 0.0 || command.kind == MoveKind::rapid) return 0.0;
-    const double length = length_mm(command);
-    const double feed = command.feed.mode == FeedMode::inverse_time ? length * command.feed.value
-                                                                    : command.feed.value;
-    return feed / 60.0 * corrector_.firmware().tick_s;
-  }
-
-  /// Where a program begins: with a place in X and Y, or with a cut where it stands.
-  static bool begins(const Move& move) {
-    return move.names_xy || (move.kind != MoveKind::rapid && move.to.z_mm < move.from.z_mm);
-  }
-
-  /// Both paths begin at the end of a rapid or at the start of a cut.
-  Outcome start(const Move& command) {
+  /// The next piece of the intended path within the section; arcs become chords.
+  bool next_piece(PathPiece& piece) {
     for (;;) {
-      const auto move = intended_.peek(0);
-      if (!move) return fail(true, move.error());
-      if (*move == nullptr) {
-        return fail(
-            true,
-            Problem{
-                ProblemName::bad_flow, {}, "the original has no path, but the other file does"});
+      if (chord_ < chords_) {
+        ++chord_;
+        piece = {at(arc_, static_cast<double>(chord_) / chords_), false, speed(arc_), arc_.line};
+        return true;
       }
-      if (begins(**move)) {
-        t_ = (*move)->kind == MoveKind::rapid ? 1.0 : 0.0;
-        break;
+      const ProgramEvent* event = expected();
+      if (event == nullptr || event->kind != ProgramEvent::Kind::move) return false;
+      const Move& move = event->move;
+      if (!started_) {
+        if (begins(move) && (move.kind != MoveKind::rapid || heights_done_)) return false;
+        heights_done_ = begins(move);
+        piece = {height_of(move.to), move.kind == MoveKind::rapid, speed(move), move.line};
+        if (!heights_done_) intended_.pop();
+        if (move.from.z_mm != move.to.z_mm) return true;
+        continue;
       }
+      if (move.arc) {
+        arc_ = move;
+        chord_ = 0;
+        chords_ = chords_of(*move.arc);
+        intended_.pop();
+        continue;
+      }
+      piece = {move.to, move.kind == MoveKind::rapid, speed(move), move.line};
+      const bool stays = move.from == move.to;
       intended_.pop();
+      if (!stays) return true;
+    }
+  }
+
+  [[nodiscard]] int chords_of(const Arc& arc) const {
+    const double radius = std::max(arc.start_radius_mm, arc.end_radius_mm);
+    const double bow = std::min(kArcShare * options_.tolerance_mm, radius);
+    const double turn = std::min(2.0 * std::acos(1.0 - bow / radius),
+                                 2.0 * 3.14159265358979323846 / kFewestChordsPerTurn);
+    return static_cast<int>(std::min(1e8, std::ceil(std::fabs(arc.sweep_rad) / turn)));
+  }
+
+  /// Both curves begin: at the end of a rapid, or at the start of a cut.
+  void start(const Move& command) {
+    if (command.kind == MoveKind::rapid && command.from.z_mm != command.to.z_mm) {
+      advance({height_of(command.to), true, 0.0, command.line});
+    }
+    if (stopped_ || problem_) return;
+    const PathMatcher::Outcome before = matcher_.finish();
+    const ProgramEvent* event = expected();
+    if (event == nullptr) return;
+    if (before != PathMatcher::Outcome::follows || event->kind != ProgramEvent::Kind::move) {
+      stray(before == PathMatcher::Outcome::follows
+                ? fmt::format("the run goes to a place on line {} where the original has {}",
+                              command.line,
+                              event->text.empty() ? "its end" : event->text)
+                : fmt::format("the heights before the first place differ (line {})", command.line));
+      stopped_ = true;
+      return;
     }
     started_ = true;
     const bool rapid = command.kind == MoveKind::rapid;
-    const auto where = tool(as_read(rapid ? command.to : command.from), command.line);
-    if (!where) return tl::unexpected(where.error());
-    last_ = *where;
-    if (auto done = match(*where, command.line, false); !done || rapid) return done;
-    return execute(command);
-  }
-
-  void record(const Move& move, Point intended, Point tool, std::size_t line) {
-    const double distance = distance_mm(intended, tool);
-    Deviation& worst = move.kind == MoveKind::rapid ? summary_.rapids : summary_.feeds;
-    if (distance > worst.largest_mm) worst = {distance, intended, tool, move.line, line};
-  }
-
-  /// Goes on along the intended path to the place nearest to the tool, not much further than the
-  /// tool went.
-  Outcome match(Point tool, std::size_t line, bool only_end) {
+    const bool intended_rapid = event->move.kind == MoveKind::rapid;
+    const Point intended = intended_rapid ? event->move.to : event->move.from;
+    if (intended_rapid) intended_.pop();
+    const auto where = machine_.place(rapid ? command.to : command.from, command.line);
+    if (!where) return fail(false, where.error());
     ++summary_.places;
-    const double way = distance_mm(last_, tool);
-    const double window = 1.2 * way + 4.0 * options_.tolerance_mm;
-    std::size_t best_move = 0;
-    double best_t = t_;
-    double least = -1.0;
-    double seen = 0.0;
-    for (std::size_t ahead = 0; seen <= window || ahead == 0; ++ahead) {
-      const auto move = intended_.peek(ahead);
-      if (!move) return fail(true, move.error());
-      if (*move == nullptr) break;
-      const double from = ahead == 0 ? t_ : 0.0;
-      const double length = length_mm(**move);
-      // No further than the window reaches within this move.
-      const double reach = length > 0.0 ? std::min(1.0, from + (window - seen) / length) : 1.0;
-      const double t = nearest(**move, tool, from, reach);
-      const double distance = distance_mm(at(**move, t), tool);
-      if (least < 0.0 || distance < least) {
-        least = distance;
-        best_move = ahead;
-        best_t = t;
-      }
-      seen += (1.0 - from) * length;
+    if (matcher_.begin(intended, *where, command.line) != PathMatcher::Outcome::follows) {
+      stray(place_fault());
     }
-    if (least < 0.0) {  // the original has ended
-      summary_.feeds.largest_mm = std::max(summary_.feeds.largest_mm, way);
-      last_ = tool;
-      return {};
-    }
-    // What was passed on the way must lie on the tool's way.
-    for (; best_move > 0; --best_move) {
-      const Move& passed = **intended_.peek(0);
-      if (!only_end)
-        record(
-            passed, passed.to, between(last_, tool, nearest_on_line(last_, tool, passed.to)), line);
-      intended_.pop();
-    }
-    const Move& move = **intended_.peek(0);
-    t_ = best_t;
-    record(move, at(move, t_), tool, line);
-    last_ = tool;
-    return {};
+    last_tool_ = *where;
+    last_command_ = rapid ? command.to : command.from;
+    if (!rapid) execute(command);
   }
 
-  /// What is left of the intended path was not run.
-  Outcome finish() {
-    double t = t_;
-    for (;;) {
-      const auto move = intended_.peek(0);
-      if (!move) return fail(true, move.error());
-      if (*move == nullptr) break;
-      // Moves before the first place in X and Y have nothing to be compared with.
-      if (started_) {
-        record(**move, at(**move, std::max(t, 0.5)), last_, (*move)->line);
-        record(**move, (*move)->to, last_, (*move)->line);
+  void execute(const Move& command) {
+    if (!started_) {
+      if (begins(command)) return start(command);
+      if (command.from.z_mm != command.to.z_mm) {
+        advance({height_of(command.to), command.kind == MoveKind::rapid, speed(command),
+                 command.line});
       }
-      t = 0.0;
-      intended_.pop();
+      return;
     }
-    compare_words();
-    if (summary_.words_differ.empty() && !(intended_.words().empty() && run_.words().empty())) {
-      const bool missing = run_.words().empty();
-      summary_.words_differ =
-          fmt::format("{} {}",
-                      missing ? "missing:" : "too many:",
-                      missing ? intended_.words().front() : run_.words().front());
-    }
-    return {};
+    if (command.from == command.to && !command.arc) return;
+    const bool rapid = command.kind == MoveKind::rapid;
+    const double feed = rapid ? 0.0 : speed(command);
+    last_command_ = command.from;
+    const auto done = machine_.run(command, [&](Point tool, Point commanded) {
+      const double way = distance_mm(last_command_, commanded);
+      const double stretch =
+          way >= kLeastStretched_mm ? distance_mm(last_tool_, tool) / way : 1.0;
+      last_command_ = commanded;
+      last_tool_ = tool;
+      ++summary_.places;
+      advance({tool, rapid, feed * stretch, command.line});
+      return !stopped_ && !problem_;
+    });
+    if (!done) fail(false, done.error());
   }
 
-  void compare_words() {
-    auto& expected = intended_.words();
-    auto& found = run_.words();
-    while (!expected.empty() && !found.empty()) {
-      if (expected.front() != found.front() && summary_.words_differ.empty()) {
-        summary_.words_differ = fmt::format("{} instead of {}", found.front(), expected.front());
-      }
-      expected.pop_front();
-      found.pop_front();
+  void advance(const PathPiece& piece) {
+    PathMatcher::Outcome outcome = matcher_.advance(piece);
+    if (problem_ || outcome == PathMatcher::Outcome::follows) return;
+    if (outcome == PathMatcher::Outcome::wrong_speed) {
+      const PathMatcher::Pair front = matcher_.front();
+      summary_.motion_differs =
+          fmt::format("line {} of the file run moves at {} where line {} of the original has "
+                      "another motion or feed, near {}",
+                      piece.line,
+                      words(piece),
+                      front.intended_line,
+                      words(front.intended));
+      first_fault(summary_.motion_differs);
+      matcher_.ignore_speed();
+      outcome = matcher_.advance(piece);
     }
+    if (outcome == PathMatcher::Outcome::past_end) {
+      const ProgramEvent* event = expected();
+      if (event == nullptr) return;
+      if (event->kind == ProgramEvent::Kind::word) {
+        return differ(fmt::format("missing: {}", event->text),
+                      fmt::format("{} of line {} of the original does not come at its place, {}; "
+                                  "line {} of the file run moves on",
+                                  event->text,
+                                  event->line,
+                                  words(matcher_.path_end()),
+                                  piece.line));
+      }
+    }
+    if (outcome == PathMatcher::Outcome::follows) return;
+    const PathMatcher::Pair front = matcher_.front();
+    stray(fmt::format("line {} of the file run moves the tool to {}, away from line {} of the "
+                      "original at {}",
+                      piece.line,
+                      words(piece.to),
+                      front.intended_line,
+                      words(front.intended)));
+    matcher_.advance_anyhow(piece);
   }
 
-  Stream intended_;
-  Stream run_;
-  const Corrector& corrector_;
+  /// A word of the file that is run, or its end: the section ends on both sides, and by the same.
+  void compare(const ProgramEvent& found) {
+    const PathMatcher::Outcome outcome = matcher_.finish();
+    if (problem_) return;
+    const bool is_end = found.kind == ProgramEvent::Kind::end;
+    const std::string name = is_end && found.text.empty() ? "the end" : found.text;
+    if (outcome != PathMatcher::Outcome::follows) {
+      if (outcome == PathMatcher::Outcome::past_end && !is_end) {
+        return differ(fmt::format("{} comes too early", name),
+                      fmt::format("{} on line {} of the file run comes before its place: the path "
+                                  "still has to go on at {}",
+                                  name,
+                                  found.line,
+                                  words(matcher_.front().intended)));
+      }
+      stray(is_end ? fmt::format("the file run ends on line {}, but the path of line {} of the "
+                                 "original has not been run to its end",
+                                 found.line,
+                                 matcher_.front().intended_line)
+                   : place_fault());
+      matcher_.finish_anyhow();
+      if (problem_) return;
+    }
+    const ProgramEvent* event = expected();
+    if (event == nullptr) return;
+    if (event->kind != found.kind || event->text != found.text) {
+      const bool ended = event->kind == ProgramEvent::Kind::end;
+      const std::string wanted = ended && event->text.empty() ? "the end" : event->text;
+      const std::string difference = is_end   ? fmt::format("missing: {}", wanted)
+                                     : ended ? fmt::format("too many: {}", name)
+                                             : fmt::format("{} instead of {}", name, wanted);
+      return differ(difference,
+                    fmt::format("line {} of the file run has {} where line {} of the original has "
+                                "{}",
+                                found.line,
+                                name,
+                                event->line,
+                                wanted));
+    }
+    if (is_end) return;
+    intended_.pop();
+    static_cast<void>(matcher_.begin(
+        matcher_.path_end(), started_ ? last_tool_ : matcher_.front().tool, found.line));
+  }
+
+  [[nodiscard]] std::string place_fault() const {
+    const PathMatcher::Pair front = matcher_.front();
+    return fmt::format("on line {} of the file run the tool stands at {}, {:.4f} mm from its place "
+                       "{} on line {} of the original",
+                       front.tool_line,
+                       words(front.tool),
+                       front.distance_mm,
+                       words(front.intended),
+                       front.intended_line);
+  }
+
+  void first_fault(const std::string& sentence) {
+    if (summary_.fault.empty()) summary_.fault = sentence;
+  }
+  void stray(const std::string& sentence) {
+    summary_.strays = true;
+    first_fault(sentence);
+  }
+  /// Where the words differ there is nothing to match the rest by.
+  void differ(std::string difference, const std::string& sentence) {
+    summary_.words_differ = std::move(difference);
+    first_fault(sentence);
+    stopped_ = true;
+  }
+
+  ProgramStream intended_;
+  ProgramStream run_;
   VerifyOptions options_;
+  SimulatedMachine machine_;
+  PathMatcher matcher_;
   VerifySummary summary_;
+  std::optional<VerifyProblem> problem_;
+  bool stopped_ = false;
   bool started_ = false;
-  double t_ = 0.0;  // on the intended path's current move
-  Point last_;
-  std::optional<double> left_;
-  std::optional<double> right_;
+  bool heights_done_ = false;
+  Move arc_;  // that is being cut into chords
+  int chord_ = 0;
+  int chords_ = 0;
+  Point last_tool_;
+  Point last_command_;
 };
 
 }  // namespace
+
+double least_run_mm(const VerifyOptions& options) {
+  return std::max(0.2 * options.tolerance_mm, 4.0 * std::pow(10.0, -options.decimals));
+}
 
 tl::expected<VerifySummary, VerifyProblem> verify(LineSource& original,
                                                   LineSource& run,
@@ -372,6 +347,44 @@ tl::expected<VerifySummary, VerifyProblem> verify(LineSource& original,
                                                   const Dialect& dialect,
                                                   const VerifyOptions& options) {
   return Verification(original, run, corrector, dialect, options).result();
+}
+
+Result<Deviation> uncompensated(LineSource& original,
+                                const Corrector& corrector,
+                                const Dialect& dialect,
+                                const VerifyOptions& options) {
+  ProgramStream stream(original, dialect, options.home);
+  SimulatedMachine machine(corrector,
+                           {options.half_play_mm,
+                            kFlatnessShare * options.tolerance_mm,
+                            kFieldShare * options.tolerance_mm,
+                            options.rapids_whole});
+  Deviation worst;
+  bool started = false;
+  for (;;) {
+    const auto event = stream.peek();
+    if (!event) return tl::unexpected(event.error());
+    if ((*event)->kind == ProgramEvent::Kind::end) return worst;
+    if ((*event)->kind == ProgramEvent::Kind::move) {
+      const Move& move = (*event)->move;
+      const bool from_nowhere = !started && move.kind == MoveKind::rapid;
+      started = started || begins(move);
+      const auto look = [&](Point tool, Point command) {
+        const double apart = distance_mm(tool, command);
+        if (apart > worst.largest_mm) worst = {apart, command, tool, move.line, move.line};
+        return true;
+      };
+      if (from_nowhere && started) {
+        const auto where = machine.place(move.to, move.line);
+        if (!where) return tl::unexpected(where.error());
+        look(*where, move.to);
+      } else if (started && !(same_xy(move.from, move.to) && !move.arc)) {
+        const auto done = machine.run(move, look);
+        if (!done) return tl::unexpected(done.error());
+      }
+    }
+    stream.pop();
+  }
 }
 
 }  // namespace chaintrue::gcode

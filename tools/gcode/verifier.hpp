@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Runs a file on a simulated controller and machine, and states how far the tool strays from the
-/// intended path.
+/// Runs a file on a simulated controller and machine, and proves that the tool follows the intended
+/// path, or says where it does not.
 ///
-/// The file's numbers are taken in the controller's own format, its way between commands is the
-/// controller's own (ticks, pieces that are linear in chain length), the machine is the map
-/// backwards. The tool's places are matched with the intended path in order, never backwards, so a
-/// move that is missing or out of order shows as a deviation. Heights count like X and Y.
+/// The file holds when, between any two words that pass through (S, M, T, G4, G43, G64 ...), the
+/// tool's track and the intended path have a Frechet distance of at most the tolerance
+/// (path_matcher.hpp), heights included; when the words are the same and stand at the same places;
+/// when rapids are rapids, cuts are cuts, and the tool's speed along a cut is the intended one to
+/// within `speed_share`. Rounding may swallow moves shorter than least_run_mm().
 ///
 /// Not part of the deviation: the classic controller's last tick, which overshoots every command
 /// along its direction by less than one tick's way and comes back. It is stated by itself; it is
@@ -24,6 +25,8 @@ namespace chaintrue::gcode {
 
 struct VerifyOptions {
   double tolerance_mm = 0.05;
+  /// Of the file that is run: shorter moves than a few of its last decimals may be missing.
+  int decimals = 3;
   /// Of the original; the other file is run with home at 0, 0.
   model::BedPoint home;
   /// Home of the file that is run; the original's own where it is run itself.
@@ -31,6 +34,9 @@ struct VerifyOptions {
   model::ChainLengths half_play_mm;
   /// Rapids were left whole: only their ends count.
   bool rapids_whole = false;
+  /// The tool's speed against the intended one: what the steepest correction that is allowed by
+  /// default (0.05 mm per mm) makes of it, and the rounding of F.
+  double speed_share = 0.06;
 };
 
 struct Deviation {
@@ -47,8 +53,17 @@ struct VerifySummary {
   double tick_overshoot_mm = 0.0;
   std::uint64_t commands = 0;
   std::uint64_t places = 0;  ///< of the tool that were compared
-  /// Empty where the words that pass through (S, T, M ...) come in the same order in both files.
+  bool strays = false;
+  /// Empty where the words that pass through are the same, at the same places.
   std::string words_differ;
+  /// Empty where rapids are rapids and cuts have the intended speed.
+  std::string motion_differs;
+  /// The first fault, in a sentence: where, and what to look at. Empty where the file holds.
+  std::string fault;
+
+  [[nodiscard]] bool holds() const {
+    return !strays && words_differ.empty() && motion_differs.empty();
+  }
   [[nodiscard]] double largest_mm() const {
     return feeds.largest_mm > rapids.largest_mm ? feeds.largest_mm : rapids.largest_mm;
   }
@@ -66,5 +81,14 @@ struct VerifyProblem {
                                                                 const Corrector& corrector,
                                                                 const Dialect& dialect,
                                                                 const VerifyOptions& options);
+
+/// How far the tool is from the intended path where a program runs as it is.
+[[nodiscard]] Result<Deviation> uncompensated(LineSource& original,
+                                              const Corrector& corrector,
+                                              const Dialect& dialect,
+                                              const VerifyOptions& options);
+
+/// Of moves that rounding may swallow.
+[[nodiscard]] double least_run_mm(const VerifyOptions& options);
 
 }  // namespace chaintrue::gcode

@@ -17,6 +17,13 @@ constexpr double kDrawnCorrection = 0.05;
 
 double size_mm(const ToolVector& vector) { return std::hypot(vector.x_mm, vector.y_mm); }
 
+/// The view is at least so wide, so that a single hole has its surroundings.
+constexpr double kLeastView_mm = 20.0;
+constexpr double kMargin = 0.08;
+/// Height by width: a page is no scroll.
+constexpr double kTallest = 0.8;
+constexpr double kFlattest = 0.15;
+
 double largest_mm(const PathReport& report) {
   double largest = 0.0;
   for (const PathPiece& piece : report.pieces())
@@ -24,35 +31,93 @@ double largest_mm(const PathReport& report) {
   return largest;
 }
 
-/// Sheet and path, with a margin.
-Outline view_of(const PathReport& report) {
-  Outline view = report.sheet;
-  if (!(view.x_max_mm > view.x_min_mm) || !(view.y_max_mm > view.y_min_mm)) {
+/// From the smallest correction of the cuts to the largest, at least a hundredth of a millimetre
+/// apart, in round numbers.
+struct Colours {
+  double least_mm = 0.0;
+  double largest_mm = 0.0;
+};
+Colours colours_of(const PathReport& report, bool rapids) {
+  double least = 1e9;
+  double most = 0.0;
+  for (const PathPiece& piece : report.pieces()) {
+    if (piece.is_rapid != rapids) continue;
+    for (const ToolVector& end : {piece.correction0, piece.correction1}) {
+      least = std::min(least, size_mm(end));
+      most = std::max(most, size_mm(end));
+    }
+  }
+  if (least > most) return rapids ? Colours{0.0, 1.0} : colours_of(report, true);
+  const double step = std::pow(10.0, std::floor(std::log10(std::max(most - least, 0.01)))) / 2.0;
+  return {step * std::floor(least / step), step * std::ceil(most / step + 1e-9)};
+}
+
+void widen(Outline& view, double x_mm, double y_mm) {
+  view.x_min_mm = std::min(view.x_min_mm, x_mm);
+  view.x_max_mm = std::max(view.x_max_mm, x_mm);
+  view.y_min_mm = std::min(view.y_min_mm, y_mm);
+  view.y_max_mm = std::max(view.y_max_mm, y_mm);
+}
+
+/// By `most` at least between the ends, about their middle.
+void stretch(double& low, double& high, double least) {
+  const double missing = least - (high - low);
+  if (missing <= 0.0) return;
+  low -= 0.5 * missing;
+  high += 0.5 * missing;
+}
+
+/// The cuts; where there are none, all of the path.
+Outline part_of(const PathReport& report, double magnification) {
+  Outline view{1e9, -1e9, 1e9, -1e9};
+  for (const bool rapids : {false, true}) {
+    for (const PathPiece& piece : report.pieces()) {
+      if (piece.is_rapid && !rapids) continue;
+      widen(view, piece.x0_mm, piece.y0_mm);
+      widen(view, piece.x1_mm, piece.y1_mm);
+      widen(view,
+            piece.x0_mm + magnification * piece.correction0.x_mm,
+            piece.y0_mm + magnification * piece.correction0.y_mm);
+      widen(view,
+            piece.x1_mm + magnification * piece.correction1.x_mm,
+            piece.y1_mm + magnification * piece.correction1.y_mm);
+    }
+    if (view.x_min_mm <= view.x_max_mm) break;
+  }
+  return view.x_min_mm <= view.x_max_mm ? view : report.sheet;
+}
+
+/// The part with a margin, in a shape that fits a page.
+Outline view_of(const PathReport& report, double magnification) {
+  if (!(report.sheet.x_max_mm > report.sheet.x_min_mm) ||
+      !(report.sheet.y_max_mm > report.sheet.y_min_mm)) {
     throw std::invalid_argument(
         fmt::format("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
-                    view.x_min_mm,
-                    view.x_max_mm,
-                    view.y_min_mm,
-                    view.y_max_mm));
+                    report.sheet.x_min_mm,
+                    report.sheet.x_max_mm,
+                    report.sheet.y_min_mm,
+                    report.sheet.y_max_mm));
   }
-  for (const PathPiece& piece : report.pieces()) {
-    view.x_min_mm = std::min(view.x_min_mm, piece.x1_mm);
-    view.x_max_mm = std::max(view.x_max_mm, piece.x1_mm);
-    view.y_min_mm = std::min(view.y_min_mm, piece.y1_mm);
-    view.y_max_mm = std::max(view.y_max_mm, piece.y1_mm);
-  }
-  const double margin = 0.03 * (view.x_max_mm - view.x_min_mm);
-  return {view.x_min_mm - margin,
+  Outline view = part_of(report, magnification);
+  const double margin = kMargin * std::max({view.x_max_mm - view.x_min_mm,
+                                            view.y_max_mm - view.y_min_mm,
+                                            kLeastView_mm});
+  view = {view.x_min_mm - margin,
           view.x_max_mm + margin,
           view.y_min_mm - margin,
           view.y_max_mm + margin};
+  stretch(view.x_min_mm, view.x_max_mm, (view.y_max_mm - view.y_min_mm) / kTallest);
+  stretch(view.y_min_mm, view.y_max_mm, (view.x_max_mm - view.x_min_mm) * kFlattest);
+  return view;
 }
 
-double magnification_of(const PathReport& report, const Outline& view) {
+double magnification_of(const PathReport& report) {
   const double largest = largest_mm(report);
   if (!(largest > 0.0)) return 1.0;
-  const double wished = kDrawnCorrection * (view.y_max_mm - view.y_min_mm) / largest;
-  return std::max(1.0, std::floor(wished));
+  const Outline part = part_of(report, 0.0);
+  const double extent =
+      std::max({part.x_max_mm - part.x_min_mm, part.y_max_mm - part.y_min_mm, kLeastView_mm});
+  return std::max(1.0, std::floor(kDrawnCorrection * extent / largest));
 }
 
 }  // namespace
@@ -68,15 +133,21 @@ void PathReport::add(const PathPiece& piece) {
 }
 
 Page page_of(const PathReport& report) {
-  const Outline view = view_of(report);
-  const double magnification = magnification_of(report, view);
+  const double magnification = magnification_of(report);
+  const Outline view = view_of(report, magnification);
+  const Colours colours = colours_of(report, false);
   Chart chart{.specification = "gcode_path"};
   chart.title = "The path before and after";
   chart.caption = fmt::format(
       "Grey: where the tool shall go, which is what the program commanded before. Coloured: what "
       "is commanded now, its "
-      "distance from the grey path drawn {:g} times as large. Dashed: rapids.{}",
+      "distance from the grey path drawn {:g} times as large. Dashed: rapids. The picture shows the "
+      "cuts, X {:.0f} to {:.0f} and Y {:.0f} to {:.0f} mm of the sheet; the sheet is tinted.{}",
       magnification,
+      view.x_min_mm,
+      view.x_max_mm,
+      view.y_min_mm,
+      view.y_max_mm,
       report.stride() > 1 ? fmt::format(" One piece in {} is drawn.", report.stride())
                           : std::string());
   DataTable table{"pieces",
@@ -113,11 +184,12 @@ Page page_of(const PathReport& report) {
                    {"sheet_y_min_mm", report.sheet.y_min_mm},
                    {"sheet_y_max_mm", report.sheet.y_max_mm},
                    {"magnification", magnification},
-                   {"largest_mm", std::max(largest_mm(report), 1e-3)}};
+                   {"least_mm", colours.least_mm},
+                   {"largest_mm", colours.largest_mm}};
   Page page{.title = "Compensated program"};
   page.subtitle = report.name;
   page.verdict = report.verdict;
-  page.sections.push_back({"On the bed", {chart}});
+  page.sections.push_back({"The part", {chart}});
   page.sections.push_back({"In numbers", {Figures{report.figures}}});
   return page;
 }

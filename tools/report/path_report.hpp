@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A compensated program's report: its path on the bed before and after, coloured by the
-/// correction, and what was done.
+/// A compensated program's report: whether it is safe to run, its cuts before and after, coloured
+/// by the correction, and what was done.
 ///
 /// \code
 ///   PathReport report{.name = "part.nc", .verdict = "192 commands; corrections up to 4.5 mm."};

@@ -112,10 +112,11 @@ void about_several(const std::vector<Trial>& trials, Rows& rows) {
 }
 
 void about_unlisted(const std::vector<Trial>& trials, Rows& rows) {
-  rows.add("refused: unknown pattern",
-           share_of(trials, [](const Trial& t) { return t.verdict == Verdict::unknown_pattern; }));
+  rows.add("refused: unknown pattern", share_of(trials, [](const Trial& t) {
+             return t.verdict == Verdict::model_discrepancy;
+           }));
   rows.add("undecided: a set, noise, bad points, nothing", share_of(trials, [](const Trial& t) {
-             return t.verdict != Verdict::unknown_pattern && t.verdict != Verdict::named &&
+             return t.verdict != Verdict::model_discrepancy && t.verdict != Verdict::named &&
                     t.verdict != Verdict::several_causes;
            }));
   rows.add("misnamed: named or several causes", share_of(trials, [](const Trial& t) {
@@ -135,7 +136,7 @@ bool found_all_bad(const Trial& t) {
 
 void about_bad_points(const std::vector<Trial>& trials, Rows& rows) {
   rows.add("clean verdict: bad points and no cause",
-           share_of(trials, [](const Trial& t) { return t.verdict == Verdict::bad_points; }));
+           share_of(trials, [](const Trial& t) { return t.verdict == Verdict::outliers; }));
   rows.add("every slip found", share_of(trials, found_all_bad));
   rows.add("more points called bad than were", share_of(trials, [](const Trial& t) {
              return t.bad_points.size() > t.answer.bad_points.size();

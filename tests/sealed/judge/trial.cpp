@@ -34,9 +34,9 @@ void take_over(const Diagnosis& found, Trial& trial) {
   }
   trial.hypotheses = found.hypotheses;
   trial.family_wise_p = found.family_wise_p;
-  trial.left_over_delta = found.left_over.delta;
+  trial.left_over_delta = found.left_over.signal_to_noise;
   trial.noise_factor = found.noise_factor;
-  for (const auto& bad : found.bad_points) trial.bad_points.push_back(bad.index);
+  for (const auto& bad : found.outliers) trial.bad_points.push_back(bad.index);
   for (const auto& no : found.not_testable) trial.not_testable.push_back(sealed::id_of(no.cause));
 }
 

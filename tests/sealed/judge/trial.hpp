@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "generator/hidden/draw.hpp"
-#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/diagnose.hpp"
 
 namespace chaintrue::sealed {
 

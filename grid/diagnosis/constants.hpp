@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The numbers that a verdict depends on, in one place: constants.def says what each means and where
+/// it comes from. Probabilities and shares are plain numbers, strengths are in units of noise.
+///
+/// A program that asks what a constant does is compiled with CHAINTRUE_VARY_CONSTANTS and may then
+/// set them; everywhere else they are constants.
+#pragma once
+
+#include <array>
+
+namespace chaintrue::grid::diagnosis {
+
+#ifdef CHAINTRUE_VARY_CONSTANTS
+#define CHAINTRUE_CONSTANT(name, value, meaning, source) inline double name = value;
+#else
+#define CHAINTRUE_CONSTANT(name, value, meaning, source) inline constexpr double name = value;
+#endif
+#include "grid/diagnosis/constants.def"
+#undef CHAINTRUE_CONSTANT
+
+/// Beside the stated noise, one of these multiples of it, each alike: what hurried or careless
+/// measuring makes of a tape.
+inline constexpr std::array kLargerNoise = {1.5, 2.0, 2.7};
+/// Strengths at which a discrepancy is tried: a quarter of a decade apart where it is hard to see.
+inline constexpr std::array kDiscrepancyStrengths = {4.0, 6.5, 10.0, 16.0, 25.0, 60.0};
+
+}  // namespace chaintrue::grid::diagnosis

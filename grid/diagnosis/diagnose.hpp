@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// From what was measured to what is wrong with the machine: the one door of this room.
+///
+/// \code
+///   Measured measured(grid);          // points
+///   measured.add(holes);              // and a tape's distances, of the same machine
+///   const auto found = diagnose(measured);
+///   if (found) fmt::print("{}\n", found->sentence);
+///   else fmt::print("{}\n", found.error().sentence);
+/// \endcode
+///
+/// The same input gives the same answer to the last bit, whatever the order of the points, the
+/// distances or the holes in it.
+#pragma once
+
+#include <tl/expected.hpp>
+
+#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/options.hpp"
+#include "grid/measured.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Of holes, and of points that bear none, the order of visits is unknown.
+[[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
+    const Measured& measured, const DiagnosisOptions& options = {});
+
+/// How well what was found on one grid predicts another of the same machine.
+[[nodiscard]] tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
+                                                                const Diagnosis& diagnosis,
+                                                                const MeasuredGrid& to);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/session.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "grid/map/length_points.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using Reason = DiagnosisFailure::Reason;
+using model::Machine;
+using model::Setting;
+
+tl::unexpected<DiagnosisFailure> failure(Reason reason, std::string sentence) {
+  return tl::unexpected(DiagnosisFailure{reason, std::move(sentence)});
+}
+
+/// The readings that the machine predicts; the sled's mass is taken as it was read.
+std::vector<ExtraReading> predictable(const std::vector<ExtraReading>& readings, Machine& machine) {
+  std::vector<ExtraReading> kept;
+  std::vector<ExtraReading> masses;
+  for (const ExtraReading& reading : readings) {
+    if (reading.what == "sled_mass_kg") masses.push_back(reading);
+    if (observation::is_predictable(machine, reading)) kept.push_back(reading);
+  }
+  machine = with_readings(machine, masses);
+  return kept;
+}
+
+/// One sigma of what the machine file says of a thing that can also be read.
+double sigma_of_statement(const Machine& machine, const std::string& what) {
+  if (what == "motor_spacing_mm" || what == "beam_rise_mm")
+    return std::sqrt(2.0) * machine.uncertainty.motor_position_mm;
+  if (what == "ring_radius_mm") return machine.uncertainty.ring_radius_mm;
+  // A chain's pitch may be off by half a percent, its mass by more than that: nothing contradicts.
+  if (what == "link_pitch_mm") return 0.005 * machine.sprocket.pitch_mm;
+  if (what == "tape_error_mm_per_m") return 5.0;
+  return machine.chain.mass_kg_per_m;
+}
+
+constexpr double kContradiction = 6.0;  // sigmas: no slip of the tape, a slip of the pen
+
+std::optional<std::string> contradiction(const Machine& machine,
+                                         const std::vector<ExtraReading>& readings) {
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const ExtraReading& reading = readings[i];
+    const double stated = observation::predicted_reading(machine, reading);
+    const double sigma =
+        std::hypot(sigma_of_statement(machine, reading.what), reading.sigma);
+    if (std::abs(reading.value - stated) > kContradiction * sigma) {
+      return fmt::format(
+          "the grid's reading of {} is {:.6g}, but the machine states {:.6g}: {:.0f} sigma apart. "
+          "Measure it again and correct whichever is wrong",
+          reading.what,
+          reading.value,
+          stated,
+          std::abs(reading.value - stated) / sigma);
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      const ExtraReading& other = readings[k];
+      if (other.what != reading.what || other.side != reading.side) continue;
+      const double both = std::hypot(other.sigma, reading.sigma);
+      if (std::abs(reading.value - other.value) > kContradiction * both) {
+        return fmt::format(
+            "two readings of {} contradict each other: {:.6g} and {:.6g}, {:.0f} sigma apart",
+            reading.what,
+            other.value,
+            reading.value,
+            std::abs(reading.value - other.value) / both);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// Scatter of the residuals within each group of repeats, as a multiple of the default noise.
+std::optional<StatedNoise> noise_of_repeats(const Machine& stated,
+                                            const std::vector<LengthPoint>& points) {
+  const model::ReadingModel model(stated);
+  const StatedNoise usual;
+  double sum = 0.0;
+  double dof = 0.0;
+  for (const auto& group : repeat_groups(points)) {
+    std::vector<Eigen::Vector2d> whitened;
+    for (const std::size_t i : group) {
+      const auto reading = model.at(points[i].mark);
+      if (!reading) continue;
+      const Eigen::Matrix2d& j = reading->position_jacobian;
+      const Eigen::Matrix2d covariance = std::pow(usual.position_mm, 2) * j * j.transpose() +
+                                         std::pow(usual.length_mm, 2) * Eigen::Matrix2d::Identity();
+      const Eigen::Vector2d residual(points[i].lengths.left_mm - reading->lengths.left_mm,
+                                     points[i].lengths.right_mm - reading->lengths.right_mm);
+      whitened.emplace_back(covariance.llt().matrixL().solve(residual));
+    }
+    if (whitened.size() < 2) continue;
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    for (const auto& w : whitened) mean += w / static_cast<double>(whitened.size());
+    for (const auto& w : whitened) sum += (w - mean).squaredNorm();
+    dof += 2.0 * static_cast<double>(whitened.size() - 1);
+  }
+  if (dof < 4.0 || !(sum > 0.0)) return std::nullopt;
+  const double factor = std::sqrt(sum / dof);
+  return StatedNoise{factor * usual.length_mm, factor * usual.position_mm, dof};
+}
+
+/// Pairs of holes between which nothing was measured, the farthest apart first.
+std::vector<std::string> unmeasured(const MeasuredHoles& set, std::size_t most) {
+  std::set<std::pair<std::size_t, std::size_t>> done;
+  for (const HoleDistance& d : set.distances) {
+    if (!d.edge) done.insert(std::minmax(d.from, d.to));
+  }
+  std::vector<HoleDistance> left;
+  for (std::size_t i = 0; i < set.holes.size(); ++i) {
+    for (std::size_t j = i + 1; j < set.holes.size(); ++j) {
+      if (done.count({i, j}) == 0) left.push_back({.from = i, .to = j});
+    }
+  }
+  std::stable_sort(left.begin(), left.end(), [&](const HoleDistance& a, const HoleDistance& b) {
+    return commanded_mm(set, a) > commanded_mm(set, b);
+  });
+  std::vector<std::string> words;
+  for (const HoleDistance& d : left) {
+    if (words.size() < most) words.push_back(words_of(set, d));
+  }
+  return words;
+}
+
+std::string too_few_distances(const MeasuredHoles& set) {
+  const std::size_t missing = kFewestDistances - set.distances.size();
+  const std::vector<std::string> pairs = unmeasured(set, missing);
+  std::string text = fmt::format(
+      "{} distances are too few to name a cause: they tell four of the settings, and at least {} "
+      "are needed; nine holes and twenty distances are a good start",
+      set.distances.size(),
+      kFewestDistances);
+  if (!pairs.empty()) text += fmt::format(". Measure also {}", fmt::join(pairs, ", "));
+  if (pairs.size() < missing) {
+    text += fmt::format("{} {}",
+                        pairs.empty() ? ". Cut more holes and measure" : ", and from new holes",
+                        missing - pairs.size());
+  }
+  return text;
+}
+
+struct PointsSoFar {
+  bool noise_from_repeats = false;
+  bool ordered = false;
+};
+
+/// Points of one grid, numbered from `first_index` on.
+tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> points_of(
+    MeasuredGrid grid, const Machine& stated, std::size_t first_index, PointsSoFar& so_far) {
+  grid.machine = stated;
+  const auto lengths = length_points(grid);
+  if (!lengths) return failure(Reason::no_lengths, lengths.error().sentence);
+  std::optional<StatedNoise> noise = grid.noise;
+  if (!noise) {
+    noise = noise_of_repeats(stated, *lengths);
+    so_far.noise_from_repeats = noise.has_value();
+  }
+  if (!noise) {
+    return failure(Reason::no_noise,
+                   "how well the points were measured is neither stated nor to be seen in repeats. "
+                   "State it (\"noise\" in the grid file, or --noise-length-mm, "
+                   "--noise-position-mm), or measure at least six points twice");
+  }
+  // Visits are those of one session: an order of another says nothing about them.
+  const bool ordered =
+      !so_far.ordered && std::all_of(grid.points.begin(),
+                                     grid.points.end(),
+                                     [](const MeasuredPoint& p) { return p.order.has_value(); });
+  so_far.ordered = so_far.ordered || ordered;
+  std::vector<observation::Place> places;
+  for (const LengthPoint& point : *lengths) {
+    const std::size_t index = first_index + point.index;
+    places.push_back({index,
+                      fmt::format("{}", index + 1),
+                      point.mark,
+                      point.lengths,
+                      grid.points[point.index].order.value_or(0)});
+  }
+  std::optional<observation::SheetPrior> sheet;
+  if (grid.sheet) sheet = {grid.sheet->shift_mm, 1e-3 * grid.sheet->rotation_mrad};
+  return std::make_shared<const observation::ChainLengthReadings>(
+      std::move(places),
+      ordered,
+      observation::PointNoise{noise->length_mm, noise->position_mm},
+      noise->dof,
+      sheet);
+}
+
+class Assembly {
+ public:
+  explicit Assembly(Machine stated) {
+    session_.stated = std::move(stated);
+    session_.settings.assign(model::kMachineSettings.begin(), model::kMachineSettings.end());
+  }
+
+  void add(std::shared_ptr<const observation::Observation> observation) {
+    if (observation->rows() == 0) return;
+    SessionPart part;
+    if (observation->sheet()) {
+      part.sheet = session_.sheets++;
+      session_.settings.insert(
+          session_.settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
+    }
+    part.observation = std::move(observation);
+    append(std::move(part), session_);
+  }
+
+  [[nodiscard]] Session take() {
+    state_unknowns();
+    state_knowledge();
+    return std::move(session_);
+  }
+
+  /// Rows, places and units of a part after all others.
+  static void append(SessionPart part, Session& session) {
+    const observation::Observation& own = *part.observation;
+    const std::size_t number = session.parts.size();
+    part.first_row = session.rows;
+    part.first_place = session.places.size();
+    part.first_unit = session.units.size();
+    for (const observation::Place& place : own.places()) {
+      session.places.push_back({number, place.index, place.mark, place.lengths, place.order});
+    }
+    if (own.may_slip()) {
+      for (const observation::Unit& unit : own.units()) {
+        session.units.push_back(
+            {number, unit.index, part.first_row + unit.first_row, unit.rows});
+      }
+      session.observed_rows += own.rows();
+    }
+    session.rows += own.rows();
+    session.parts.push_back(std::move(part));
+  }
+
+ private:
+  void state_unknowns() {
+    auto columns = static_cast<Eigen::Index>(session_.settings.size());
+    for (SessionPart& part : session_.parts) {
+      for (Eigen::Index q = 0; q < part.observation->nuisance_sigma().size(); ++q) {
+        part.nuisance_columns.push_back(columns++);
+      }
+    }
+    session_.stated_value = Eigen::VectorXd::Zero(columns);
+    session_.stated_sigma = Eigen::VectorXd::Zero(columns);
+    for (std::size_t k = 0; k < model::kMachineSettings.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      session_.stated_value(at) = model::stated_value(session_.stated, session_.settings[k]);
+      session_.stated_sigma(at) = model::stated_sigma(session_.stated, session_.settings[k]);
+    }
+    for (const SessionPart& part : session_.parts) {
+      for (std::size_t q = 0; q < part.nuisance_columns.size(); ++q) {
+        session_.stated_sigma(part.nuisance_columns[q]) =
+            part.observation->nuisance_sigma()(static_cast<Eigen::Index>(q));
+      }
+      if (!part.sheet) continue;
+      const observation::SheetPrior& prior = *part.observation->sheet();
+      session_.stated_sigma.segment<3>(Session::sheet_column(*part.sheet)) << prior.shift_sigma_mm,
+          prior.shift_sigma_mm, prior.rotation_sigma_rad;
+    }
+  }
+
+  void state_knowledge() {
+    session_.noise_dof = std::numeric_limits<double>::infinity();
+    for (const SessionPart& part : session_.parts) {
+      session_.noise_dof = std::min(session_.noise_dof, part.observation->noise_dof());
+    }
+    session_.fewest_units = session_.reads_chains() ? kFewestPoints : kFewestGoodDistances;
+  }
+
+  Session session_;
+};
+
+/// Eight points or eight distances; of both together as many numbers as eight points give.
+std::optional<std::string> too_few(const Measured& measured) {
+  std::size_t points = 0;
+  std::size_t distances = 0;
+  for (const MeasuredGrid& grid : measured.grids) points += grid.points.size();
+  for (const MeasuredHoles& set : measured.holes) distances += set.distances.size();
+  if (measured.grids.empty()) {
+    return distances < kFewestDistances ? std::optional(too_few_distances(measured.holes.front()))
+                                        : std::nullopt;
+  }
+  if (2 * points + distances >= 2 * kFewestPoints) return std::nullopt;
+  if (!measured.holes.empty()) {
+    return fmt::format(
+        "{} points and {} distances are too few to name a cause: a point counts as two, and {} in "
+        "all are needed",
+        points,
+        distances,
+        2 * kFewestPoints);
+  }
+  return fmt::format("{} points are too few to name a cause: at least {} are needed, 28 "
+                     "with six of them measured twice are a good start",
+                     points,
+                     kFewestPoints);
+}
+
+}  // namespace
+
+tl::expected<Session, DiagnosisFailure> make_session(const Measured& measured) {
+  if (!measured.machine) {
+    return failure(Reason::no_machine,
+                   measured.grids.empty()
+                       ? "the holes name no machine; what was commanded becomes chain lengths by "
+                         "its controller: give --machine M.json"
+                       : "a diagnosis needs the machine as its owner states it: give --machine "
+                         "M.json");
+  }
+  Machine stated = *measured.machine;
+  std::vector<ExtraReading> readings;
+  const auto take = [&](const std::vector<ExtraReading>& of_file) {
+    const auto own = predictable(of_file, stated);
+    readings.insert(readings.end(), own.begin(), own.end());
+  };
+  for (const MeasuredGrid& grid : measured.grids) take(grid.readings);
+  for (const MeasuredHoles& set : measured.holes) take(set.readings);
+  if (auto said = too_few(measured)) return failure(Reason::too_few_points, *std::move(said));
+  if (auto said = contradiction(stated, readings)) {
+    return failure(Reason::contradictory_settings, *std::move(said));
+  }
+  Assembly assembly(stated);
+  PointsSoFar so_far;
+  std::size_t index = 0;
+  for (const MeasuredGrid& grid : measured.grids) {
+    auto points = points_of(grid, stated, index, so_far);
+    if (!points) return tl::unexpected(points.error());
+    assembly.add(*std::move(points));
+    index += grid.points.size();
+  }
+  observation::NumberedFrom first;
+  for (std::size_t k = 0; k < measured.holes.size(); ++k) {
+    MeasuredHoles set = measured.holes[k];
+    if (!set.machine) set.machine = stated;
+    for (Hole& hole : set.holes) {
+      if (k > 0) hole.name = fmt::format("{} ({})", hole.name, k + 1);
+    }
+    auto distances = observation::TapeDistances::of(set, first);
+    if (!distances) return failure(Reason::point_unreachable, distances.error());
+    assembly.add(std::make_shared<const observation::TapeDistances>(*std::move(distances)));
+    first.hole += set.holes.size();
+    first.distance += set.distances.size();
+  }
+  if (!readings.empty()) {
+    assembly.add(std::make_shared<const observation::SingleReadings>(std::move(readings)));
+  }
+  Session session = assembly.take();
+  session.noise_from_repeats = so_far.noise_from_repeats;
+  return session;
+}
+
+Session with_observations(const Session& session, std::vector<FollowUp> parts) {
+  Session other = session;
+  other.parts.clear();
+  other.places.clear();
+  other.units.clear();
+  other.rows = other.observed_rows = 0;
+  for (FollowUp& one : parts) {
+    SessionPart part;
+    part.sheet = session.parts[one.in_place_of].sheet;
+    part.nuisance_columns = session.parts[one.in_place_of].nuisance_columns;
+    const Eigen::VectorXd& sigma = one.observation->nuisance_sigma();
+    const auto known = static_cast<Eigen::Index>(part.nuisance_columns.size());
+    const Eigen::Index more = std::max<Eigen::Index>(sigma.size() - known, 0);
+    const Eigen::Index columns = other.stated_sigma.size();
+    part.nuisance_columns.resize(static_cast<std::size_t>(std::min(known, sigma.size())));
+    for (Eigen::Index q = 0; q < more; ++q) part.nuisance_columns.push_back(columns + q);
+    other.stated_value.conservativeResizeLike(Eigen::VectorXd::Zero(columns + more));
+    other.stated_sigma.conservativeResize(columns + more);
+    other.stated_sigma.tail(more) = sigma.tail(more);
+    part.observation = std::move(one.observation);
+    Assembly::append(std::move(part), other);
+  }
+  return other;
+}
+
+}  // namespace chaintrue::grid::diagnosis

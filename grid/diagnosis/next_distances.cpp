@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/diagnosis/next_candidates.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// New holes are looked for on this raster over what the holes span.
+constexpr int kColumns = 7;
+constexpr int kRows = 4;
+constexpr double kApartMm = 200.0;  ///< a hole beside another says the same
+/// A new hole is measured to this many others: two place it, the third speaks.
+constexpr std::size_t kArms = 3;
+
+class HoleCandidates {
+ public:
+  HoleCandidates(const Analysis& a, const observation::TapeDistances& tape, std::size_t part)
+      : a_(a),
+        part_(part),
+        hook_sessions_(tape.hook_sessions()),
+        measured_(tape.set()),
+        set_(measured_) {
+    set_.distances.clear();
+    add_pairs();
+    add_edges();
+    add_holes();
+  }
+
+  [[nodiscard]] std::optional<CandidateReadings> take() {
+    if (candidates_.empty()) return std::nullopt;
+    auto tape = observation::TapeDistances::with_hooks(std::move(set_), hook_sessions_);
+    if (!tape) return std::nullopt;
+    return CandidateReadings{
+        {std::make_shared<const observation::TapeDistances>(*std::move(tape)), part_},
+        std::move(candidates_)};
+  }
+
+ private:
+  [[nodiscard]] bool is_measured(const HoleDistance& wanted) const {
+    return std::any_of(
+        measured_.distances.begin(), measured_.distances.end(), [&](const HoleDistance& d) {
+          if (d.edge != wanted.edge) return false;
+          if (d.edge) return d.from == wanted.from;
+          return std::minmax(d.from, d.to) == std::minmax(wanted.from, wanted.to);
+        });
+  }
+
+  void add(HoleDistance distance) {
+    if (is_measured(distance)) return;
+    distance.session = measured_.distances.front().session;
+    NextMeasurement next{MeasurementKind::distance,
+                         fmt::format("the distance {}", words_of(measured_, distance)),
+                         "",
+                         std::nullopt,
+                         measured_.tape.sigma_mm};
+    next.from = measured_.holes[distance.from].name;
+    next.to = {distance.edge ? std::string(grid::name(*distance.edge))
+                             : measured_.holes[distance.to].name};
+    candidates_.push_back({std::move(next), {static_cast<Eigen::Index>(set_.distances.size())}, 1});
+    set_.distances.push_back(distance);
+  }
+
+  void add_pairs() {
+    for (std::size_t i = 0; i < measured_.holes.size(); ++i) {
+      for (std::size_t j = i + 1; j < measured_.holes.size(); ++j) add({.from = i, .to = j});
+    }
+  }
+
+  /// To edges where the sheet's were measured before: a first one only says where the sheet lies.
+  void add_edges() {
+    const bool edged = std::any_of(measured_.distances.begin(),
+                                   measured_.distances.end(),
+                                   [](const HoleDistance& d) { return d.edge.has_value(); });
+    if (!edged) return;
+    for (std::size_t i = 0; i < measured_.holes.size(); ++i) {
+      for (const SheetEdge edge : kSheetEdges) add({.from = i, .edge = edge});
+    }
+  }
+
+  /// The holes already cut, the farthest from a place first.
+  [[nodiscard]] std::vector<std::size_t> by_distance(const model::BedPoint& place) const {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < measured_.holes.size(); ++i) order.push_back(i);
+    const auto squared = [&](std::size_t i) {
+      const model::BedPoint& hole = measured_.holes[i].commanded;
+      return std::pow(hole.x_mm - place.x_mm, 2) + std::pow(hole.y_mm - place.y_mm, 2);
+    };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+      return squared(i) > squared(j);
+    });
+    return order;
+  }
+
+  [[nodiscard]] bool can_be_cut(const Hole& hole) const {
+    MeasuredHoles alone = measured_;
+    alone.holes = {hole};
+    alone.distances.clear();
+    const auto one = observation::TapeDistances::in_given_order(std::move(alone));
+    return one && one->placed(a_.state.view(a_.session.parts[part_]));
+  }
+
+  void add_hole(const model::BedPoint& place) {
+    const std::vector<std::size_t> others = by_distance(place);
+    const model::BedPoint& nearest = measured_.holes[others.back()].commanded;
+    if (std::hypot(nearest.x_mm - place.x_mm, nearest.y_mm - place.y_mm) < kApartMm) return;
+    const Hole hole{fmt::format("({:.0f}, {:.0f})", place.x_mm + 0.0, place.y_mm + 0.0), place};
+    if (!can_be_cut(hole)) return;
+    Candidate candidate{{MeasurementKind::distance, "", "", place, measured_.tape.sigma_mm}, {}, 1};
+    for (std::size_t k = 0; k < std::min(kArms, others.size()); ++k) {
+      candidate.rows.push_back(static_cast<Eigen::Index>(set_.distances.size()));
+      set_.distances.push_back({.from = set_.holes.size(),
+                                .to = others[k],
+                                .session = measured_.distances.front().session});
+      candidate.measurement.to.push_back(measured_.holes[others[k]].name);
+    }
+    candidate.measurement.what = fmt::format(
+        "a new hole at {}, measured to {}", hole.name, fmt::join(candidate.measurement.to, ", "));
+    candidates_.push_back(std::move(candidate));
+    set_.holes.push_back(hole);
+  }
+
+  void add_holes() {
+    double x = 0.0;
+    double y = 0.0;
+    for (const Hole& hole : measured_.holes) {
+      x = std::max(x, std::abs(hole.commanded.x_mm));
+      y = std::max(y, std::abs(hole.commanded.y_mm));
+    }
+    for (int j = 0; j < kRows; ++j) {
+      for (int i = 0; i < kColumns; ++i) {
+        add_hole({std::round(x * (2.0 * i / (kColumns - 1) - 1.0)),
+                  std::round(y * (2.0 * j / (kRows - 1) - 1.0))});
+      }
+    }
+  }
+
+  const Analysis& a_;
+  std::size_t part_;
+  std::vector<std::size_t> hook_sessions_;
+  const MeasuredHoles& measured_;
+  MeasuredHoles set_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+std::optional<CandidateReadings> candidate_distances(const Analysis& a, std::size_t part) {
+  const auto* tape = dynamic_cast<const observation::TapeDistances*>(
+      a.session.parts[part].observation.get());
+  if (tape == nullptr) return std::nullopt;
+  return HoleCandidates(a, *tape, part).take();
+}
+
+}  // namespace chaintrue::grid::diagnosis

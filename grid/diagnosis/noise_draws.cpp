@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/noise_draws.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "grid/diagnosis/leading.hpp"
+#include "grid/synthetic/random.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// X in units of what each unknown may be beforehand.
+Eigen::MatrixXd design_of(const Analysis& a) {
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
+  const Eigen::Index settings = a.system.by_setting.cols();
+  const auto causes = static_cast<Eigen::Index>(a.estimate.free.size());
+  Eigen::MatrixXd design(n, settings + causes);
+  design.leftCols(settings) =
+      a.system.by_setting(marginalised.kept, Eigen::all) * a.system.sigma.asDiagonal();
+  for (Eigen::Index k = 0; k < causes; ++k) {
+    const int column = a.estimate.regressors[a.estimate.free[static_cast<std::size_t>(k)]];
+    design.col(settings + k) = a.system.g(marginalised.kept, column) * kWideSignalToNoise /
+                               std::max(marginalised.g.col(column).norm(), 1e-12);
+  }
+  return design;
+}
+
+}  // namespace
+
+Eigen::MatrixXd left_of_noise(const Analysis& a,
+                              Nuisances nuisances,
+                              int draws,
+                              std::uint64_t stream) {
+  const Eigen::MatrixXd design = design_of(a);
+  const Eigen::Index n = design.rows();
+  const Eigen::Index shared = a.system.nuisances;
+  const auto by_nuisance =
+      design.middleCols(a.system.by_setting.cols() - shared, shared);
+  Eigen::MatrixXd normal = design.transpose() * design;
+  normal.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> llt(normal);
+  synthetic::Random random(a.options.seed, stream);
+  Eigen::MatrixXd z(n, draws);
+  Eigen::VectorXd u(shared);
+  for (Eigen::Index draw = 0; draw < draws; ++draw) {
+    for (Eigen::Index i = 0; i < n; ++i) z(i, draw) = random.normal();
+    for (Eigen::Index q = 0; q < shared; ++q) u(q) = random.normal();
+    if (shared > 0) z.col(draw) += by_nuisance * u;
+  }
+  const Eigen::MatrixXd taken = llt.solve(design.transpose() * z);
+  z.noalias() -= design * taken;
+  if (nuisances == Nuisances::put_back && shared > 0) {
+    z.noalias() += by_nuisance * taken.middleRows(a.system.by_setting.cols() - shared, shared);
+  }
+  return z;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/regressors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using model::effects::Effect;
+using model::effects::EffectParameter;
+using model::effects::EffectSide;
+using model::effects::ParameterRole;
+
+constexpr int kPlaces = 24;    // of a knee or a phase: neighbours stay alike to 0.99
+constexpr int kMostLinks = 3;  // more than that is seen with the bare eye
+
+model::Machine with_effect(model::Machine machine,
+                           CauseId cause,
+                           const std::vector<double>& values) {
+  machine.effects.push_back(model::effects::applied(*cause.effect, cause.side, values));
+  return machine;
+}
+
+/// What such a machine would give to be read, all rows.
+std::optional<Eigen::VectorXd> predicted(const Session& session,
+                                         const State& state,
+                                         const model::Machine& machine) {
+  const model::ReadingModel model(machine);
+  Eigen::VectorXd all(session.rows);
+  for (const SessionPart& part : session.parts) {
+    const auto own = part.observation->predicted({model, state.sheet_of(part)});
+    if (!own) return std::nullopt;
+    all.segment(part.first_row, own->size()) = *own;
+  }
+  return all;
+}
+
+/// What an effect adds to the chains at a place, or to what is written down there.
+Eigen::Vector2d added_at(const SystemPlace& place,
+                         const model::Sprocket& sprocket,
+                         CauseId cause,
+                         const std::vector<double>& values) {
+  Eigen::Vector2d mm = Eigen::Vector2d::Zero();
+  if (cause.effect->misread != nullptr && !place.ordered) return mm;
+  const model::Pose& pose = place.reading.pose;
+  for (const model::Side side : model::kSides) {
+    if (!model::effects::acts_on(cause.side, side)) continue;
+    const Eigen::Index row = side == model::Side::left ? 0 : 1;
+    if (cause.effect->misread != nullptr) {
+      mm(row) = cause.effect->misread({place.order, sprocket.pitch_mm}, values);
+    } else {
+      mm(row) = cause.effect
+                    ->add({pose.chains[side],
+                           row == 0 ? pose.lengths.left_mm : pose.lengths.right_mm,
+                           sprocket.teeth * sprocket.pitch_mm},
+                          values)
+                    .length_mm;
+    }
+  }
+  return mm;
+}
+
+/// The whitened column of an effect that is added to a chain, or to what is written down: the poses
+/// stay.
+Eigen::VectorXd added(const LinearisedSystem& system,
+                      const model::Sprocket& sprocket,
+                      CauseId cause,
+                      const std::vector<double>& values) {
+  std::vector<Eigen::Vector2d> mm;
+  for (const SystemPlace& place : system.places) {
+    mm.push_back(added_at(place, sprocket, cause, values));
+  }
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(system.e.size());
+  for (const SystemUnit& unit : system.units) {
+    for (const SeenPlace& seen : unit.places) {
+      column.segment(unit.first_row, unit.rows) +=
+          (seen.by_chain * mm[seen.place]).head(unit.rows);
+    }
+  }
+  return column;
+}
+
+const EffectParameter& size_parameter(const Effect& effect) { return effect.parameters.front(); }
+
+const EffectParameter* place_parameter(const Effect& effect) {
+  for (const EffectParameter& p : effect.parameters) {
+    if (p.role == ParameterRole::place) return &p;
+  }
+  return nullptr;
+}
+
+/// Places where an effect may set in: visits, angles between those of the places, phases of a
+/// turn.
+std::vector<double> places(const LinearisedSystem& system, CauseId cause) {
+  const EffectParameter& place = *place_parameter(*cause.effect);
+  std::vector<double> result;
+  if (place.integer) {
+    // A skip before the first visit is a zero; a miscount may be at any visit.
+    for (const SystemPlace& own : system.places) {
+      if (own.ordered) result.push_back(own.order);
+    }
+    if (!cause.effect->at_one_visit && !result.empty()) result.erase(result.begin());
+    return result;
+  }
+  if (place.upper - place.lower >= 2.0 * std::numbers::pi) {
+    for (int k = 0; k < kPlaces; ++k) result.push_back(2.0 * std::numbers::pi * k / kPlaces);
+    return result;
+  }
+  std::vector<double> angles;
+  for (const SystemPlace& own : system.places) {
+    const auto side = cause.side == EffectSide::left ? model::Side::left : model::Side::right;
+    angles.push_back(own.reading.pose.chains[side].angle_rad);
+  }
+  std::sort(angles.begin(), angles.end());
+  const auto last = static_cast<double>(angles.size() - 1);
+  for (int k = 0; k < kPlaces; ++k) {
+    const double at = last * k / kPlaces;
+    const auto below = static_cast<std::size_t>(at);
+    result.push_back(angles[below] + (at - std::floor(at)) * (angles[below + 1] - angles[below]));
+  }
+  return result;
+}
+
+/// The coefficient's power: how the signature grows from half the size to the whole one.
+double power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half) {
+  const double ratio = whole.norm() / std::max(half.norm(), 1e-300);
+  return std::max(1.0, std::round(std::log2(ratio)));
+}
+
+constexpr double kNearby = 0.95;  // of a size: far enough for differences, near enough for a slope
+
+/// The same about a size that was found. A signature that hardly grows any more leaves its size
+/// open; one that shrinks again has no power.
+double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby) {
+  const double ratio = whole.dot(nearby) / whole.squaredNorm();
+  return std::clamp(std::log(std::max(ratio, 1e-3)) / std::log(kNearby), 0.2, 4.0);
+}
+
+/// Goes on through zero as a straight line, where an odd effect changes its sign.
+bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
+
+void limit(Regressor& regressor) {
+  const EffectParameter& size = size_parameter(*regressor.cause.effect);
+  const double at = regressor.values.front();
+  const auto coefficient = [&](double bound) {
+    const double ratio = bound / at;
+    return ratio < 0.0 ? -std::pow(-ratio, regressor.power) : std::pow(ratio, regressor.power);
+  };
+  const double a = coefficient(size.lower);
+  const double b = coefficient(size.upper);
+  regressor.lowest = std::min(a, b);
+  regressor.highest = std::max(a, b);
+}
+
+struct Column {
+  Regressor regressor;
+  Eigen::VectorXd g;
+};
+
+class Builder {
+ public:
+  Builder(const Session& session, const State& state, const LinearisedSystem& system)
+      : session_(session), state_(state), system_(system) {}
+
+  void add(CauseId cause, const std::vector<Refinement>& refinements) {
+    std::vector<double> values = model::effects::nominal_values(*cause.effect);
+    refined_ = false;
+    for (const Refinement& r : refinements) {
+      if (!(r.cause == cause)) continue;
+      values.front() = r.values.front();
+      refined_ = true;
+    }
+    if (size_parameter(*cause.effect).integer) {
+      add_links(cause, values);
+    } else if (place_parameter(*cause.effect) == nullptr) {
+      add_one(cause, values, std::log(share_of_side(cause)));
+    } else {
+      const std::vector<double> where = places(system_, cause);
+      const double share = std::log(share_of_side(cause) / static_cast<double>(where.size()));
+      for (const double place : where) {
+        values.back() = place;
+        add_one(cause, values, share);
+      }
+      for (const Refinement& r : refinements) {
+        if (r.cause == cause) add_one(cause, r.values, share);
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<Column>& columns() { return columns_; }
+
+ private:
+  [[nodiscard]] static double share_of_side(CauseId cause) {
+    return 1.0 / static_cast<double>(cause.effect->sides.size());
+  }
+
+  void add_one(CauseId cause, const std::vector<double>& values, double log_prior) {
+    auto g = signature(session_, state_, system_, cause, values);
+    if (!g || !(g->norm() > 0.0)) return;
+    std::vector<double> smaller = values;
+    smaller.front() *= refined_ ? kNearby : 0.5;
+    const auto half = signature(session_, state_, system_, cause, smaller);
+    if (!half) return;
+    Regressor regressor;
+    regressor.cause = cause;
+    regressor.values = values;
+    regressor.power = refined_ ? power_about(*g, *half) : power_of(*g, *half);
+    regressor.log_prior = log_prior;
+    regressor.refined = refined_;
+    limit(regressor);
+    columns_.push_back({std::move(regressor), std::move(*g)});
+  }
+
+  void add_links(CauseId cause, std::vector<double> values) {
+    const std::vector<double> where = places(system_, cause);
+    for (const double place : where) {
+      values.back() = place;
+      for (int links = -kMostLinks; links <= kMostLinks; ++links) {
+        if (links == 0) continue;
+        values.front() = links;
+        auto g = signature(session_, state_, system_, cause, values);
+        if (!g || !(g->norm() > 0.0)) continue;
+        Regressor regressor;
+        regressor.cause = cause;
+        regressor.values = values;
+        regressor.fixed = true;
+        regressor.slip = cause.effect->at_one_visit;
+        regressor.lowest = regressor.highest = 1.0;
+        regressor.visits = static_cast<double>(where.size());
+        columns_.push_back({std::move(regressor), std::move(*g)});
+      }
+    }
+  }
+
+  const Session& session_;
+  const State& state_;
+  const LinearisedSystem& system_;
+  std::vector<Column> columns_;
+  bool refined_ = false;
+};
+
+/// Why none of the observations can show this cause; empty where one can.
+std::string untestable(const Session& session, CauseId cause) {
+  std::string reason;
+  for (const SessionPart& part : session.parts) {
+    if (!part.observation->may_slip()) continue;
+    const std::string own = part.observation->untestable(*cause.effect, cause.side);
+    if (own.empty()) return "";
+    if (reason.empty()) reason = own;
+  }
+  return reason;
+}
+
+}  // namespace
+
+Candidates candidates(const Session& session) {
+  Candidates result;
+  for (const Effect* effect : model::effects::catalogue()) {
+    for (const EffectSide side : effect->sides) {
+      const CauseId cause{effect, side};
+      model::Machine machine =
+          with_effect(session.stated, cause, model::effects::nominal_values(*effect));
+      const auto problems = model::effects::problems_of_effects(machine);
+      const std::string reason = untestable(session, cause);
+      if (!reason.empty()) {
+        result.not_testable.push_back({cause, reason});
+      } else if (!problems.empty()) {
+        result.not_testable.push_back({cause, problems.front().expected});
+      } else {
+        result.testable.push_back(cause);
+      }
+    }
+  }
+  return result;
+}
+
+std::optional<Eigen::VectorXd> signature(const Session& session,
+                                         const State& state,
+                                         const LinearisedSystem& system,
+                                         CauseId cause,
+                                         const std::vector<double>& values) {
+  if (cause.effect->add != nullptr || cause.effect->misread != nullptr) {
+    return added(system, state.machine.sprocket, cause, values);
+  }
+  const model::Machine machine = with_effect(state.machine, cause, values);
+  if (!model::effects::problems_of_effects(machine).empty()) return std::nullopt;
+  const auto with = predicted(session, state, machine);
+  const auto without = predicted(session, state, state.machine);
+  if (!with || !without) return std::nullopt;
+  return whitened(system, *with - *without);
+}
+
+void add_regressors(const Session& session,
+                    const State& state,
+                    const std::vector<CauseId>& causes,
+                    const std::vector<Refinement>& refinements,
+                    LinearisedSystem& system) {
+  Builder builder(session, state, system);
+  for (const CauseId& cause : causes) builder.add(cause, refinements);
+  const auto count = static_cast<Eigen::Index>(builder.columns().size());
+  system.g.resize(session.rows, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    Column& column = builder.columns()[static_cast<std::size_t>(k)];
+    system.g.col(k) = column.g;
+    system.regressors.push_back(std::move(column.regressor));
+  }
+}
+
+bool renew_regressors(const Session& session,
+                      const State& state,
+                      const std::vector<Regressor>& regressors,
+                      LinearisedSystem& system) {
+  system.regressors = regressors;
+  system.g.resize(session.rows, static_cast<Eigen::Index>(regressors.size()));
+  for (std::size_t k = 0; k < regressors.size(); ++k) {
+    Regressor& d = system.regressors[k];
+    const auto g = signature(session, state, system, d.cause, d.values);
+    if (!g || !(g->norm() > 0.0)) return false;
+    system.g.col(static_cast<Eigen::Index>(k)) = *g;
+    if (d.fixed) continue;
+    std::vector<double> nearby = d.values;
+    nearby.front() *= kNearby;
+    const auto there = signature(session, state, system, d.cause, nearby);
+    if (!there) return false;
+    d.power = power_about(*g, *there);
+    d.refined = true;
+    limit(d);
+  }
+  return true;
+}
+
+double size_at(const Regressor& regressor, double coefficient) {
+  const double at = regressor.values.front();
+  if (regressor.fixed) return at;
+  if (coefficient <= 0.0) return is_odd(regressor) ? at * coefficient : 0.0;
+  return at * std::pow(coefficient, 1.0 / regressor.power);
+}
+
+double size_slope(const Regressor& regressor, double coefficient) {
+  if (regressor.fixed) return 0.0;
+  const double at = regressor.values.front();
+  if (coefficient <= 0.0 && is_odd(regressor)) return at;
+  const double c = std::max(coefficient, 1e-6);
+  return at / regressor.power * std::pow(c, 1.0 / regressor.power - 1.0);
+}
+
+}  // namespace chaintrue::grid::diagnosis

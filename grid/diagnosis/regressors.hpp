@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Every effect of the catalogue as columns of a linearised system, at every place where it may set
+/// in.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/diagnosis/linearised_system.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Effects that these data can never show, each with its reason.
+struct Candidates {
+  std::vector<CauseId> testable;
+  std::vector<NotTestable> not_testable;
+};
+/// An effect that one of the observations can show is testable.
+[[nodiscard]] Candidates candidates(const Session& session);
+
+/// Sizes at which secants are taken where the usual one is not wanted, and extra places.
+struct Refinement {
+  CauseId cause;
+  std::vector<double> values;
+  double log_prior = 0.0;
+};
+
+/// Appends the regressors of all these causes.
+void add_regressors(const Session& session,
+                    const State& state,
+                    const std::vector<CauseId>& causes,
+                    const std::vector<Refinement>& refinements,
+                    LinearisedSystem& system);
+
+/// Regressors anew about another state, at their values. False where such a machine cannot be.
+[[nodiscard]] bool renew_regressors(const Session& session,
+                                    const State& state,
+                                    const std::vector<Regressor>& regressors,
+                                    LinearisedSystem& system);
+
+/// The whitened column of an effect of these values; empty where such a machine cannot be.
+[[nodiscard]] std::optional<Eigen::VectorXd> signature(const Session& session,
+                                                       const State& state,
+                                                       const LinearisedSystem& system,
+                                                       CauseId cause,
+                                                       const std::vector<double>& values);
+
+/// Size of a cause at a coefficient of its regressor.
+[[nodiscard]] double size_at(const Regressor& regressor, double coefficient);
+/// d(size)/d(coefficient) there.
+[[nodiscard]] double size_slope(const Regressor& regressor, double coefficient);
+
+}  // namespace chaintrue::grid::diagnosis

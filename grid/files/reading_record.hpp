@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// `readings` of the machine itself in a file of points or of holes. Private to grid/files.
+#pragma once
+
+#include "grid/files/json_reader.hpp"
+#include "grid/measured_grid.hpp"
+
+namespace chaintrue::grid::files {
+
+[[nodiscard]] const Record<ExtraReading>& reading_record();
+
+}  // namespace chaintrue::grid::files

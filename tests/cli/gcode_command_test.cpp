@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue gcode as a person runs it: what is written, what is not, and what is said.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/cli/command_fixture.hpp"
+
+namespace chaintrue::testing_support {
+namespace {
+
+using testing::HasSubstr;
+
+class GcodeCommand : public CommandFixture {
+ protected:
+  void SetUp() override {
+    if (std::string(CHAINTRUE_COMMAND).empty()) GTEST_SKIP() << "the command is not built";
+    CommandFixture::SetUp();
+    ASSERT_EQ(run("fit " CHAINTRUE_FIXTURES "/grids/seven_by_four.json -o map.json").code, 0);
+  }
+  static std::string part() { return CHAINTRUE_FIXTURES "/gcode/bracket.nc"; }
+};
+
+TEST_F(GcodeCommand, CompensateSaysThatItRanItsOutput) {
+  for (const char* controller : {"maslow_classic", "holey", "fluidnc_wallplotter", "ideal"}) {
+    const std::string options = std::string(" --map map.json --controller ") + controller;
+    const Outcome outcome = run("gcode compensate " + part() + options + " -o out.nc");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(std::string("run on a simulated ") + controller));
+    EXPECT_THAT(outcome.err, HasSubstr("tolerance 0.05 mm"));
+    EXPECT_EQ(run("gcode verify " + part() + " out.nc" + options).code, 0);
+    std::filesystem::remove(folder_ / "out.nc");
+  }
+}
+
+TEST_F(GcodeCommand, VerifyNamesTheFirstFault) {
+  ASSERT_EQ(run("gcode compensate " + part() + " --map map.json -o out.nc").code, 0);
+  std::string text = content_of(folder_ / "out.nc");
+  const std::size_t cut = text.find("\nG1 X");
+  write("bad.nc", text.replace(cut, 4, "\nG0 "));
+  const Outcome outcome = run("gcode verify " + part() + " bad.nc --map map.json");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("does not hold"));
+  EXPECT_THAT(outcome.out, HasSubstr("the first fault: line"));
+  const Outcome json = run("gcode verify " + part() + " bad.nc --map map.json --json");
+  EXPECT_EQ(json.code, 1);
+  EXPECT_THAT(json.out, HasSubstr("\"holds\": false"));
+  EXPECT_THAT(json.out, HasSubstr("moves at a rapid where"));
+}
+
+TEST_F(GcodeCommand, BadProgramsLeaveNothing) {
+  write("bad.nc", "G21 G90\nF900 G1 X10\nM98 P7 L2.7\n");
+  const Outcome outcome = run("gcode compensate bad.nc --map map.json -o out.nc --report r.html");
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("bad.nc: line 3, column 8: L, a count or a kind, is a whole"));
+  EXPECT_FALSE(exists("out.nc"));
+  EXPECT_FALSE(exists("r.html"));
+}
+
+TEST_F(GcodeCommand, CheckSaysWhatTheControllerCannotFollow) {
+  write("part.nc",
+        "G21 G90\nF1500 G0 X0 Y0\nG64 P0.1\nG1 X0.1\nG1 X0.2\nG2 X20 Y0.5 R400\nG18 G2 X30 I5 K0\nM2\n");
+  const Outcome classic = run("gcode check part.nc --controller maslow_classic");
+  EXPECT_EQ(classic.code, 0) << classic.err;
+  EXPECT_THAT(classic.err, HasSubstr("line 3: note: maslow_classic passes over, in silence, G64"));
+  EXPECT_THAT(classic.err, HasSubstr("line 4: note: maslow_classic takes at least 10 ms for a move"));
+  EXPECT_THAT(classic.err, HasSubstr("line 6: note: maslow_classic cuts an arc of less than 0.08 rad"));
+  EXPECT_THAT(classic.err, HasSubstr("line 7: note: maslow_classic knows arcs in X and Y only"));
+  const Outcome fluidnc = run("gcode check part.nc --controller fluidnc_wallplotter");
+  EXPECT_THAT(fluidnc.err, HasSubstr("line 3: note: fluidnc_wallplotter stops with an error at G64"));
+  EXPECT_THAT(fluidnc.err, HasSubstr("line 4: note: fluidnc_wallplotter plans 16 moves ahead"));
+  EXPECT_THAT(run("gcode check part.nc").err, testing::Not(HasSubstr("maslow_classic")));
+}
+
+TEST_F(GcodeCommand, TheReportSaysWhetherTheFileIsSafe) {
+  ASSERT_EQ(run("gcode compensate " + part() + " --map map.json -o out.nc --report r.html").code, 0);
+  EXPECT_THAT(content_of(folder_ / "r.html"), HasSubstr("The file is safe to run: on a simulated"));
+  ASSERT_EQ(run("gcode compensate " + part() +
+                " --map map.json -o out.nc --report r.html --no-verify").code, 0);
+  EXPECT_THAT(content_of(folder_ / "r.html"), HasSubstr("is not known"));
+}
+
+}  // namespace
+}  // namespace chaintrue::testing_support

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Programs at random, as a CAM program, a person and a hostile third would write them; and
+/// machines that differ from what their controllers believe.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <string>
+
+#include "tools/gcode/corrector.hpp"
+
+namespace chaintrue::gcode::testing_support {
+
+/// Lines, arcs of every form, plane and size from 0.01 mm to half a metre, helices, rapids, heights,
+/// drilling cycles, inches, steps, inverse time, moves of a few micrometres, words.
+/// The path stays within 1000 mm of the middle in X and 480 mm in Y.
+[[nodiscard]] std::string random_program(std::mt19937_64& random);
+
+/// The machine as it is, as the target of G-code.
+class TrueMachine final : public TargetMap {
+ public:
+  explicit TrueMachine(const model::Machine& machine)
+      : kinematics_(model::make_controller_kinematics(machine)) {}
+  [[nodiscard]] tl::expected<model::ChainLengths, TargetFailure> lengths(
+      model::BedPoint point) const override;
+  [[nodiscard]] tl::expected<TargetAnswer, TargetFailure> query(
+      model::BedPoint point) const override;
+  [[nodiscard]] TargetStatus status(model::BedPoint) const override { return TargetStatus::inside; }
+  [[nodiscard]] tl::expected<model::BedPoint, TargetFailure> tool(
+      model::ChainLengths lengths) const override;
+  [[nodiscard]] BedRectangle bounds() const override { return {-1219.2, 1219.2, -609.6, 609.6}; }
+
+ private:
+  std::unique_ptr<const model::ControllerKinematics> kinematics_;
+};
+
+/// One case of the law: a program, a machine, a controller and a tolerance.
+struct LawCase {
+  explicit LawCase(std::uint64_t seed);
+  std::string program;
+  double tolerance_mm = 0.05;
+  model::Machine believed;
+  std::unique_ptr<TrueMachine> map;
+  std::unique_ptr<const model::ControllerKinematics> kinematics;
+  std::unique_ptr<Corrector> corrector;
+};
+
+/// Empty where the law holds for the case of this seed: what compensate accepts, verify proves, and
+/// a path that was moved by 1.5 tolerances it refuses. Otherwise what went wrong, program included.
+/// \param accepted counts the programs that compensate took.
+[[nodiscard]] std::string broken_law(std::uint64_t seed, int& accepted);
+
+}  // namespace chaintrue::gcode::testing_support

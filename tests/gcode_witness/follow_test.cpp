@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Compensated files on a simulated machine, judged by a follower that knows nothing of tools/gcode;
+/// and that follower itself against LinuxCNC's stored moves and against distances known in closed
+/// form.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/gcode_witness/follower/path_distance.hpp"
+#include "tests/gcode_witness/follower/program_path.hpp"
+#include "tests/gcode_witness/support/canonical.hpp"
+#include "tests/gcode_witness/support/follow_run.hpp"
+#include "tests/gcode_witness/support/records.hpp"
+
+namespace chaintrue::witness {
+namespace {
+
+using follower::Place;
+using follower::within;
+
+TEST(Follower, CompensatedProgramsKeepToTheirPathsAndVerifySaysSo) {
+  FollowOptions options;
+  const FollowRun run = follow(CHAINTRUE_FIXTURES, options);
+  for (const std::string& failure : run.failures) ADD_FAILURE() << failure;
+  EXPECT_EQ(run.failed, 0U) << "of " << run.programs << " programs, seeds from "
+                            << options.first_seed;
+  EXPECT_GE(run.compensated * 10, run.programs * 8) << "programs that are refused prove nothing";
+  EXPECT_GE(run.judged_moved, run.compensated);  // two of each, where it has three commands
+}
+
+TEST(PathDistance, IsThatOfParallelLines) {
+  const std::vector<Place> a = {{0, 0, 0}, {10, 0, 0}};
+  const std::vector<Place> b = {{0, 2, 0}, {3, 2, 0}, {10, 2, 0}};
+  EXPECT_TRUE(within(a, b, 2.0 + 1e-12));
+  EXPECT_FALSE(within(a, b, 2.0 - 1e-12));
+}
+
+/// Where one path goes back and the other does not, half the way back is the distance.
+TEST(PathDistance, CountsWayBack) {
+  const std::vector<Place> a = {{0, 0, 0}, {10, 0, 0}};
+  const std::vector<Place> b = {{0, 0, 0}, {7, 0, 0}, {3, 0, 0}, {10, 0, 0}};
+  EXPECT_TRUE(within(a, b, 2.0 + 1e-9));
+  EXPECT_FALSE(within(a, b, 2.0 - 1e-9));
+  EXPECT_NEAR(follower::path_distance_mm(a, b, 100.0), 2.0, 0.005);  // a part in 500
+}
+
+TEST(PathDistance, SeesATurnThatIsMissing) {
+  std::vector<Place> once;
+  std::vector<Place> twice;
+  for (int i = 0; i <= 720; ++i) {
+    const double angle = i * std::numbers::pi / 180.0;
+    const Place place{5.0 * std::cos(angle), 5.0 * std::sin(angle), 0.0};
+    twice.push_back(place);
+    if (i <= 360) once.push_back(place);
+  }
+  EXPECT_TRUE(within(twice, twice, 1e-9));
+  EXPECT_FALSE(within(once, twice, 4.0));
+  // Waiting anywhere on the circle while the other goes round: nothing is farther than its diameter.
+  EXPECT_TRUE(within(once, twice, 10.0));
+}
+
+TEST(PathDistance, IsSymmetricAndOrdered) {
+  const std::vector<Place> a = {{0, 0, 0}, {4, 1, 0}, {8, -1, 2}, {12, 0, 0}};
+  const std::vector<Place> b = {{0, 1, 0}, {5, 2, 1}, {11, 0, 0}};
+  const std::vector<Place> back(b.rbegin(), b.rend());
+  const double there = follower::path_distance_mm(a, b, 100.0);
+  EXPECT_NEAR(there, follower::path_distance_mm(b, a, 100.0), 0.004 * there);  // a part in 500, twice
+  EXPECT_GT(follower::path_distance_mm(a, back, 100.0), 10.0);
+}
+
+/// Places of a truth: the ends of its straight moves and arcs.
+std::vector<Place> ends(const Answer& truth) {
+  std::vector<Place> result;
+  for (const Call& call : truth.calls) {
+    if (call.kind == "RAPID" || call.kind == "FEED" || call.kind == "ARC") result.push_back(call.to);
+  }
+  return result;
+}
+
+TEST(Follower, EndsItsMovesWhereLinuxCncDoes) {
+  const std::string folder = std::string(CHAINTRUE_FIXTURES) + "/gcode/corpus/";
+  const auto programs = read_records(read_file(folder + "follower.records"));
+  const auto truths = read_records(read_file(folder + "follower.canon"));
+  EXPECT_GE(programs.size(), 100U);
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    SCOPED_TRACE(programs[i].name + ":\n" + programs[i].text);
+    const Answer truth = read_truth(truths[i].text);
+    ASSERT_TRUE(truth.accepted);
+    std::vector<Place> reached;
+    for (const auto& piece : follower::program_path(programs[i].text))
+      reached.push_back(piece.places.back());
+    const auto expected = ends(truth);
+    ASSERT_EQ(reached.size(), expected.size());
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      // As for our own interpreter: nine decimals through inches.
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(reached[k][axis], expected[k][axis], 1e-6) << "move " << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue::witness

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Words of a line: letters and the values of their expressions (NISTIR 6556, section 3.3).
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace chaintrue::follower {
+
+struct Line {
+  std::vector<int> g;  ///< codes in tenths
+  std::vector<int> m;
+  std::map<char, double> words;
+  [[nodiscard]] bool has(char letter) const { return words.contains(letter); }
+  [[nodiscard]] double value(char letter, double otherwise) const {
+    const auto word = words.find(letter);
+    return word == words.end() ? otherwise : word->second;
+  }
+};
+
+/// Reads lines and keeps the numbered parameters.
+class Reader {
+ public:
+  /// \throws std::runtime_error where the line is not understood.
+  [[nodiscard]] Line read(const std::string& raw);
+
+ private:
+  [[nodiscard]] double real();
+  [[nodiscard]] double expression();
+  [[nodiscard]] double operand(int precedence);
+  [[nodiscard]] double function();
+  [[nodiscard]] std::string next_operator(int precedence);
+  [[nodiscard]] bool accept(const std::string& text);
+  [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+
+  std::string text_;
+  std::size_t at_ = 0;
+  std::map<int, double> parameters_;
+};
+
+}  // namespace chaintrue::follower

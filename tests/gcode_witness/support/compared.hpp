@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Random programs through both interpreters, differences reduced to small programs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/gcode_witness/support/canonical.hpp"
+#include "tests/gcode_witness/support/linuxcnc.hpp"
+
+namespace chaintrue::witness {
+
+struct LanguageRun {
+  std::size_t accepted = 0;   ///< by LinuxCNC
+  std::size_t different = 0;
+  /// Seed, small program and difference, of the first few.
+  std::vector<std::string> failures;
+};
+
+/// Our answer, with a budget of steps that ends endless programs soon.
+[[nodiscard]] Answer limited(const std::string& program);
+
+/// Seeds from the first on; asks LinuxCNC.
+[[nodiscard]] LanguageRun compare_language(std::uint64_t first_seed,
+                                           std::uint64_t count,
+                                           std::size_t most_reduced);
+
+}  // namespace chaintrue::witness

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Random programs, compensated, judged by verify and by the follower that shares no line with it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace chaintrue::witness {
+
+struct FollowRun {
+  std::size_t programs = 0;
+  std::size_t compensated = 0;  ///< the others are refused, for instance because they leave the bed
+  std::size_t judged_moved = 0; ///< outputs that were moved by 1.5 tolerances, and outputs that lost a line
+  std::size_t failed = 0;
+  /// Of the first few: seed, controller, tolerance, what went wrong, and a small program that shows it.
+  std::vector<std::string> failures;
+};
+
+struct FollowOptions {
+  std::uint64_t first_seed = 1;
+  std::uint64_t count = 300;
+  std::size_t most_told = 5;
+  /// 0 of 1, or a share of the seeds for one of several processes.
+  std::uint64_t share = 0;
+  std::uint64_t shares = 1;
+};
+
+/// For every program that compensate accepts, at a random tolerance from 0.005 to 1 mm and for each
+/// controller in turn:
+///   the tool follows the path within the tolerance (follower), and verify holds;
+///   the output with one command moved across the path by 1.5 tolerances fails both;
+///   the output without one of its moves is judged alike by both, but for a band about the tolerance.
+[[nodiscard]] FollowRun follow(const std::string& fixtures, const FollowOptions& options);
+
+}  // namespace chaintrue::witness

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/gcode_witness/support/linuxcnc.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+
+#include <unistd.h>
+
+namespace chaintrue::witness {
+namespace {
+
+/// A folder of our own, gone at the end.
+class Scratch {
+ public:
+  Scratch() {
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "chaintrue_witness_XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr)
+      throw std::runtime_error(fmt::format("no folder {} can be made", pattern));
+    path_ = pattern;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] std::string file(const char* name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string root() {
+  if (const char* stated = std::getenv("RS274_ROOT"); stated != nullptr) return stated;
+  const std::filesystem::path unpacked = CHAINTRUE_RS274_UNPACKED;
+  return std::filesystem::exists(unpacked / "usr/bin/rs274") ? unpacked.string() : "";
+}
+
+int run(const std::string& programs, const std::string& truth) {
+  const std::string command = fmt::format("RS274_ROOT='{}' python3 '{}' < '{}' > '{}' 2> '{}.log'",
+                                          root(),
+                                          CHAINTRUE_LINUXCNC_MOVES,
+                                          programs,
+                                          truth,
+                                          truth);
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string look() {
+  const Scratch scratch;
+  write_file(scratch.file("in"), "=== there 0\n\n");
+  if (run(scratch.file("in"), scratch.file("out")) == 0 &&
+      read_file(scratch.file("out")).find("ACCEPTED") != std::string::npos) {
+    return {};
+  }
+  return "LinuxCNC's interpreter is not here: run tests/gcode_witness/unpack_interpreter, which "
+         "unpacks Debian's linuxcnc-uspace into build/rs274, or set RS274_ROOT";
+}
+
+}  // namespace
+
+const std::string& linuxcnc_missing() {
+  static const std::string missing = look();
+  return missing;
+}
+
+std::vector<Record> ask_linuxcnc(const std::vector<Record>& programs) {
+  if (programs.empty()) return {};
+  const Scratch scratch;
+  write_file(scratch.file("in"), write_records(programs));
+  const int code = run(scratch.file("in"), scratch.file("out"));
+  if (code != 0) {
+    throw std::runtime_error(fmt::format("linuxcnc_moves.py ended with {}: {}",
+                                         code,
+                                         read_file(scratch.file("out") + ".log")));
+  }
+  auto answers = read_records(read_file(scratch.file("out")));
+  if (answers.size() != programs.size())
+    throw std::runtime_error("linuxcnc_moves.py did not answer every program");
+  return answers;
+}
+
+}  // namespace chaintrue::witness

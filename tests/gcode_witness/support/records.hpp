@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Programs and answers by the bundle: `=== NAME BYTES`, a line feed, that many bytes, a line feed.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace chaintrue::witness {
+
+struct Record {
+  std::string name;
+  std::string text;
+};
+
+[[nodiscard]] std::string write_records(const std::vector<Record>& records);
+/// \throws std::runtime_error where the text is no bundle.
+[[nodiscard]] std::vector<Record> read_records(std::string_view text);
+
+/// A whole file. \throws std::runtime_error where it cannot be read.
+[[nodiscard]] std::string read_file(const std::string& path);
+void write_file(const std::string& path, std::string_view text);
+
+}  // namespace chaintrue::witness

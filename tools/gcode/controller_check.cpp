@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Codes, arcs and short moves against a controller's table.
+#include "tools/gcode/controller_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/gcode/path.hpp"
+
+namespace chaintrue::gcode {
+
+void ControllerCheck::Seen::see(std::size_t where, double size) {
+  if (count++ == 0) line = where;
+  worst = std::max(worst, size);
+}
+
+void ControllerCheck::code(std::size_t line, char letter, int tenths) {
+  if (knows_code(firmware_, letter, tenths)) return;
+  unknown_[letter == 'G' ? g_name(tenths) : fmt::format("M{}", tenths / 10)].see(line);
+}
+
+Result<void> ControllerCheck::move(const Move& move) {
+  if (move.kind == MoveKind::rapid) return {};
+  const double length = length_mm(move);
+  if (move.arc) {
+    const Arc& arc = *move.arc;
+    const double sweep = std::fabs(arc.sweep_rad);
+    if (sweep < firmware_.straight_arc_rad) {
+      straight_arcs_.see(move.line, arc.start_radius_mm * (1.0 - std::cos(0.5 * sweep)));
+    }
+    const bool upright = arc.first.z_mm != 0.0 || arc.second.z_mm != 0.0;
+    if (upright && !knows_code(firmware_, 'G', 180)) upright_arcs_.see(move.line);
+    return {};
+  }
+  const double feed =
+      move.feed.mode == FeedMode::inverse_time ? length * move.feed.value : move.feed.value;
+  const double speed_mm_per_s = feed / 60.0;
+  if (length == 0.0) return {};
+  if (firmware_.tick_s > 0.0 && length < speed_mm_per_s * firmware_.tick_s) {
+    short_ticks_.see(move.line);
+  }
+  // The way to stop from the feed has to lie within the moves that are planned.
+  const double stop_mm =
+      firmware_.acceleration_mm_per_s2 > 0.0
+          ? speed_mm_per_s * speed_mm_per_s / (2.0 * firmware_.acceleration_mm_per_s2)
+          : 0.0;
+  if (length * firmware_.planned_moves < stop_mm) short_plans_.see(move.line, feed);
+  return {};
+}
+
+Result<void> ControllerCheck::end(std::size_t /*line*/, std::string_view /*word*/) {
+  const auto add = [&](const Seen& seen, std::string_view name, std::string sentence) {
+    if (seen.count == 0) return;
+    if (seen.count > 1) sentence += fmt::format(" ({} lines)", seen.count);
+    findings_.add(Note{seen.line, name, std::move(sentence)});
+  };
+  for (const auto& [code, seen] : unknown_) {
+    add(seen, "code_not_known", fmt::format("{} {} {}", firmware_.name, firmware_.unknown, code));
+  }
+  add(straight_arcs_,
+      "arc_cut_straight",
+      fmt::format("{} cuts an arc of less than {} rad as a straight line, here up to {:.3f} mm "
+                  "beside it; the compensated file holds no arcs",
+                  firmware_.name,
+                  firmware_.straight_arc_rad,
+                  straight_arcs_.worst));
+  add(upright_arcs_,
+      "arc_plane_not_known",
+      fmt::format("{} knows arcs in X and Y only and would cut this one there; the compensated "
+                  "file holds no arcs",
+                  firmware_.name));
+  add(short_ticks_,
+      "shorter_than_a_tick",
+      fmt::format("{} takes at least {:g} ms for a move: these are shorter than the way of that "
+                  "time at their feed, so the tool is slower there",
+                  firmware_.name,
+                  1000.0 * firmware_.tick_s));
+  add(short_plans_,
+      "shorter_than_the_plan",
+      fmt::format("{} plans {} moves ahead: these are so short that it cannot stop within them "
+                  "from F{:g} at {:g} mm/s^2, its default, so the tool is slower there",
+                  firmware_.name,
+                  firmware_.planned_moves,
+                  short_plans_.worst,
+                  firmware_.acceleration_mm_per_s2));
+  return {};
+}
+
+}  // namespace chaintrue::gcode

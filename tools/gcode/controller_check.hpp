@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a controller, as it is sold, cannot follow in a program that is sent to it as it is.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "tools/gcode/compensator.hpp"
+
+namespace chaintrue::gcode {
+
+/// Run a program with it as the sink; the notes are made at the program's end, each with its first
+/// line and how often it applies.
+class ControllerCheck final : public Sink {
+ public:
+  /// Keeps the references.
+  ControllerCheck(const Firmware& firmware, Findings& findings)
+      : firmware_(firmware), findings_(findings) {}
+
+  [[nodiscard]] bool wants_codes() const override { return true; }
+  void code(std::size_t line, char letter, int tenths) override;
+  Result<void> move(const Move& move) override;
+  Result<void> end(std::size_t line, std::string_view word) override;
+
+ private:
+  struct Seen {
+    std::size_t line = 0;
+    std::size_t count = 0;
+    double worst = 0.0;
+    void see(std::size_t where, double size = 0.0);
+  };
+
+  const Firmware& firmware_;
+  Findings& findings_;
+  std::map<std::string, Seen> unknown_;
+  Seen straight_arcs_;
+  Seen upright_arcs_;
+  Seen short_ticks_;
+  Seen short_plans_;
+};
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Words: which code uses which, which take whole numbers, and those that pass through.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "tools/gcode/interpreter.hpp"
+#include "tools/gcode/word_text.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+/// LinuxCNC takes a value for a whole number when it is this near to one.
+constexpr double kWhole = 0.0001;
+
+char upper(char letter) { return static_cast<char>(letter - 'a' + 'A'); }
+
+bool one_of(int value, std::initializer_list<int> list) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+int tenths(const GCode* code) { return code == nullptr ? -1 : code->tenths; }
+int number(const MCode* code) { return code == nullptr ? -1 : code->number; }
+
+/// How many of a line's codes use a word of this letter. With two, what it means depends on the
+/// controller.
+struct WordUse {
+  char letter;
+  int (*users)(const Block&, int motion);
+  const char* codes;
+};
+
+int g64(const Block& b) { return b.is(GGroup::path_control, 640) ? 1 : 0; }
+bool m98(const Block& b) { return number(b.code(MGroup::flow)) == 98; }
+
+constexpr WordUse kWordUses[] = {
+    {'d',
+     [](const Block& b, int) { return one_of(tenths(b.code(GGroup::cutter)), {410, 420}) ? 1 : 0; },
+     "G41 or G42"},
+    {'e',
+     [](const Block& b, int) { return one_of(number(b.code(MGroup::output)), {67, 68}) ? 1 : 0; },
+     "M67 or M68"},
+    {'h', [](const Block& b, int) { return b.is(GGroup::tool_length, 430) ? 1 : 0; }, "G43"},
+    {'i', [](const Block&, int m) { return is_arc(m) || m == 870 ? 1 : 0; }, "G2, G3 or G87"},
+    {'j', [](const Block&, int m) { return is_arc(m) || m == 870 ? 1 : 0; }, "G2, G3 or G87"},
+    {'k', [](const Block&, int m) { return is_arc(m) || m == 870 ? 1 : 0; }, "G2, G3 or G87"},
+    {'l',
+     [](const Block& b, int m) {
+       return (is_cycle(m) ? 1 : 0) + (b.is(GGroup::once, 100) ? 1 : 0) + (m98(b) ? 1 : 0);
+     },
+     "G10, M98 or a canned cycle"},
+    {'p',
+     [](const Block& b, int m) {
+       const bool motion = is_arc(m) || one_of(m, {820, 840, 860, 880, 890});
+       const bool once = one_of(tenths(b.code(GGroup::once)), {40, 100});
+       const bool output = one_of(number(b.code(MGroup::output)), {62, 63, 64, 65});
+       const bool override_code = one_of(number(b.code(MGroup::override)), {50, 51, 52, 53});
+       return (motion ? 1 : 0) + (once ? 1 : 0) + g64(b) + (output ? 1 : 0) +
+              (override_code ? 1 : 0) + (m98(b) ? 1 : 0);
+     },
+     "G2, G3, G4, G10, G64, G82, G84, G86, G88, G89, M50-M53, M62-M65 or M98"},
+    {'q',
+     [](const Block& b, int m) {
+       return (one_of(m, {730, 830}) ? 1 : 0) + g64(b) +
+              (number(b.code(MGroup::tool)) == 61 ? 1 : 0) +
+              (one_of(number(b.code(MGroup::output)), {67, 68}) ? 1 : 0);
+     },
+     "G64, G73, G83, M61, M67 or M68"},
+    {'r',
+     [](const Block& b, int m) {
+       return is_arc(m) || is_cycle(m) || b.is(GGroup::once, 100) ? 1 : 0;
+     },
+     "G2, G3, G10 or a canned cycle"},
+};
+
+/// Words that count or number something.
+struct WholeWord {
+  char letter;
+  bool (*counts)(const Block&);
+  const char* what;
+};
+
+constexpr WholeWord kWholeWords[] = {
+    {'t', [](const Block&) { return true; }, "T, a tool's number, is"},
+    {'d', [](const Block&) { return true; }, "D, a tool's number, is"},
+    {'h', [](const Block&) { return true; }, "H, the number of a tool's length, is"},
+    {'l', [](const Block&) { return true; }, "L, a count or a kind, is"},
+    {'p', [](const Block& b) { return m98(b); }, "P, the number of the program that M98 calls, is"},
+    {'p',
+     [](const Block& b) { return one_of(number(b.code(MGroup::output)), {62, 63, 64, 65}); },
+     "P, the number of an output, is"},
+    {'e',
+     [](const Block& b) { return one_of(number(b.code(MGroup::output)), {67, 68}); },
+     "E, the number of an output, is"},
+    {'q',
+     [](const Block& b) { return number(b.code(MGroup::tool)) == 61; },
+     "Q of M61, a tool's number, is"},
+};
+
+Result<void> check_whole(const Block& block) {
+  for (const WholeWord& word : kWholeWords) {
+    if (!block.has(word.letter) || !word.counts(block)) continue;
+    const double value = block.value(word.letter);
+    if (value >= 0.0 && std::fabs(value - std::round(value)) <= kWhole) continue;
+    return refuse(ProblemName::bad_word_value,
+                  block.place(word.letter),
+                  fmt::format("{} a whole number, not below zero; here it is {}",
+                              word.what,
+                              with_value("", value)));
+  }
+  return {};
+}
+
+long whole(double value) { return std::lround(value); }
+
+}  // namespace
+
+Result<void> Interpreter::check_words(const Block& block, int motion) const {
+  for (const char letter : {'u', 'v', 'w'}) {
+    if (block.has(letter)) {
+      return refuse(ProblemName::unsupported_axis,
+                    block.place(letter),
+                    fmt::format("the axis {} is not supported", upper(letter)));
+    }
+  }
+  for (const WordUse& use : kWordUses) {
+    if (!block.has(use.letter)) continue;
+    const int users = use.users(block, motion);
+    if (users == 1) continue;
+    if (users > 1) {
+      return refuse(ProblemName::bad_word_value,
+                    block.place(use.letter),
+                    fmt::format("the {} word could belong to two codes of this line; write each "
+                                "of them on a line of its own",
+                                upper(use.letter)));
+    }
+    if (use.letter == 'e') {
+      return refuse(ProblemName::unsupported_axis,
+                    block.place('e'),
+                    "an E word (the extruder of a 3D printer) has no meaning on a router");
+    }
+    return refuse(ProblemName::unused_word,
+                  block.place(use.letter),
+                  fmt::format("nothing on the line uses the {} word; it belongs to {}",
+                              upper(use.letter),
+                              use.codes));
+  }
+  if (block.is(GGroup::once, 530)) {
+    if (motion != 0 && motion != 10) {
+      return refuse(
+          ProblemName::bad_word_value, block.start(), "G53 needs G0 or G1 and axis words");
+    }
+    const bool incremental =
+        block.code(GGroup::distance) ? block.is(GGroup::distance, 910) : modes_.incremental;
+    if (incremental)
+      return refuse(ProblemName::modal_conflict, block.start(), "G53 cannot be used in G91");
+  }
+  for (const char letter : {'s', 't', 'f'}) {
+    if (block.has(letter) && block.value(letter) < 0.0) {
+      return refuse(ProblemName::bad_word_value,
+                    block.place(letter),
+                    fmt::format("{} is negative", upper(letter)));
+    }
+  }
+  return check_whole(block);
+}
+
+Result<void> Interpreter::pass(const Block& block, std::string text) {
+  return sink_.word({block.line, std::move(text)});
+}
+
+Result<void> Interpreter::output_word(const Block& block) {
+  const MCode* output = block.code(MGroup::output);
+  if (output == nullptr) return {};
+  std::string text = fmt::format("M{}", output->number);
+  const bool analog = output->number >= 67;
+  for (const char letter : analog ? std::string_view("eq") : std::string_view("p")) {
+    if (!block.has(letter)) {
+      return refuse(ProblemName::missing_word,
+                    block.start(),
+                    fmt::format("{} needs {}", text, upper(letter)));
+    }
+    const bool numbers = letter != 'q';
+    text += numbers ? fmt::format(" {}{}", upper(letter), whole(block.value(letter)))
+                    : with_value(" Q", block.value(letter));
+  }
+  return pass(block, std::move(text));
+}
+
+Result<void> Interpreter::pass_words(const Block& block) {
+  if (block.has('s')) {
+    modes_.spindle_rpm = block.value('s');
+    CHAINTRUE_GCODE_TRY(pass(block, with_value("S", block.value('s'))));
+  }
+  if (block.has('t')) {
+    modes_.selected_tool = whole(block.value('t'));
+    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("T{}", modes_.selected_tool)));
+  }
+  CHAINTRUE_GCODE_TRY(output_word(block));
+  if (const MCode* tool = block.code(MGroup::tool)) {
+    std::string text = fmt::format("M{}", tool->number);
+    if (tool->number == 61) {
+      if (!block.has('q')) {
+        return refuse(ProblemName::missing_word, block.start(), "M61 needs the tool's number as Q");
+      }
+      modes_.tool = whole(block.value('q'));
+      text += fmt::format(" Q{}", modes_.tool);
+    } else {
+      modes_.tool = modes_.selected_tool;
+    }
+    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+  }
+  if (const MCode* spindle = block.code(MGroup::spindle)) {
+    modes_.spindle = spindle->number == 5 ? 0 : spindle->number;
+    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("M{}", spindle->number)));
+  }
+  if (const MCode* coolant = block.code(MGroup::coolant)) {
+    CHAINTRUE_GCODE_TRY(pass(block, fmt::format("M{}", coolant->number)));
+  }
+  if (const MCode* override_code = block.code(MGroup::override)) {
+    std::string text = fmt::format("M{}", override_code->number);
+    if (block.has('p') && override_code->number >= 50) text += with_value(" P", block.value('p'));
+    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+  }
+  return {};
+}
+
+Result<void> Interpreter::dwell(const Block& block) {
+  if (!block.is(GGroup::once, 40)) return {};
+  if (!block.has('p') || block.value('p') < 0.0) {
+    return refuse(
+        ProblemName::missing_word, block.start(), "G4 needs its time as P, not below zero");
+  }
+  note_once(NoteOnce::dwell_unit, block.line);
+  return pass(block, with_value("G4 P", block.value('p')));
+}
+
+Result<void> Interpreter::tool_length(const Block& block) {
+  if (const GCode* cutter = block.code(GGroup::cutter)) {
+    // G41 and G42 come this far only where tools have no diameter.
+    if (cutter->tenths == 400) CHAINTRUE_GCODE_TRY(pass(block, "G40"));
+  }
+  if (const GCode* code = block.code(GGroup::tool_length)) {
+    std::string text = g_name(code->tenths);
+    if (block.has('h')) text += fmt::format(" H{}", whole(block.value('h')));
+    if (code->tenths == 431) {
+      if (block.has('x') || block.has('y') || block.has('a') || block.has('b') || block.has('c')) {
+        return refuse(ProblemName::unsupported_code,
+                      block.start(),
+                      "a tool offset (G43.1) in any axis but Z moves the path");
+      }
+      if (block.has('z')) text += with_value(" Z", length(block, 'z'));
+    }
+    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+  }
+  if (const GCode* control = block.code(GGroup::path_control)) {
+    modes_.path_control = control->tenths;
+    std::string text = g_name(control->tenths);
+    // check_words has made sure that P and Q belong to no other code of the line.
+    if (control->tenths == 640 && block.has('p')) text += with_value(" P", length(block, 'p'));
+    if (control->tenths == 640 && block.has('q')) text += with_value(" Q", length(block, 'q'));
+    CHAINTRUE_GCODE_TRY(pass(block, std::move(text)));
+  }
+  return {};
+}
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The free-space diagram, a column for each piece of the track.
+///
+/// Cell (i, j) belongs to piece i of the path and piece j of the track. Its left and right edges
+/// are parametrised along the path, bottom and top along the track; the free part of each is an
+/// interval, because a ball meets a line in one. What is reachable of an edge is the free part
+/// above (right of) the lowest reachable entry.
+#include "tools/gcode/path_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/gcode/path.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+/// What a fault is widened by until the track can be followed on.
+constexpr double kWiden = 1.1;
+constexpr double kMostDistance_mm = 1e6;
+constexpr double kHalf = 0.5;
+
+double squared(Point a, Point b) {
+  const double x = a.x_mm - b.x_mm;
+  const double y = a.y_mm - b.y_mm;
+  const double z = a.z_mm - b.z_mm;
+  return x * x + y * y + z * z;
+}
+
+struct Interval {
+  double low = 1.0;
+  double high = 0.0;
+};
+
+/// The part of the piece a b within a distance of c. The ends are decided by their own distances,
+/// so that the four edges that meet in a corner agree about it.
+Interval free_part(Point a, Point b, Point c, double distance2) {
+  const bool a_inside = squared(a, c) <= distance2;
+  const bool b_inside = squared(b, c) <= distance2;
+  if (a_inside && b_inside) return {0.0, 1.0};
+  const double dx = b.x_mm - a.x_mm;
+  const double dy = b.y_mm - a.y_mm;
+  const double dz = b.z_mm - a.z_mm;
+  const double length2 = dx * dx + dy * dy + dz * dz;
+  if (length2 == 0.0) return {};
+  const double along =
+      (dx * (c.x_mm - a.x_mm) + dy * (c.y_mm - a.y_mm) + dz * (c.z_mm - a.z_mm)) / length2;
+  const Point foot{a.x_mm + along * dx, a.y_mm + along * dy, a.z_mm + along * dz};
+  const double rest = distance2 - squared(foot, c);
+  if (rest < 0.0) {
+    // The line passes by, but for the rounding of an end that is just inside.
+    if (a_inside) return {0.0, 0.0};
+    if (b_inside) return {1.0, 1.0};
+    return {};
+  }
+  const double reach = std::sqrt(rest / length2);
+  const double low = a_inside ? 0.0 : along - reach;
+  const double high = b_inside ? 1.0 : along + reach;
+  if (low > 1.0 || high < 0.0) return {};
+  return {std::clamp(low, 0.0, 1.0), std::clamp(high, 0.0, 1.0)};
+}
+
+}  // namespace
+
+PathMatcher::PathMatcher(const Limits& limits, Path path)
+    : limits_(limits), path_(std::move(path)), distance_mm_(limits.distance_mm) {}
+
+bool PathMatcher::agree(const PathPiece& a, const PathPiece& b) const {
+  if (a.rapid != b.rapid) return false;
+  return a.rapid || std::fabs(a.speed_mm_per_min - b.speed_mm_per_min) <=
+                        limits_.speed_share * std::max(a.speed_mm_per_min, b.speed_mm_per_min);
+}
+
+/// Whether a piece is far enough into its run that the other curve must have the like.
+bool PathMatcher::pin(Run& run, Point from, const PathPiece& piece) const {
+  const PathPiece before{.to = from, .rapid = run.rapid, .speed_mm_per_min = run.speed, .line = 0};
+  if (run.speed < 0.0 || !agree(before, piece)) {
+    run = {piece.rapid, piece.speed_mm_per_min, from, from};
+  }
+  const Point middle = between(from, piece.to, kHalf);
+  const double least2 = limits_.least_run_mm * limits_.least_run_mm;
+  const bool pinned = squared(middle, run.start) >= least2 && squared(middle, run.pinned) >= least2;
+  if (pinned) run.pinned = middle;
+  return pinned;
+}
+
+/// The next piece of the path joins those that are open.
+bool PathMatcher::read() {
+  if (exhausted_) return false;
+  Open next;
+  if (!path_(next.piece)) {
+    exhausted_ = true;
+    return false;
+  }
+  next.from = path_end_;
+  next.pinned = pin(path_run_, next.from, next.piece);
+  next.corner.distance_mm = kMostDistance_mm;
+  path_end_ = next.piece.to;
+  open_.push_back(next);
+  return true;
+}
+
+PathMatcher::Outcome PathMatcher::begin(Point intended, Point tool, std::size_t line) {
+  exhausted_ = false;
+  path_run_ = {};
+  tool_run_ = {};
+  path_end_ = intended;
+  tool_ = tool;
+  tool_line_ = line;
+  open_.clear();
+  first_ = reached_ = 0;
+  Open start;
+  start.from = intended;
+  start.piece.to = intended;
+  start.corner.distance_mm = kMostDistance_mm;
+  start.left = {0.0, 1.0};
+  open_.push_back(start);
+  const double apart = distance_mm(intended, tool);
+  const Outcome outcome = apart <= distance_mm_ ? Outcome::follows : Outcome::strays;
+  note(false, {apart, intended, tool, 0, line});
+  distance_mm_ = std::max(distance_mm_, apart);
+  close_up();
+  return outcome;
+}
+
+/// The path runs on while the tool stands.
+void PathMatcher::close_up() {
+  while (open_[reached_].left.high >= 1.0) {
+    note_corner(open_[reached_], tool_, tool_line_);
+    if (reached_ + 1 == open_.size() && !read()) return;
+    Open& next = open_[reached_ + 1];
+    const Interval part = free_part(next.from, next.piece.to, tool_, distance_mm_ * distance_mm_);
+    if (part.low > 0.0 || part.low > part.high) return;
+    next.left = {0.0, part.high};
+    ++reached_;
+    if (reached_ - first_ >= limits_.most_open) ++first_;
+  }
+}
+
+void PathMatcher::note(bool rapid, const Pair& pair) {
+  Pair& worst = largest_[rapid ? 1 : 0];
+  if (pair.distance_mm > worst.distance_mm) worst = pair;
+}
+
+void PathMatcher::note_corner(Open& open, Point tool, std::size_t line) {
+  const double apart = distance_mm(open.piece.to, tool);
+  if (apart < open.corner.distance_mm) {
+    open.corner = {apart, open.piece.to, tool, open.piece.line, line};
+  }
+}
+
+/// What can be reached of a cell's right and top edges, given their free parts.
+void PathMatcher::cell(Open& open,
+                       Span bottom,
+                       const PathPiece& piece,
+                       bool pinned,
+                       bool labels,
+                       Span& right,
+                       Span& top) const {
+  const Span left = open.left;
+  const bool barred = labels && (open.pinned || pinned) && !agree(open.piece, piece);
+  if (!barred) {
+    if (bottom.empty()) right.low = std::max(right.low, left.low);
+    if (left.empty()) top.low = std::max(top.low, bottom.low);
+    return;
+  }
+  // Unlike pieces do not pass each other's pinned middles.
+  const bool left_upper = !left.empty() && left.high >= kHalf;
+  const bool left_lower = !left.empty() && left.low <= kHalf;
+  const bool bottom_late = !bottom.empty() && bottom.high >= kHalf;
+  const bool bottom_early = !bottom.empty() && bottom.low <= kHalf;
+  if (open.pinned && pinned) {
+    right.high = bottom_late ? std::min(right.high, kHalf) : -1.0;
+    top.high = left_upper ? std::min(top.high, kHalf) : -1.0;
+  } else if (open.pinned) {
+    if (!left_upper) top.high = -1.0;
+    if (bottom.empty()) right.low = std::max(right.low, left.low);
+    if (!left_upper) right.high = std::min(right.high, kHalf);
+    if (!left_lower && bottom.empty()) right.low = std::max(right.low, kHalf);
+  } else {
+    if (!bottom_late) right.high = -1.0;
+    if (left.empty()) top.low = std::max(top.low, bottom.low);
+    if (!bottom_late) top.high = std::min(top.high, kHalf);
+    if (!bottom_early && left.empty()) top.low = std::max(top.low, kHalf);
+  }
+}
+
+/// Reachability after one more piece of the track; false where there is none.
+bool PathMatcher::column(const PathPiece& piece, bool pinned, double distance_mm, bool labels) {
+  const double distance2 = distance_mm * distance_mm;
+  Span bottom;
+  bool any = false;
+  std::size_t i = first_;
+  for (; i < open_.size(); ++i) {
+    if (open_[i].left.empty() && bottom.empty()) {
+      open_[i].right = {};
+      if (i > reached_) break;
+      continue;
+    }
+    Open& open = open_[i];
+    const Interval right_free = free_part(open.from, open.piece.to, piece.to, distance2);
+    const Interval top_free = free_part(tool_, piece.to, open.piece.to, distance2);
+    Span right{right_free.low, right_free.high};
+    Span top{top_free.low, top_free.high};
+    cell(open, bottom, piece, pinned, labels, right, top);
+    open.right = right;
+    any = any || !right.empty();
+    bottom = top;
+    if (top.empty()) continue;
+    const double nearest = std::clamp(
+        nearest_on_line(tool_, piece.to, open.piece.to), top.low, top.high);
+    note_corner(open, between(tool_, piece.to, nearest), piece.line);
+    if (i + 1 == open_.size()) read();
+  }
+  for (; i < open_.size(); ++i) open_[i].right = {};
+  return any;
+}
+
+/// The tool has arrived at the end of the piece.
+void PathMatcher::commit(const PathPiece& piece) {
+  Pair nearest{kMostDistance_mm, {}, piece.to, 0, piece.line};
+  bool rapid = false;
+  std::size_t lowest = open_.size();
+  for (std::size_t i = first_; i < open_.size(); ++i) {
+    Open& open = open_[i];
+    open.left = open.right;
+    if (open.left.empty()) continue;
+    lowest = std::min(lowest, i);
+    reached_ = i;
+    const double t = std::clamp(
+        nearest_on_line(open.from, open.piece.to, piece.to), open.left.low, open.left.high);
+    const Point place = between(open.from, open.piece.to, t);
+    const double apart = distance_mm(place, piece.to);
+    if (apart < nearest.distance_mm) {
+      nearest = {apart, place, piece.to, open.piece.line, piece.line};
+      rapid = open.piece.rapid;
+    }
+  }
+  note(rapid, nearest);
+  if (reached_ - lowest >= limits_.most_open) lowest = reached_ - limits_.most_open + 1;
+  for (; first_ < lowest; ++first_) note(open_[first_].piece.rapid, open_[first_].corner);
+  if (first_ > 256) {
+    open_.erase(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(first_));
+    reached_ -= first_;
+    first_ = 0;
+  }
+  tool_ = piece.to;
+  tool_line_ = piece.line;
+}
+
+bool PathMatcher::at_end() const {
+  return exhausted_ && reached_ + 1 == open_.size() && open_[reached_].left.high >= 1.0;
+}
+
+PathMatcher::Outcome PathMatcher::advance(const PathPiece& piece) {
+  const Run before = tool_run_;
+  const bool pinned = labels_ && pin(tool_run_, tool_, piece);
+  if (column(piece, pinned, distance_mm_, labels_)) {
+    commit(piece);
+    return Outcome::follows;
+  }
+  tool_run_ = before;
+  if (at_end()) return Outcome::past_end;
+  return labels_ && column(piece, pinned, distance_mm_, false) ? Outcome::wrong_speed
+                                                               : Outcome::strays;
+}
+
+void PathMatcher::advance_anyhow(const PathPiece& piece) {
+  while (!column(piece, false, distance_mm_, false) && distance_mm_ < kMostDistance_mm) {
+    distance_mm_ *= kWiden;
+  }
+  const Pair before = front();
+  note(piece.rapid, {distance_mm_, before.intended, piece.to, before.intended_line, piece.line});
+  commit(piece);
+}
+
+PathMatcher::Outcome PathMatcher::finish() {
+  while (exhausted_ == false && open_[reached_].left.high >= 1.0 && reached_ + 1 == open_.size()) {
+    if (!read()) break;
+  }
+  if (!at_end()) return exhausted_ && reached_ + 1 == open_.size() ? Outcome::strays
+                                                                    : Outcome::past_end;
+  for (; first_ < open_.size(); ++first_) {
+    note_corner(open_[first_], tool_, tool_line_);
+    note(open_[first_].piece.rapid, open_[first_].corner);
+  }
+  return Outcome::follows;
+}
+
+/// What is left of the path was not run: all of it counts from where the tool stands.
+void PathMatcher::finish_anyhow() {
+  std::size_t i = first_;
+  std::size_t line = 0;
+  do {
+    for (; i < open_.size(); ++i) {
+      note_corner(open_[i], tool_, tool_line_);
+      note(open_[i].piece.rapid, open_[i].corner);
+    }
+    if (!open_.empty()) line = open_.back().piece.line;
+    open_.clear();
+    i = 0;
+  } while (read());
+  // The ends belong together.
+  note(false, {distance_mm(path_end_, tool_), path_end_, tool_, line, tool_line_});
+}
+
+PathMatcher::Pair PathMatcher::front() const {
+  if (open_.empty()) return {0.0, path_end_, tool_, 0, tool_line_};
+  const Open& open = open_[std::min(reached_, open_.size() - 1)];
+  const double t = open.left.empty() ? 1.0 : open.left.high;
+  const Point place = between(open.from, open.piece.to, t);
+  return {distance_mm(place, tool_), place, tool_, open.piece.line, tool_line_};
+}
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A queue between the interpreter and who pulls.
+#include "tools/gcode/program_stream.hpp"
+
+namespace chaintrue::gcode {
+
+Result<const ProgramEvent*> ProgramStream::peek() {
+  while (events_.empty()) {
+    const auto more = program_.step();
+    if (!more) return tl::unexpected(more.error());
+  }
+  return &events_.front();
+}
+
+void ProgramStream::pop() {
+  if (events_.front().kind != ProgramEvent::Kind::end) events_.pop_front();
+}
+
+Result<void> ProgramStream::move(const Move& move) {
+  ProgramEvent& event = events_.emplace_back();
+  event.kind = ProgramEvent::Kind::move;
+  event.line = move.line;
+  event.move = move;
+  for (Point* point : {&event.move.from, &event.move.to}) {
+    point->x_mm += home_.x_mm;
+    point->y_mm += home_.y_mm;
+  }
+  if (event.move.arc) {
+    event.move.arc->centre.x_mm += home_.x_mm;
+    event.move.arc->centre.y_mm += home_.y_mm;
+  }
+  return {};
+}
+
+Result<void> ProgramStream::word(const PassedWord& word) {
+  ProgramEvent& event = events_.emplace_back();
+  event.kind = ProgramEvent::Kind::word;
+  event.line = word.line;
+  // G61.1 is written as G61: the dot is misread by some controllers.
+  event.text = word.text == "G61.1" ? "G61" : word.text;
+  return {};
+}
+
+/// A closing % and the end of the file are the same end.
+Result<void> ProgramStream::end(std::size_t line, std::string_view word) {
+  ProgramEvent& event = events_.emplace_back();
+  event.kind = ProgramEvent::Kind::end;
+  event.line = line;
+  event.text = word == "%" ? std::string_view() : word;
+  return {};
+}
+
+}  // namespace chaintrue::gcode

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A program's events, pulled one by one instead of pushed: moves, words that pass through, the end.
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include "model/coordinates.hpp"
+#include "tools/gcode/program.hpp"
+
+namespace chaintrue::gcode {
+
+struct ProgramEvent {
+  enum class Kind { move, word, end };
+  Kind kind = Kind::end;
+  Move move;         ///< on the sheet: home is added
+  std::string text;  ///< of a word, or of the word that ends the program
+  std::size_t line = 0;
+};
+
+class ProgramStream final : private Sink {
+ public:
+  /// Keeps the reference.
+  ProgramStream(LineSource& source, const Dialect& dialect, model::BedPoint home)
+      : program_(source, dialect, *this), home_(home) {}
+
+  /// The next event, which stays the next until pop(); Kind::end for ever at the end.
+  [[nodiscard]] Result<const ProgramEvent*> peek();
+  void pop();
+
+ private:
+  Result<void> move(const Move& move) override;
+  Result<void> word(const PassedWord& word) override;
+  Result<void> end(std::size_t line, std::string_view word) override;
+
+  Program program_;
+  model::BedPoint home_;
+  std::deque<ProgramEvent> events_;
+};
+
+}  // namespace chaintrue::gcode

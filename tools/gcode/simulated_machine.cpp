@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Straight commands, pieces that are linear in chain length, arcs as firmwares cut them.
+#include "tools/gcode/simulated_machine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/gcode/path.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+/// With play the tool's track has kinks where a chain turns around.
+constexpr double kPlayStep_mm = 1.0;
+/// A way that is linear in chain lengths bends with at least this radius: the shortest chain's.
+constexpr double kShortestChain_mm = 400.0;
+
+double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm); }
+
+tl::unexpected<Problem> no_place(CorrectionFailure failure, Point command, std::size_t line) {
+  const bool controller = failure == CorrectionFailure::controller;
+  return refuse(controller ? ProblemName::outside_controller : ProblemName::outside_map,
+                {line, 0},
+                fmt::format("X{:.3f} Y{:.3f}: the tool's place {}",
+                            command.x_mm,
+                            command.y_mm,
+                            explain(failure)));
+}
+
+}  // namespace
+
+Point SimulatedMachine::as_read(Point point) const {
+  if (!corrector_.firmware().single_precision) return point;
+  const auto single = [](double value) { return static_cast<double>(static_cast<float>(value)); };
+  return {single(point.x_mm), single(point.y_mm), single(point.z_mm)};
+}
+
+Result<Point> SimulatedMachine::place(Point command, std::size_t line) {
+  return tool(as_read(command), line);
+}
+
+Result<Point> SimulatedMachine::tool(Point command, std::size_t line) {
+  const model::BedPoint place{command.x_mm, command.y_mm};
+  if (!play_) {
+    const auto found = field_.tool(place);
+    if (!found) return no_place(found.error(), command, line);
+    return Point{found->x_mm, found->y_mm, command.z_mm};
+  }
+  const auto paid = corrector_.paid_out(place);
+  if (!paid) return no_place(paid.error(), command, line);
+  // A chain follows only when its motor has crossed the gap; both begin paid out.
+  const auto follow = [](std::optional<double>& chain, double motor, double half) {
+    chain = chain ? std::clamp(*chain, motor - half, motor + half) : motor - half;
+    return *chain;
+  };
+  const auto found =
+      corrector_.map().tool({follow(left_mm_, paid->left_mm, options_.half_play_mm.left_mm),
+                             follow(right_mm_, paid->right_mm, options_.half_play_mm.right_mm)});
+  if (!found) return no_place(CorrectionFailure::outside_map, command, line);
+  return Point{found->x_mm, found->y_mm, command.z_mm};
+}
+
+void SimulatedMachine::count_ticks(const Move& move) {
+  const double tick_s = corrector_.firmware().tick_s;
+  if (tick_s == 0.0 || move.kind == MoveKind::rapid) return;
+  const double length = length_mm(move);
+  const double feed =
+      move.feed.mode == FeedMode::inverse_time ? length * move.feed.value : move.feed.value;
+  const double way_mm = feed / 60.0 * tick_s;
+  if (!(way_mm > 0.0)) return;
+  const double ticks = length / way_mm;
+  tick_overshoot_mm_ = std::max(tick_overshoot_mm_, (std::ceil(ticks) - ticks) * way_mm);
+}
+
+Result<void> SimulatedMachine::run(const Move& move, const Visit& visit) {
+  count_ticks(move);
+  const Point from = as_read(move.from);
+  const Point to = as_read(move.to);
+  Result<bool> done = true;
+  if (options_.rapids_whole && move.kind == MoveKind::rapid) {
+    const auto end = tool(to, move.line);
+    if (!end) return tl::unexpected(end.error());
+    visit(*end, to);
+  } else {
+    done = move.arc ? arc(move, visit) : straight(from, to, move.line, visit);
+  }
+  if (!done) return tl::unexpected(done.error());
+  return {};
+}
+
+Result<bool> SimulatedMachine::straight(Point from,
+                                        Point to,
+                                        std::size_t line,
+                                        const Visit& visit) {
+  const double length = xy_distance(from, to);
+  if (corrector_.firmware().chain_linear_piece_mm > 0.0 && length > 0.0) {
+    return chain_linear(from, to, line, visit);
+  }
+  for (double gone = 0.0; gone < length;) {
+    double step = kPlayStep_mm;
+    if (!play_) {
+      const auto way = [&](double along) {
+        const Point here = between(from, to, std::min(1.0, along / length));
+        return field_.straight_mm({here.x_mm, here.y_mm}, options_.flatness_mm);
+      };
+      step = way(gone);
+      step = std::min(step, std::max(0.25 * step, way(gone + step)));
+    }
+    gone += step;
+    if (gone >= length) break;
+    const Point here = as_read(between(from, to, gone / length));
+    const auto where = tool(here, line);
+    if (!where) return tl::unexpected(where.error());
+    if (!visit(*where, here)) return false;
+  }
+  const auto where = tool(to, line);
+  if (!where) return tl::unexpected(where.error());
+  return visit(*where, to);
+}
+
+/// FluidNC's WallPlotter: whole pieces of about its segment_length, summed up in single precision.
+Result<bool> SimulatedMachine::chain_linear(Point from,
+                                            Point to,
+                                            std::size_t line,
+                                            const Visit& visit) {
+  const double length = xy_distance(from, to);
+  const double pieces =
+      std::max(1.0, std::floor(length / corrector_.firmware().chain_linear_piece_mm));
+  const Point step{(to.x_mm - from.x_mm) / pieces,
+                   (to.y_mm - from.y_mm) / pieces,
+                   (to.z_mm - from.z_mm) / pieces};
+  const double looks = std::ceil(
+      length / pieces / std::sqrt(8.0 * options_.flatness_mm * kShortestChain_mm));
+  Point here = from;
+  auto paid = corrector_.paid_out({here.x_mm, here.y_mm});
+  for (double piece = 1.0; paid && piece <= pieces; piece += 1.0) {
+    const Point next =
+        as_read({here.x_mm + step.x_mm, here.y_mm + step.y_mm, here.z_mm + step.z_mm});
+    const auto arrived = corrector_.paid_out({next.x_mm, next.y_mm});
+    if (!arrived) return no_place(arrived.error(), next, line);
+    for (double look = 1.0; look <= looks; look += 1.0) {
+      const double share = look / looks;
+      model::ChainLengths lengths{
+          paid->left_mm + share * (arrived->left_mm - paid->left_mm),
+          paid->right_mm + share * (arrived->right_mm - paid->right_mm)};
+      if (play_) {
+        const auto follow = [](std::optional<double>& chain, double motor, double half) {
+          chain = chain ? std::clamp(*chain, motor - half, motor + half) : motor - half;
+          return *chain;
+        };
+        lengths = {follow(left_mm_, lengths.left_mm, options_.half_play_mm.left_mm),
+                   follow(right_mm_, lengths.right_mm, options_.half_play_mm.right_mm)};
+      }
+      const auto where = corrector_.map().tool(lengths);
+      const Point command = between(here, next, share);
+      if (!where) return no_place(CorrectionFailure::outside_map, command, line);
+      if (!visit({where->x_mm, where->y_mm, command.z_mm}, command)) return false;
+    }
+    here = next;
+    paid = arrived;
+  }
+  if (!paid) return no_place(paid.error(), here, line);
+  return true;
+}
+
+/// As the firmware cuts an arc of the program that it is given.
+Result<bool> SimulatedMachine::arc(const Move& move, const Visit& visit) {
+  const Firmware& firmware = corrector_.firmware();
+  const double sweep = std::fabs(move.arc->sweep_rad);
+  const double radius = std::max(move.arc->start_radius_mm, move.arc->end_radius_mm);
+  double chords = 1.0;
+  if (firmware.arc_chord_mm > 0.0) {
+    // grbl and its kin: motion_control.c, mc_arc.
+    const double tolerance = std::min(firmware.arc_chord_mm, radius);
+    chords = std::max(
+        1.0, std::floor(0.5 * sweep * radius / std::sqrt(tolerance * (2.0 * radius - tolerance))));
+  } else if (sweep >= firmware.straight_arc_rad) {
+    const double bow = std::min(options_.flatness_mm, radius);
+    chords = std::max(8.0, std::ceil(sweep / (2.0 * std::acos(1.0 - bow / radius))));
+  }
+  Point here = as_read(move.from);
+  for (double i = 1.0; i <= chords; i += 1.0) {
+    const Point next = as_read(at(move, i / chords));
+    const auto done = straight(here, next, move.line, visit);
+    if (!done || !*done) return done;
+    here = next;
+  }
+  return true;
+}
+
+}  // namespace chaintrue::gcode

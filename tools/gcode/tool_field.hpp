@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Where the tool is for a command: Corrector::tool, evaluated on a lattice as the program comes by
+/// and interpolated between.
+///
+/// Cubic Lagrange interpolation of tool(c) - c over 16 nodes, kSpacing_mm apart. Every cell is held
+/// against the exact answer at two places before it is used; where twice the larger difference is
+/// above the bound, or where a node has no answer, the cell is not interpolated: each place in it
+/// is computed. Error: below the bound at the places looked at; docs/gcode.md states it as part of
+/// what verify proves.
+///
+/// Not thread safe. Memory grows with the area that the program covers, not with its length: 4 MB
+/// for a full sheet.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+
+#include "tools/gcode/corrector.hpp"
+
+namespace chaintrue::gcode {
+
+class ToolField {
+ public:
+  static constexpr double kSpacing_mm = 16.0;
+
+  /// Keeps the reference.
+  ToolField(const Corrector& corrector, double bound_mm)
+      : corrector_(corrector), bound_mm_(bound_mm) {}
+
+  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(model::BedPoint command);
+
+  /// How far a straight command may go on from here until the tool's way bows by `flatness_mm`
+  /// from its chord, by the second differences of the lattice (with a safety of two).
+  [[nodiscard]] double straight_mm(model::BedPoint command, double flatness_mm);
+
+ private:
+  struct Node {
+    double dx_mm = 0.0;
+    double dy_mm = 0.0;
+    bool known = false;
+  };
+  struct Cell {
+    std::array<Node, 16> nodes;
+    double curvature_per_mm = 0.0;
+    bool interpolates = false;
+  };
+
+  const Cell& cell(model::BedPoint command);
+  void fill(Cell& cell, std::int64_t column, std::int64_t row);
+  Node node(std::int64_t column, std::int64_t row);
+  static model::BedPoint interpolated(const Cell& cell, double u, double v);
+
+  const Corrector& corrector_;
+  double bound_mm_;
+  std::unordered_map<std::uint64_t, Node> nodes_;
+  std::unordered_map<std::uint64_t, Cell> cells_;
+  std::uint64_t last_key_ = ~std::uint64_t{0};
+  const Cell* last_ = nullptr;
+};
+
+}  // namespace chaintrue::gcode
