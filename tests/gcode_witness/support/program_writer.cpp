@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -64,6 +65,7 @@ std::string ProgramWriter::written(double value, int places) {
 }
 
 std::string ProgramWriter::expression(double value, int places) {
+  places = std::max(places, 1);  // as many as the part has
   const double part = random_.decimal(-20.0, 20.0, 1);
   const std::string whole = fmt::format("{:.{}f}", value, places);
   const std::string rest = fmt::format("{:.{}f}", value - part, places);
@@ -212,8 +214,9 @@ void ProgramWriter::tool() {
   }
   if (random_.one_in(4)) words.push_back(random_.any({"G43 H1", "G49", "G40"}));
   const bool changes = words.size() > 1 && words[1] == "M6";
+  if (changes) go_somewhere();  // LinuxCNC's Python module loses its place behind an arc
   line(std::move(words));
-  if (changes) go_somewhere();  // LinuxCNC's Python module loses its place at a tool change
+  if (changes) go_somewhere();
 }
 
 void ProgramWriter::dwell() {
