@@ -15,13 +15,15 @@ struct BedPoint {
   double y_mm = 0.0;
 };
 
-/// What the two motors have paid out.
+enum class Side { left, right };
+
+/// What the two motors have paid out; addressed by side where that is a variable.
 struct ChainLengths {
   double left_mm = 0.0;
   double right_mm = 0.0;
+  constexpr double& operator[](Side side) { return side == Side::left ? left_mm : right_mm; }
+  constexpr double operator[](Side side) const { return side == Side::left ? left_mm : right_mm; }
 };
-
-enum class Side { left, right };
 
 /// One value for each chain, addressed by side: `state[Side::left]`.
 template <class T>

@@ -24,7 +24,7 @@ using effects::ChainAddition;
 //   f'(0) = (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / (12 h) (1)
 // At 4 mm its truncation, h^4 f^(5) / 30, is below 1e-9 of the derivative of an angle that varies
 // over the 600 mm or more between sled and sprocket; rounding adds 1e-13.
-constexpr double kStep_mm = 4.0;
+constexpr double kStepMm = 4.0;
 constexpr std::array<double, 4> kStencil = {-2.0, -1.0, 1.0, 2.0};
 constexpr std::array<double, 4> kWeights = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
 
@@ -94,7 +94,7 @@ std::size_t place_of_direction() {
 }
 
 double length(const Pose& pose, Side side) {
-  return side == Side::left ? pose.lengths.left_mm : pose.lengths.right_mm;
+  return pose.lengths[side];
 }
 
 void accumulate(ChainAddition& sum, const ChainAddition& part) {
@@ -109,7 +109,7 @@ void accumulate(ChainAddition& sum, const ChainAddition& part) {
 template <class PoseAt>
 tl::expected<PerSide<AngleAndFree>, PoseFailure> state_slope(const PoseAt& pose_at) {
   PoseFailure reason = PoseFailure::not_converged;
-  for (const double step_mm : {kStep_mm, kStep_mm / 16.0, kStep_mm / 256.0}) {
+  for (const double step_mm : {kStepMm, kStepMm / 16.0, kStepMm / 256.0}) {
     PerSide<AngleAndFree> slope;
     bool complete = true;
     for (std::size_t i = 0; i < kStencil.size() && complete; ++i) {
@@ -143,7 +143,7 @@ struct ReadingModel::State {
   enum class Part { before_direction, after_direction, whole };
   [[nodiscard]] ChainAddition additions(const Pose& pose, Side side, Part part) const;
   [[nodiscard]] double zero(Side side) const {
-    return side == Side::left ? machine.chain_zero.left_mm : machine.chain_zero.right_mm;
+    return machine.chain_zero[side];
   }
   /// The reading of a chain that has been paid out to this length with all that is added.
   [[nodiscard]] double counted(double length_mm, Side side) const {
@@ -224,7 +224,7 @@ tl::expected<PointReading, PoseFailure> ReadingModel::at(BedPoint point) const {
   for (const Side side : kSides) {
     const double paid_out =
         length(*pose, side) + state.additions(*pose, side, State::Part::whole).length_mm;
-    (side == Side::left ? reading.lengths.left_mm : reading.lengths.right_mm) =
+    reading.lengths[side] =
         state.counted(paid_out, side);
   }
   const Eigen::Matrix2d lengths_by_point = state.kinematics->jacobian(*pose);
@@ -267,8 +267,8 @@ Eigen::Vector2d ReadingModel::sensitivity(const PointReading& reading, Setting s
 tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
                                                            BedPoint start) const {
   constexpr int kMaxSteps = 40;
-  constexpr double kMaxStride_mm = 300.0;
-  constexpr double kSettled_mm = 1e-9;
+  constexpr double kMaxStrideMm = 300.0;
+  constexpr double kSettledMm = 1e-9;
   BedPoint point = start;
   for (int step = 0; step < kMaxSteps; ++step) {
     auto reading = at(point);
@@ -277,14 +277,14 @@ tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
                                   lengths.right_mm - reading->lengths.right_mm};
     Eigen::Vector2d move = reading->position_jacobian.inverse() * missing;
     if (!move.allFinite()) break;
-    if (move.norm() > kMaxStride_mm) move *= kMaxStride_mm / move.norm();
+    if (move.norm() > kMaxStrideMm) move *= kMaxStrideMm / move.norm();
     // A step out of reach is shortened until it stays within.
-    while (move.norm() >= kSettled_mm &&
+    while (move.norm() >= kSettledMm &&
            !state_->kinematics->inverse({point.x_mm + move[0], point.y_mm + move[1]})) {
       move *= 0.5;
     }
     point = {point.x_mm + move[0], point.y_mm + move[1]};
-    if (move.norm() < kSettled_mm && missing.norm() < 100.0 * kSettled_mm) return at(point);
+    if (move.norm() < kSettledMm && missing.norm() < 100.0 * kSettledMm) return at(point);
   }
   return tl::unexpected(PoseFailure::not_converged);
 }

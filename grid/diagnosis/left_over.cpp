@@ -10,7 +10,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr double kSmooth_mm = 450.0;  // length over which a discrepancy is looked for
+constexpr double kSmoothMm = 450.0;  // length over which a discrepancy is looked for
 constexpr int kDraws = 999;
 constexpr int kDegree = 4;
 /// Share of what is left that a coordinate must explain, beyond what its terms take by chance.
@@ -26,7 +26,7 @@ double p_of_structure(const Analysis& a) {
   e.col(0) = left_of_machine(a.system, a.estimate, a.estimate.left)(kept);
   constexpr std::uint64_t kStream = 63;
   e.rightCols(kDraws) = left_of_noise(a, Nuisances::put_back, kDraws, kStream);
-  Eigen::MatrixXd k = discrepancy_covariance(a.system, kept, {DiscrepancyKind::chains, kSmooth_mm});
+  Eigen::MatrixXd k = discrepancy_covariance(a.system, kept, {DiscrepancyKind::chains, kSmoothMm});
   if (a.system.nuisances > 0) {
     const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(a.system, kept);
     noise.matrixL().solveInPlace(e);

@@ -12,7 +12,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr double kFarOff_mm = 50.0;  // ten times what settings and effects do together
+constexpr double kFarOffMm = 50.0;  // ten times what settings and effects do together
 constexpr double kMends = 0.2;       // of the misfit may be left
 
 using Read = SessionPlace (*)(SessionPlace);
@@ -96,10 +96,10 @@ std::optional<DiagnosisFailure> suspected_slip(const Session& session) {
   }
   if (!session.reads_chains()) return std::nullopt;
   const auto plain = misfit_mm(session, [](SessionPlace p) { return p; });
-  if (plain && *plain < kFarOff_mm) return std::nullopt;
+  if (plain && *plain < kFarOffMm) return std::nullopt;
   for (const Slip& slip : kSlips) {
     const auto mended = misfit_mm(session, slip.mended);
-    if (!mended || (plain && *mended > kMends * *plain) || (!plain && *mended > kFarOff_mm))
+    if (!mended || (plain && *mended > kMends * *plain) || (!plain && *mended > kFarOffMm))
       continue;
     return DiagnosisFailure{
         DiagnosisFailure::Reason::contradictory_settings,

@@ -40,7 +40,7 @@ std::vector<LeftOut> lines_along(const Session& session,
       order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
   std::vector<LeftOut> lines;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGap_mm) lines.push_back({what, 0, 0.0, {}});
+    if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGapMm) lines.push_back({what, 0, 0.0, {}});
     lines.back().units.push_back(order[k]);
     lines.back().at_mm += at(order[k]);
   }

@@ -3,7 +3,7 @@
 /// Does the name hang on a few of the readings? The comparison decided again without each point and
 /// each column and row of marks, without each distance and each hole with all that ends there.
 ///
-/// A column is a run of marks whose x differ by less than kLineGap_mm from one to the next; there
+/// A column is a run of marks whose x differ by less than kLineGapMm from one to the next; there
 /// are columns where at least three such runs hold three points each on average. Rows the same in
 /// y. A name stands where it is still given: alone, among several causes, or first in a set; a set
 /// stands where its first cause is still in it.
@@ -18,7 +18,7 @@
 namespace chaintrue::grid::diagnosis {
 
 /// Marks of one line lie no further apart across it; marks this near to each other are one mark.
-inline constexpr double kLineGap_mm = 25.0;
+inline constexpr double kLineGapMm = 25.0;
 
 /// Units left out together (positions in the session), with what they are.
 struct LeftOut {

@@ -95,7 +95,7 @@ bool lies_on(const Diagnosis& diagnosis, const Removal& line, std::size_t point)
   const bool is_line = line.what == Removal::What::column || line.what == Removal::What::row;
   if (!is_line || found == diagnosis.points.end()) return false;
   const double at_mm = line.what == Removal::What::column ? found->mark.x_mm : found->mark.y_mm;
-  return std::abs(at_mm - line.at_mm) < kLineGap_mm;
+  return std::abs(at_mm - line.at_mm) < kLineGapMm;
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ bool is_linear_in_correction(const Observation& observation) {
 Eigen::Index column_of(Side side) { return side == Side::left ? 0 : 1; }
 
 double length_of(model::ChainLengths lengths, Side side) {
-  return side == Side::left ? lengths.left_mm : lengths.right_mm;
+  return lengths[side];
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 using Getter = std::function<std::optional<double>(const MeasuredPoint&)>;
 
 /// Points this near count as repeats, so a set that is no wider than this has one row only.
-constexpr double kRepeatDistance_mm = 25.0;
+constexpr double kRepeatDistanceMm = 25.0;
 /// No hanging router has lengths or a bed below this in mm; in inches every one of them has.
 constexpr double kLongestInInches = 250.0;
 
@@ -219,8 +219,8 @@ void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& 
     return;
   }
   // A handful of points has no slope; a machine tells its sides apart all the same.
-  constexpr double kClearly_mm = 100.0;
-  if (grid.machine && mean_misfit(grid, 1.0) > mean_misfit(grid, -1.0) + kClearly_mm) {
+  constexpr double kClearlyMm = 100.0;
+  if (grid.machine && mean_misfit(grid, 1.0) > mean_misfit(grid, -1.0) + kClearlyMm) {
     problems.add(places.all, "lengths that fit the machine with left and right exchanged", swapped);
   }
 }
@@ -249,7 +249,7 @@ double width_across_best_line(const std::vector<MeasuredPoint>& points) {
 /// Commands and marks both in inches fit each other; only the bed shows that they cover a
 /// twenty-fifth of it. True where they do.
 bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
-  constexpr double kInch_mm = 25.4;
+  constexpr double kInchMm = 25.4;
   if (!grid.machine) return false;
   double half_width_mm = 0.0;
   double half_height_mm = 0.0;
@@ -258,8 +258,8 @@ bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Pr
     half_height_mm = std::max(half_height_mm, std::abs(point.mark.y_mm));
   }
   const model::Bed& bed = grid.machine->bed;
-  if (2.0 * half_width_mm * kInch_mm > bed.width_mm ||
-      2.0 * half_height_mm * kInch_mm > bed.height_mm)
+  if (2.0 * half_width_mm * kInchMm > bed.width_mm ||
+      2.0 * half_height_mm * kInchMm > bed.height_mm)
     return false;
   problems.warn(
       places.all,
@@ -320,7 +320,7 @@ void check_points_together(const MeasuredGrid& grid,
   check_sides(grid, places, problems);
   const bool is_tiny = count >= kSpanFrom && warn_of_a_tiny_area(grid, places, problems);
   if (fewest_points < kSpanFrom || count < fewest_points) return;
-  if (const double width = width_across_best_line(grid.points); width < kRepeatDistance_mm) {
+  if (const double width = width_across_best_line(grid.points); width < kRepeatDistanceMm) {
     problems.add(places.all,
                  fmt::format("points within {:.3g} mm of one line", width),
                  std::string("points that span an area, as a map of the bed needs") +

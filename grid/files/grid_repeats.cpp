@@ -12,7 +12,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr double kRepeatDistance_mm = 25.0;
+constexpr double kRepeatDistanceMm = 25.0;
 /// Four standard deviations: in a grid of a hundred comparisons one false warning in 150 grids.
 constexpr double kSigmas = 4.0;
 constexpr std::size_t kMostWarnings = 20;
@@ -38,9 +38,9 @@ struct Comparison {
 /// by this share of it.
 double share_unknown_to_model(const MeasuredGrid& grid) {
   constexpr double kMachineAsTaped = 0.01;
-  constexpr double kReach_mm = 1000.0;
+  constexpr double kReachMm = 1000.0;
   if (!grid.sheet) return kMachineAsTaped;
-  return kMachineAsTaped + grid.sheet->shift_mm / kReach_mm + grid.sheet->rotation_mrad / 1000.0;
+  return kMachineAsTaped + grid.sheet->shift_mm / kReachMm + grid.sheet->rotation_mrad / 1000.0;
 }
 
 Comparison compare_lengths(const MeasuredGrid& grid, const StatedNoise& noise) {
@@ -115,14 +115,14 @@ void warn_of_pairs(Comparison comparison, const PointPlaces& places, Problems& p
   const std::size_t warnings_before = problems.warnings().size();
   for (std::size_t i = 0; i < readings.size(); ++i) {
     for (std::size_t j = i + 1; j < readings.size(); ++j) {
-      if (readings[j].mark.x_mm - readings[i].mark.x_mm > kRepeatDistance_mm) break;
+      if (readings[j].mark.x_mm - readings[i].mark.x_mm > kRepeatDistanceMm) break;
       if (problems.warnings().size() - warnings_before == kMostWarnings) {
         problems.warn(places.all, "more points disagree with their repeats; these are the first");
         return;
       }
       const double apart_mm = std::hypot(readings[i].mark.x_mm - readings[j].mark.x_mm,
                                          readings[i].mark.y_mm - readings[j].mark.y_mm);
-      if (apart_mm > kRepeatDistance_mm) continue;
+      if (apart_mm > kRepeatDistanceMm) continue;
       const bool in_order = readings[i].index < readings[j].index;
       warn_of_pair(comparison,
                    in_order ? readings[i] : readings[j],

@@ -124,9 +124,9 @@ bool knows_stretch(const Machine& machine) {
 }
 
 void remark_on_what_cannot_be_typed(const Machine& machine, std::vector<std::string>& remarks) {
-  constexpr double kWorthSaying_mm = 0.05;
+  constexpr double kWorthSayingMm = 0.05;
   const double middle_mm = 0.5 * (machine.motors.left.x_mm + machine.motors.right.x_mm);
-  if (std::abs(middle_mm) > kWorthSaying_mm) {
+  if (std::abs(middle_mm) > kWorthSayingMm) {
     remarks.push_back(fmt::format(
         "GroundControl has no setting for a beam whose middle is not above the bed's; here it is "
         "{:.2f} mm to the {}",
@@ -136,7 +136,7 @@ void remark_on_what_cannot_be_typed(const Machine& machine, std::vector<std::str
   for (const Side side : model::kSides) {
     const bool left = side == Side::left;
     const double zero_mm = left ? machine.chain_zero.left_mm : machine.chain_zero.right_mm;
-    if (std::abs(zero_mm) <= kWorthSaying_mm) continue;
+    if (std::abs(zero_mm) <= kWorthSayingMm) continue;
     remarks.push_back(fmt::format("the {} chain reads {:.2f} mm too {}; set its zero anew",
                                   left ? "left" : "right",
                                   std::abs(zero_mm),

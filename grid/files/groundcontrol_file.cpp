@@ -22,7 +22,7 @@ using model::Machine;
 using model::Ring;
 
 constexpr double kStandardGravity_m_per_s2 = 9.80665;
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kDegreeRad = std::numbers::pi / 180.0;
 const std::vector<std::string> kSections = {"Maslow Settings", "Advanced Settings"};
 
 enum class Need { always, ring, brackets, never };
@@ -125,7 +125,7 @@ bool is_in_inches(const IniTable& table) {
 void place_motors(const Numbers& numbers, Machine& machine) {
   const double half_spacing = 0.5 * numbers.at("motorspacingx").value();
   const double y = 0.5 * machine.bed.height_mm + numbers.at("motoroffsety").value();
-  const double tilt = numbers.at("topbeamtilt").value_or(0.0) * kDegree_rad;
+  const double tilt = numbers.at("topbeamtilt").value_or(0.0) * kDegreeRad;
   // (1)
   machine.motors.left = {-half_spacing * std::cos(tilt), y - half_spacing * std::sin(tilt)};
   machine.motors.right = {half_spacing * std::cos(tilt), y + half_spacing * std::sin(tilt)};

@@ -15,7 +15,7 @@ namespace {
 
 using model::BedPoint;
 
-constexpr double kRoundNumber_mm = 100.0;
+constexpr double kRoundNumberMm = 100.0;
 constexpr int kBands = 5;
 
 template <class Enum, std::size_t Count>
@@ -31,7 +31,7 @@ std::optional<Enum> word_of(std::string_view word,
 double half_span(double bed_mm, const std::optional<double>& margin_mm) {
   const double span = margin_mm
                           ? bed_mm - 2.0 * *margin_mm
-                          : std::max(std::floor(bed_mm / kRoundNumber_mm), 1.0) * kRoundNumber_mm;
+                          : std::max(std::floor(bed_mm / kRoundNumberMm), 1.0) * kRoundNumberMm;
   if (!(span > 0.0)) {
     throw std::invalid_argument(
         fmt::format("design: a margin of {} mm leaves nothing of {} mm", *margin_mm, bed_mm));

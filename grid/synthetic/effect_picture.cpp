@@ -14,14 +14,14 @@ constexpr int kColumns = 7;
 constexpr int kRows = 4;
 // 28, 60 and 200 marks.
 constexpr std::array<std::array<int, 2>, 3> kGrids = {{{7, 4}, {10, 6}, {20, 10}}};
-constexpr double kSquare_mm = 100.0;
+constexpr double kSquareMm = 100.0;
 
 ShiftedSquare square_at(const Machine& machine,
                         const model::AppliedEffect& applied,
                         BedPoint centre) {
   ShiftedSquare square;
   square.centre = centre;
-  const double half = 0.5 * kSquare_mm;
+  const double half = 0.5 * kSquareMm;
   const std::array<BedPoint, 4> corners = {BedPoint{centre.x_mm - half, centre.y_mm - half},
                                            BedPoint{centre.x_mm + half, centre.y_mm - half},
                                            BedPoint{centre.x_mm + half, centre.y_mm + half},

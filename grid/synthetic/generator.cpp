@@ -32,7 +32,7 @@ enum Stream : std::uint64_t {
 
 // Digits that a number with noise still has: far below any noise, and far above what differs
 // between mathematical libraries, so that the bytes are the same everywhere.
-constexpr double kNoisyStep_mm = 1e-4;
+constexpr double kNoisyStepMm = 1e-4;
 
 double rounded(double value, double step) {
   if (step <= 0.0) return value;
@@ -44,7 +44,7 @@ double rounded(double value, double step) {
 
 double step_of(double rounding_mm, double sigma_mm) {
   if (rounding_mm > 0.0) return rounding_mm;
-  return sigma_mm > 0.0 ? kNoisyStep_mm : 0.0;
+  return sigma_mm > 0.0 ? kNoisyStepMm : 0.0;
 }
 
 double draw(Random& random, const SyntheticNoise& noise, double sigma) {

@@ -170,16 +170,16 @@ TEST_P(EffectContract, IsFiniteAtItsBounds) {
 }
 
 TEST_P(EffectContract, EveryParameterIsVisible) {
-  constexpr double kVisible_mm = 1e-3;  // 1 um, below any tape and far above rounding
+  constexpr double kVisibleMm = 1e-3;  // 1 um, below any tape and far above rounding
   const std::vector<double> nominal = nominal_values(effect());
   const std::vector<double> usual = seen_with({with(nominal)});
-  EXPECT_GT(largest_difference(usual, seen_with({})), kVisible_mm);
+  EXPECT_GT(largest_difference(usual, seen_with({})), kVisibleMm);
   for (std::size_t i = 0; i < nominal.size(); ++i) {
     const EffectParameter& p = effect().parameters[i];
     SCOPED_TRACE(std::string(p.name));
     std::vector<double> other = nominal;
     other[i] = p.integer ? nominal[i] + 1.0 : nominal[i] + 0.3 * p.prior_sigma;
-    EXPECT_GT(largest_difference(usual, seen_with({with(other)})), kVisible_mm);
+    EXPECT_GT(largest_difference(usual, seen_with({with(other)})), kVisibleMm);
   }
 }
 
@@ -223,12 +223,12 @@ TEST_P(EffectContract, HasAMirrorImage) {
   ASSERT_EQ(a.size(), b.size());
   // The equilibrium is solved to 1e-10 mm on the bed; its two chains are eliminated in the same
   // order on either side.
-  constexpr double kSolved_mm = 1e-9;
+  constexpr double kSolvedMm = 1e-9;
   for (std::size_t i = 0; i < a.size(); i += 4) {
-    EXPECT_NEAR(a[i], -b[i], kSolved_mm);
-    EXPECT_NEAR(a[i + 1], b[i + 1], kSolved_mm);
-    EXPECT_NEAR(a[i + 2], b[i + 3], kSolved_mm);
-    EXPECT_NEAR(a[i + 3], b[i + 2], kSolved_mm);
+    EXPECT_NEAR(a[i], -b[i], kSolvedMm);
+    EXPECT_NEAR(a[i + 1], b[i + 1], kSolvedMm);
+    EXPECT_NEAR(a[i + 2], b[i + 3], kSolvedMm);
+    EXPECT_NEAR(a[i + 3], b[i + 2], kSolvedMm);
   }
 }
 
@@ -252,11 +252,11 @@ TEST_P(EffectContract, AddsToEveryOtherToFirstOrder) {
     const double full = at_share(0.25);
     const double half = at_share(0.125);
     // Rounding of numbers of 3000 mm through a solver that stops at 1e-10 mm.
-    constexpr double kRounding_mm = 1e-9;
+    constexpr double kRoundingMm = 1e-9;
     // A kink's knee may lie between the two states of a point, which leaves a part of first order
     // in the other effect's change of angle; 0.35 stands between the quarter of a smooth pair and
     // the half of an additive failure.
-    EXPECT_LE(half, 0.35 * full + kRounding_mm);
+    EXPECT_LE(half, 0.35 * full + kRoundingMm);
     const double alone = largest_difference(seen_with({with(nominal_values(effect()))}), plain);
     EXPECT_LE(full, 0.05 * std::max(alone, 1.0)) << "the mixed part is no small part of the whole";
   }

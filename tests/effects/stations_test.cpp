@@ -18,7 +18,7 @@ namespace {
 using ::testing::ElementsAre;
 
 // Sums of a few numbers of 3000 mm, done in another order: some units of 4.5e-13.
-constexpr double kRounding_mm = 5e-12;
+constexpr double kRoundingMm = 5e-12;
 
 const std::vector<BedPoint> kPlaces = {{-1219.2, -609.6},
                                        {1219.2, -609.6},
@@ -77,25 +77,25 @@ TEST(Catalogue, HasTheSixteenEffectsInTheOrderInWhichTheyAct) {
 
 TEST(MarkFrame, ScalesAndSkewsWhatIsWritten) {
   const MarkFrame x_long(machine_with({{"tape_scale", "x", {{"scale", 0.001}}}}));
-  EXPECT_NEAR(x_long.written({1000.0, 500.0}).x_mm, 1001.0, kRounding_mm);
-  EXPECT_NEAR(x_long.written({1000.0, 500.0}).y_mm, 500.0, kRounding_mm);
+  EXPECT_NEAR(x_long.written({1000.0, 500.0}).x_mm, 1001.0, kRoundingMm);
+  EXPECT_NEAR(x_long.written({1000.0, 500.0}).y_mm, 500.0, kRoundingMm);
   const MarkFrame y_short(machine_with({{"tape_scale", "y", {{"scale", -0.001}}}}));
-  EXPECT_NEAR(y_short.written({1000.0, 500.0}).x_mm, 1000.0, kRounding_mm);
-  EXPECT_NEAR(y_short.written({1000.0, 500.0}).y_mm, 499.5, kRounding_mm);
+  EXPECT_NEAR(y_short.written({1000.0, 500.0}).x_mm, 1000.0, kRoundingMm);
+  EXPECT_NEAR(y_short.written({1000.0, 500.0}).y_mm, 499.5, kRoundingMm);
   const MarkFrame skewed(machine_with({{"axes_skew", "", {{"angle_rad", 0.002}}}}));
-  EXPECT_NEAR(skewed.written({1000.0, 500.0}).x_mm, 1001.0, kRounding_mm);
-  EXPECT_NEAR(skewed.written({1000.0, 500.0}).y_mm, 500.0, kRounding_mm);
+  EXPECT_NEAR(skewed.written({1000.0, 500.0}).x_mm, 1001.0, kRoundingMm);
+  EXPECT_NEAR(skewed.written({1000.0, 500.0}).y_mm, 500.0, kRoundingMm);
 }
 
 TEST(MarkFrame, ScalesBeforeItSkews) {
   const MarkFrame mark_frame(machine_with(
       {{"axes_skew", "", {{"angle_rad", 0.01}}}, {"tape_scale", "both", {{"scale", 0.02}}}}));
   const BedPoint written = mark_frame.written({1000.0, 500.0});
-  EXPECT_NEAR(written.x_mm, 1000.0 * 1.02 + 500.0 * 1.02 * 0.01, kRounding_mm);
-  EXPECT_NEAR(written.y_mm, 500.0 * 1.02, kRounding_mm);
+  EXPECT_NEAR(written.x_mm, 1000.0 * 1.02 + 500.0 * 1.02 * 0.01, kRoundingMm);
+  EXPECT_NEAR(written.y_mm, 500.0 * 1.02, kRoundingMm);
   const BedPoint back = mark_frame.place(written);
-  EXPECT_NEAR(back.x_mm, 1000.0, kRounding_mm);
-  EXPECT_NEAR(back.y_mm, 500.0, kRounding_mm);
+  EXPECT_NEAR(back.x_mm, 1000.0, kRoundingMm);
+  EXPECT_NEAR(back.y_mm, 500.0, kRoundingMm);
 }
 
 TEST(MarkFrame, LeavesTheReadingsAlone) {
@@ -123,8 +123,8 @@ TEST(MachineEffects, AddToTheMachinesOwnNumbers) {
   const auto lengths = read(machine, visits_of(kPlaces));
   for (std::size_t i = 0; i < kPlaces.size(); ++i) {
     const Pose pose = pose_at(expected, kPlaces[i]);
-    EXPECT_NEAR(lengths[i].left_mm, pose.lengths.left_mm, kRounding_mm);
-    EXPECT_NEAR(lengths[i].right_mm, pose.lengths.right_mm, kRounding_mm);
+    EXPECT_NEAR(lengths[i].left_mm, pose.lengths.left_mm, kRoundingMm);
+    EXPECT_NEAR(lengths[i].right_mm, pose.lengths.right_mm, kRoundingMm);
   }
 }
 
@@ -250,7 +250,7 @@ TEST(Hysteresis, LooksAtTheLengthAfterTheSprocketsWave) {
   double sign = 1.0;
   for (std::size_t i = 0; i < visits.size(); ++i) {
     if (i > 0) sign = b[i].left_mm > b[i - 1].left_mm ? 1.0 : -1.0;
-    EXPECT_NEAR(a[i].left_mm - b[i].left_mm, 0.5 * sign, kRounding_mm) << i;
+    EXPECT_NEAR(a[i].left_mm - b[i].left_mm, 0.5 * sign, kRoundingMm) << i;
   }
 }
 
@@ -280,8 +280,8 @@ TEST(Readings, AgreeWithTheRepeatablePartWhereNothingDependsOnTheVisit) {
   for (std::size_t i = 0; i < kPlaces.size(); ++i) {
     const auto reading = model.at(kPlaces[i]);
     ASSERT_TRUE(reading);
-    EXPECT_NEAR(reading->lengths.left_mm, lengths[i].left_mm, kRounding_mm);
-    EXPECT_NEAR(reading->lengths.right_mm, lengths[i].right_mm, kRounding_mm);
+    EXPECT_NEAR(reading->lengths.left_mm, lengths[i].left_mm, kRoundingMm);
+    EXPECT_NEAR(reading->lengths.right_mm, lengths[i].right_mm, kRoundingMm);
   }
 }
 

@@ -26,7 +26,7 @@ namespace {
 using testing_support::kCorpus;
 using testing_support::test_name;
 
-constexpr double kTolerance_mm = 0.05;
+constexpr double kToleranceMm = 0.05;
 
 std::string read(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -123,7 +123,7 @@ TEST_P(RealFile, IsCutWithinTheToleranceAndNotWithoutCompensation) {
     const auto summary = verified(original, output->text, corrector, options, dialect_);
     EXPECT_EQ(summary.fault, "");
     EXPECT_TRUE(summary.holds());
-    EXPECT_LE(summary.largest_mm(), kTolerance_mm)
+    EXPECT_LE(summary.largest_mm(), kToleranceMm)
         << "line " << summary.feeds.original_line << " / " << summary.rapids.original_line;
     EXPECT_GT(summary.places, 0U);
     const auto control = verified(original, original, corrector, options, dialect_);

@@ -17,7 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double kInch_mm = 25.4;
+constexpr double kInchMm = 25.4;
 
 /// Numbers that are the same everywhere.
 class Dice {
@@ -114,22 +114,22 @@ TEST_P(GridOfAnyMachine, WithColumnsSwappedIsRecognised) {
 
 TEST_P(GridOfAnyMachine, WithMarksInInchesIsRecognised) {
   for (MeasuredPoint& point : grid_.points)
-    point.mark = {point.mark.x_mm / kInch_mm, point.mark.y_mm / kInch_mm};
+    point.mark = {point.mark.x_mm / kInchMm, point.mark.y_mm / kInchMm};
   EXPECT_THAT(said_of(grid_),
               ElementsAre(HasSubstr("x_mm and y_mm look like inches, the lengths like mm")));
 }
 
 TEST_P(GridOfAnyMachine, WithLengthsInInchesIsRecognised) {
   for (MeasuredPoint& point : grid_.points) {
-    point.lengths = {point.lengths->left_mm / kInch_mm, point.lengths->right_mm / kInch_mm};
+    point.lengths = {point.lengths->left_mm / kInchMm, point.lengths->right_mm / kInchMm};
   }
   EXPECT_THAT(said_of(grid_), ElementsAre(HasSubstr("look like inches")));
 }
 
 TEST_P(GridOfAnyMachine, AllInInchesIsRecognised) {
   for (MeasuredPoint& point : grid_.points) {
-    point.mark = {point.mark.x_mm / kInch_mm, point.mark.y_mm / kInch_mm};
-    point.lengths = {point.lengths->left_mm / kInch_mm, point.lengths->right_mm / kInch_mm};
+    point.mark = {point.mark.x_mm / kInchMm, point.mark.y_mm / kInchMm};
+    point.lengths = {point.lengths->left_mm / kInchMm, point.lengths->right_mm / kInchMm};
   }
   EXPECT_THAT(said_of(grid_), ElementsAre(HasSubstr("these look like inches (multiply by 25.4)")));
 }

@@ -87,7 +87,7 @@ class LinkedChains {
   }
   [[nodiscard]] double link_mm(Side side) const { return nominal_[side] / links_; }
   [[nodiscard]] double total_mm(Side side) const {
-    return side == Side::left ? lengths_.left_mm : lengths_.right_mm;
+    return lengths_[side];
   }
 
   void lay_out(const Pose& guess) {

@@ -62,13 +62,13 @@ void compare(const Table& table, const nlohmann::json& records, const Column& co
   const PlacesRead read = read_places(machine_of(table), {}, visits, column.model);
   EXPECT_TRUE(read.unreachable.empty());
   ASSERT_EQ(read.grid.points.size(), records.size());
-  constexpr double kPromised_mm = 1e-9;
+  constexpr double kPromisedMm = 1e-9;
   for (std::size_t i = 0; i < records.size(); ++i) {
     EXPECT_NEAR(
-        read.grid.points[i].lengths->left_mm, number(records[i].at(column.key)[0]), kPromised_mm)
+        read.grid.points[i].lengths->left_mm, number(records[i].at(column.key)[0]), kPromisedMm)
         << i;
     EXPECT_NEAR(
-        read.grid.points[i].lengths->right_mm, number(records[i].at(column.key)[1]), kPromised_mm)
+        read.grid.points[i].lengths->right_mm, number(records[i].at(column.key)[1]), kPromisedMm)
         << i;
   }
 }

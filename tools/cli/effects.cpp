@@ -90,9 +90,9 @@ void describe(const Effect& effect) {
 
 // The arrow's glyph for a shift, a dot where it is below a hundredth of a millimetre.
 std::string_view glyph(const Eigen::Vector2d& shift) {
-  constexpr double kNothing_mm = 0.005;
+  constexpr double kNothingMm = 0.005;
   constexpr std::string_view kArrows[] = {"→", "↗", "↑", "↖", "←", "↙", "↓", "↘"};
-  if (shift.norm() < kNothing_mm) return "·";
+  if (shift.norm() < kNothingMm) return "·";
   const double eighths = std::atan2(shift.y(), shift.x()) / (std::numbers::pi / 4.0);
   return kArrows[static_cast<std::size_t>(std::lround(eighths) + 8) % 8];
 }

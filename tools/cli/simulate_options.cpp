@@ -83,15 +83,15 @@ synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& p
 
 std::optional<grid::StatedNoise> parse_stated(const SimulateOptions& options,
                                               OptionProblems& problems) {
-  constexpr double kMost_mm = 100.0;
+  constexpr double kMostMm = 100.0;
   if (!options.stated_length_mm && !options.stated_position_mm && !options.stated_dof)
     return std::nullopt;
   grid::StatedNoise stated;
   stated.length_mm = options.stated_length_mm.value_or(options.noise.length_mm);
   stated.position_mm = options.stated_position_mm.value_or(options.noise.position_mm);
   stated.dof = options.stated_dof.value_or(stated.dof);
-  problems.require("--stated-length-noise-mm", stated.length_mm, 0.0, kMost_mm);
-  problems.require("--stated-position-noise-mm", stated.position_mm, 0.0, kMost_mm);
+  problems.require("--stated-length-noise-mm", stated.length_mm, 0.0, kMostMm);
+  problems.require("--stated-position-noise-mm", stated.position_mm, 0.0, kMostMm);
   problems.require("--stated-dof", stated.dof, 1.0, 1e9);
   return stated;
 }
@@ -99,14 +99,14 @@ std::optional<grid::StatedNoise> parse_stated(const SimulateOptions& options,
 void check_ranges(const SimulateOptions& options,
                   const model::Machine& machine,
                   OptionProblems& problems) {
-  constexpr double kMostNoise_mm = 100.0;
+  constexpr double kMostNoiseMm = 100.0;
   constexpr double kMostRepeats = 1e6;
   problems.require("--jitter-mm", options.jitter_mm, 0.0, 1000.0);
-  problems.require("--length-noise-mm", options.noise.length_mm, 0.0, kMostNoise_mm);
-  problems.require("--position-noise-mm", options.noise.position_mm, 0.0, kMostNoise_mm);
-  problems.require("--length-rounding-mm", options.noise.length_rounding_mm, 0.0, kMostNoise_mm);
+  problems.require("--length-noise-mm", options.noise.length_mm, 0.0, kMostNoiseMm);
+  problems.require("--position-noise-mm", options.noise.position_mm, 0.0, kMostNoiseMm);
+  problems.require("--length-rounding-mm", options.noise.length_rounding_mm, 0.0, kMostNoiseMm);
   problems.require(
-      "--position-rounding-mm", options.noise.position_rounding_mm, 0.0, kMostNoise_mm);
+      "--position-rounding-mm", options.noise.position_rounding_mm, 0.0, kMostNoiseMm);
   problems.require("--repeats", options.repeats, 0.0, kMostRepeats);
   problems.require("--bad-points", options.bad.count, 0.0, kMostRepeats);
   problems.require("--bad-size-mm", options.bad.size_mm, 0.0, 10000.0);

@@ -11,8 +11,8 @@ namespace chaintrue::gcode {
 namespace {
 
 /// Corrections have no waves shorter than some hundred millimetres; what has is seen by the checks.
-constexpr double kLongest_mm = 120.0;
-constexpr double kMostTurn_rad = 1.5;
+constexpr double kLongestMm = 120.0;
+constexpr double kMostTurnRad = 1.5;
 /// Where the interpolation is checked, as shares of the stretch: between the nodes.
 constexpr double kChecks[] = {0.155, 0.62};
 
@@ -24,8 +24,8 @@ model::BedPoint difference(const PathSample& sample) {
 
 ArcCurve::ArcCurve(const Move& move, const Curve& exact, double bound_mm)
     : move_(move), exact_(exact), bound_mm_(bound_mm) {
-  const double share = std::min(kLongest_mm / std::max(length_mm(move), 1e-9),
-                                kMostTurn_rad / std::max(std::fabs(move.arc->sweep_rad), 1e-9));
+  const double share = std::min(kLongestMm / std::max(length_mm(move), 1e-9),
+                                kMostTurnRad / std::max(std::fabs(move.arc->sweep_rad), 1e-9));
   stretch_ = std::min(1.0, share);
 }
 

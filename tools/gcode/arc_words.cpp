@@ -13,15 +13,15 @@ namespace chaintrue::gcode {
 namespace {
 
 // LinuxCNC src/emc/rs274ngc/interp_internal.hh.
-constexpr double kInch_mm = 25.4;
-constexpr double kRadiusTolerance_mm = 0.00127;
+constexpr double kInchMm = 25.4;
+constexpr double kRadiusToleranceMm = 0.00127;
 constexpr double kRadiusTolerance_inch = 0.00005;
-constexpr double kSpiralTolerance_mm = 0.02 * std::numbers::sqrt2;
+constexpr double kSpiralToleranceMm = 0.02 * std::numbers::sqrt2;
 constexpr double kSpiralTolerance_inch = 0.002 * std::numbers::sqrt2;
 constexpr double kSpiralRelativeTolerance = 0.001;
 /// A half circle by radius: half the chord is the radius but for rounding.
 constexpr double kTiny = 1e-12;
-constexpr double kWholeTurn_rad = 5e-7;
+constexpr double kWholeTurnRad = 5e-7;
 
 double distance(PlanePoint a, PlanePoint b) {
   return std::hypot(a.first_mm - b.first_mm, a.second_mm - b.second_mm);
@@ -35,7 +35,7 @@ char centre_word(char axis) { return static_cast<char>(axis - 'x' + 'i'); }
 Result<PlanePoint> by_radius(const ArcRequest& request, const Block& block) {
   const double radius = block.value('r') * request.mm_per_unit;
   const bool inches = request.mm_per_unit != 1.0;
-  const double tolerance = inches ? kRadiusTolerance_inch * kInch_mm : kRadiusTolerance_mm;
+  const double tolerance = inches ? kRadiusTolerance_inch * kInchMm : kRadiusToleranceMm;
   const double dx = request.end.first_mm - request.start.first_mm;
   const double dy = request.end.second_mm - request.start.second_mm;
   const double half_chord = 0.5 * std::hypot(dx, dy);
@@ -80,8 +80,8 @@ Result<PlanePoint> by_centre(const ArcRequest& request, const Block& block) {
   const PlanePoint centre{base.first_mm + block.find(first).value_or(0.0) * request.mm_per_unit,
                           base.second_mm + block.find(second).value_or(0.0) * request.mm_per_unit};
   const bool inches = request.mm_per_unit != 1.0;
-  const double radius_tolerance = inches ? kRadiusTolerance_inch * kInch_mm : kRadiusTolerance_mm;
-  const double spiral_tolerance = inches ? kSpiralTolerance_inch * kInch_mm : kSpiralTolerance_mm;
+  const double radius_tolerance = inches ? kRadiusTolerance_inch * kInchMm : kRadiusToleranceMm;
+  const double spiral_tolerance = inches ? kSpiralTolerance_inch * kInchMm : kSpiralToleranceMm;
   const double from_start = distance(centre, request.start);
   const double from_end = distance(centre, request.end);
   if (from_start < radius_tolerance || from_end < radius_tolerance) {
@@ -136,8 +136,8 @@ double arc_sweep(PlanePoint start, PlanePoint end, PlanePoint centre, int turns)
   const double to = std::atan2(end.second_mm - centre.second_mm, end.first_mm - centre.first_mm);
   const double direction = turns > 0 ? 1.0 : -1.0;
   double sweep = direction * (to - from);
-  while (sweep <= kWholeTurn_rad) sweep += kTurn;
-  while (sweep > kTurn + kWholeTurn_rad) sweep -= kTurn;
+  while (sweep <= kWholeTurnRad) sweep += kTurn;
+  while (sweep > kTurn + kWholeTurnRad) sweep -= kTurn;
   return direction * (sweep + (std::abs(turns) - 1) * kTurn);
 }
 

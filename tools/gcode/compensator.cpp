@@ -27,15 +27,15 @@ constexpr double kCurvatureSafety = 2.0;
 /// where they are checked.
 constexpr double kSpare = 0.045;
 /// Half a unit of single precision below 2048 mm, in X and Y.
-constexpr double kSinglePrecision_mm = 0.5 * 1.25e-4 * 1.5;
+constexpr double kSinglePrecisionMm = 0.5 * 1.25e-4 * 1.5;
 /// Share of the tolerance that interpolating an arc's correction may cost.
 constexpr double kArcShare = 0.005;
 /// A circle keeps its shape even where the tolerance would let it become a point.
-constexpr double kMostTurn_rad = 0.25 * std::numbers::pi;
+constexpr double kMostTurnRad = 0.25 * std::numbers::pi;
 
 double chord_tolerance(const CompensateOptions& options, bool single_precision) {
   const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -options.decimals) +
-                          (single_precision ? kSinglePrecision_mm : 0.0);
+                          (single_precision ? kSinglePrecisionMm : 0.0);
   const double left = ((1.0 - kSpare) * options.tolerance_mm - rounding) / kStretch;
   if (!(left > 0.0)) {
     throw std::invalid_argument(
@@ -167,7 +167,7 @@ Result<void> Compensator::piece(
     return outcome;
   }
   const double turn = move.arc ? std::fabs(move.arc->sweep_rad) * (to - from) : 0.0;
-  const double longest = turn > kMostTurn_rad ? length * kMostTurn_rad / turn : length;
+  const double longest = turn > kMostTurnRad ? length * kMostTurnRad / turn : length;
   const auto done = move.arc && !has_play()
                         ? along_arc(move, feed, commands, *start, {length, longest}, outcome)
                         : segmenter_.run(commands, *start, to, {length, longest}, visit);
@@ -215,9 +215,9 @@ Result<void> Compensator::along(const Move& move, double feed) {
     return emit(move, feed, *end);
   }
   if (!has_play()) return piece(move, feed, 0.0, 1.0, {});
-  constexpr double kLook_mm = 20.0;
+  constexpr double kLookMm = 20.0;
   const int looks =
-      static_cast<int>(std::clamp(length_mm(move) / kLook_mm, move.arc ? 16.0 : 4.0, 1e4));
+      static_cast<int>(std::clamp(length_mm(move) / kLookMm, move.arc ? 16.0 : 4.0, 1e4));
   double from = 0.0;
   ChainDirections now = directions_at(move, 0.0, directions_);
   for (int i = 1; i <= looks; ++i) {

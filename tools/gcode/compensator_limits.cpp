@@ -14,7 +14,7 @@ namespace chaintrue::gcode {
 namespace {
 
 /// Between nearer points rounding makes slopes of its own.
-constexpr double kSlopeBase_mm = 1.0;
+constexpr double kSlopeBaseMm = 1.0;
 
 }  // namespace
 
@@ -81,7 +81,7 @@ void Compensator::examine(const Move& move, const PathSample& sample) {
   if (here_) {
     const double way = std::hypot(sample.target.x_mm - here_->target.x_mm,
                                   sample.target.y_mm - here_->target.y_mm);
-    if (way >= kSlopeBase_mm && !has_play()) {
+    if (way >= kSlopeBaseMm && !has_play()) {
       const double slope = std::hypot(dx - (here_->command.x_mm - here_->target.x_mm),
                                       dy - (here_->command.y_mm - here_->target.y_mm)) /
                            way;

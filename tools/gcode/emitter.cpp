@@ -88,9 +88,9 @@ Result<bool> Emitter::command(bool rapid,
                               std::optional<model::BedPoint> xy,
                               std::optional<double> z_mm,
                               double feed_mm_per_min) {
-  constexpr double kLargest_mm = 1e8;
+  constexpr double kLargestMm = 1e8;
   constexpr double kSlowest = 1e-12;
-  const auto too_large = [](double value) { return !(std::fabs(value) < kLargest_mm); };
+  const auto too_large = [](double value) { return !(std::fabs(value) < kLargestMm); };
   if ((xy && (too_large(xy->x_mm) || too_large(xy->y_mm))) || (z_mm && too_large(*z_mm)) ||
       (!rapid && !(feed_mm_per_min > kSlowest && feed_mm_per_min < 1e12))) {
     return refuse(ProblemName::not_emittable,

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kLetters = "xyzabc";
 /// How far above the last peck's bottom the rapid stops (LinuxCNC: G83_RAPID_DELTA, 0.010 inch).
-constexpr double kPeckClearance_mm = 0.254;
+constexpr double kPeckClearanceMm = 0.254;
 
 }  // namespace
 
@@ -189,7 +189,7 @@ Result<void> Interpreter::peck(const Block& block,
           cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.retract}));
     }
     CHAINTRUE_GCODE_TRY(
-        cycle_move(block, cycle, MoveKind::rapid, {first, second, depth + kPeckClearance_mm}));
+        cycle_move(block, cycle, MoveKind::rapid, {first, second, depth + kPeckClearanceMm}));
   }
   CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::feed, {first, second, cycle.bottom}));
   return cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.clear});

@@ -18,7 +18,7 @@ namespace {
 
 /// What a fault is widened by until the track can be followed on.
 constexpr double kWiden = 1.1;
-constexpr double kMostDistance_mm = 1e6;
+constexpr double kMostDistanceMm = 1e6;
 constexpr double kHalf = 0.5;
 
 double squared(Point a, Point b) {
@@ -95,7 +95,7 @@ bool PathMatcher::read() {
   }
   next.from = path_end_;
   next.pinned = pin(path_run_, next.from, next.piece);
-  next.corner.distance_mm = kMostDistance_mm;
+  next.corner.distance_mm = kMostDistanceMm;
   path_end_ = next.piece.to;
   open_.push_back(next);
   return true;
@@ -113,7 +113,7 @@ PathMatcher::Outcome PathMatcher::begin(Point intended, Point tool, std::size_t 
   Open start;
   start.from = intended;
   start.piece.to = intended;
-  start.corner.distance_mm = kMostDistance_mm;
+  start.corner.distance_mm = kMostDistanceMm;
   start.left = {0.0, 1.0};
   open_.push_back(start);
   const double apart = distance_mm(intended, tool);
@@ -219,7 +219,7 @@ bool PathMatcher::column(const PathPiece& piece, bool pinned, double distance_mm
 
 /// The tool has arrived at the end of the piece.
 void PathMatcher::commit(const PathPiece& piece) {
-  Pair nearest{kMostDistance_mm, {}, piece.to, 0, piece.line};
+  Pair nearest{kMostDistanceMm, {}, piece.to, 0, piece.line};
   bool rapid = false;
   std::size_t lowest = open_.size();
   for (std::size_t i = first_; i < open_.size(); ++i) {
@@ -267,7 +267,7 @@ PathMatcher::Outcome PathMatcher::advance(const PathPiece& piece) {
 }
 
 void PathMatcher::advance_anyhow(const PathPiece& piece) {
-  while (!column(piece, false, distance_mm_, false) && distance_mm_ < kMostDistance_mm) {
+  while (!column(piece, false, distance_mm_, false) && distance_mm_ < kMostDistanceMm) {
     distance_mm_ *= kWiden;
   }
   const Pair before = front();

@@ -17,14 +17,14 @@ constexpr double kGoodEnough = 0.85;
 constexpr double kAim = 0.93;
 constexpr int kMostTrials = 12;
 /// Chords are checked at least this densely: measured residual surfaces have no shorter waves.
-constexpr double kCheckEvery_mm = 30.0;
+constexpr double kCheckEveryMm = 30.0;
 constexpr int kFewestChecks = 6;
 /// Rounding changes a command's length by less, at two decimals and more.
-constexpr double kRounding_mm = 0.02;
+constexpr double kRoundingMm = 0.02;
 /// Half a unit of single precision below 2048 mm, in X and Y.
-constexpr double kPieceRounding_mm = 0.5 * 1.2207e-4 * 1.4143;
+constexpr double kPieceRoundingMm = 0.5 * 1.2207e-4 * 1.4143;
 /// Below this a chord is not cut further: output has three decimals.
-constexpr double kShortest_mm = 0.002;
+constexpr double kShortestMm = 0.002;
 
 }  // namespace
 
@@ -33,12 +33,12 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
                                                                 const PathSample& b,
                                                                 double length_mm) const {
   int checks = std::max(kFewestChecks,
-                        static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEvery_mm))));
+                        static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEveryMm))));
   CommandWay way(corrector_.firmware(),
                  corrector_.kinematics(),
                  {a.command.x_mm, a.command.y_mm},
                  {b.command.x_mm, b.command.y_mm},
-                 kRounding_mm);
+                 kRoundingMm);
   const bool own_way = corrector_.firmware().chain_linear_piece_mm > 0.0;
   // Each of the controller's pieces bows: the worst is in the middle of one, or where two meet.
   if (own_way) checks = 2 * way.pieces() * ((checks + 2 * way.pieces() - 1) / (2 * way.pieces()));
@@ -62,7 +62,7 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
     worst = std::max(worst, distance_mm(sample->command, on_way));
   }
   // FluidNC adds its pieces up in single precision.
-  return own_way ? worst + way.pieces() * kPieceRounding_mm : worst;
+  return own_way ? worst + way.pieces() * kPieceRoundingMm : worst;
 }
 
 tl::expected<void, CorrectionFailure> Segmenter::run(
@@ -90,10 +90,10 @@ tl::expected<void, CorrectionFailure> Segmenter::run(
       if (!deviation) return tl::unexpected(deviation.error());
       const double share = *deviation / tolerance_mm_;
       const double factor = share > 0.0 ? std::sqrt(kAim / share) : 4.0;
-      if (share <= 1.0 || step_mm <= kShortest_mm) {
+      if (share <= 1.0 || step_mm <= kShortestMm) {
         best = *b;
         best_share = share;
-        if (reach >= furthest || share >= kGoodEnough || step_mm <= kShortest_mm) break;
+        if (reach >= furthest || share >= kGoodEnough || step_mm <= kShortestMm) break;
         if (trial + 4 >= kMostTrials) break;
         reach = std::min(furthest, a.t + (reach - a.t) * std::min(factor, 4.0));
       } else {
@@ -104,7 +104,7 @@ tl::expected<void, CorrectionFailure> Segmenter::run(
     }
     if (!(best.t > a.t)) {
       // The deviation did not shrink with the chord: take the shortest.
-      const auto b = curve(std::min(end, a.t + std::max(kShortest_mm * per_mm, 1e-12)));
+      const auto b = curve(std::min(end, a.t + std::max(kShortestMm * per_mm, 1e-12)));
       if (!b) return tl::unexpected(b.error());
       best = *b;
     }

@@ -14,9 +14,9 @@ namespace chaintrue::gcode {
 namespace {
 
 /// With play the tool's track has kinks where a chain turns around.
-constexpr double kPlayStep_mm = 1.0;
+constexpr double kPlayStepMm = 1.0;
 /// A way that is linear in chain lengths bends with at least this radius: the shortest chain's.
-constexpr double kShortestChain_mm = 400.0;
+constexpr double kShortestChainMm = 400.0;
 
 double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm); }
 
@@ -100,7 +100,7 @@ Result<bool> SimulatedMachine::straight(Point from,
     return chain_linear(from, to, line, visit);
   }
   for (double gone = 0.0; gone < length;) {
-    double step = kPlayStep_mm;
+    double step = kPlayStepMm;
     if (!play_) {
       const auto way = [&](double along) {
         const Point here = between(from, to, std::min(1.0, along / length));
@@ -133,7 +133,7 @@ Result<bool> SimulatedMachine::chain_linear(Point from,
                    (to.y_mm - from.y_mm) / pieces,
                    (to.z_mm - from.z_mm) / pieces};
   const double looks = std::ceil(
-      length / pieces / std::sqrt(8.0 * options_.flatness_mm * kShortestChain_mm));
+      length / pieces / std::sqrt(8.0 * options_.flatness_mm * kShortestChainMm));
   Point here = from;
   auto paid = corrector_.paid_out({here.x_mm, here.y_mm});
   for (double piece = 1.0; paid && piece <= pieces; piece += 1.0) {

@@ -14,7 +14,7 @@ namespace {
 
 /// Bulges of arcs are found to within radius (1 - cos(angle / 2)), 0.03 % of the radius at this
 /// step.
-constexpr double kLook_rad = std::numbers::pi / 64.0;
+constexpr double kLookRad = std::numbers::pi / 64.0;
 
 class Surveyor final : public Sink {
  public:
@@ -28,7 +28,7 @@ class Surveyor final : public Sink {
       return {};
     }
     const int looks =
-        move.arc ? static_cast<int>(std::ceil(std::fabs(move.arc->sweep_rad) / kLook_rad)) : 1;
+        move.arc ? static_cast<int>(std::ceil(std::fabs(move.arc->sweep_rad) / kLookRad)) : 1;
     for (int i = move.kind == MoveKind::rapid ? looks : 0; i <= looks; ++i) {
       Point place = at(move, static_cast<double>(i) / looks);
       place.x_mm += home_.x_mm;

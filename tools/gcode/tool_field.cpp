@@ -14,8 +14,8 @@ constexpr double kLook[][2] = {{0.5, 0.5}, {0.25, 0.75}};
 constexpr double kErrorSafety = 2.0;
 constexpr double kCurvatureSafety = 2.0;
 /// Where nothing is known of the curvature.
-constexpr double kCarefulStep_mm = 1.0;
-constexpr double kLongestStep_mm = 24.0;
+constexpr double kCarefulStepMm = 1.0;
+constexpr double kLongestStepMm = 24.0;
 
 std::uint64_t key(std::int64_t column, std::int64_t row) {
   return (static_cast<std::uint64_t>(column) << 32U) ^
@@ -24,8 +24,8 @@ std::uint64_t key(std::int64_t column, std::int64_t row) {
 
 /// Beyond any bed there is nothing to keep.
 bool near(model::BedPoint command) {
-  constexpr double kFar_mm = 1e5;
-  return std::fabs(command.x_mm) < kFar_mm && std::fabs(command.y_mm) < kFar_mm;
+  constexpr double kFarMm = 1e5;
+  return std::fabs(command.x_mm) < kFarMm && std::fabs(command.y_mm) < kFarMm;
 }
 
 /// Weights of the nodes at -1, 0, 1 and 2.
@@ -41,8 +41,8 @@ std::array<double, 4> weights(double t) {
 ToolField::Node ToolField::node(std::int64_t column, std::int64_t row) {
   const auto [place, fresh] = nodes_.try_emplace(key(column, row));
   if (fresh) {
-    const model::BedPoint command{static_cast<double>(column) * kSpacing_mm,
-                                  static_cast<double>(row) * kSpacing_mm};
+    const model::BedPoint command{static_cast<double>(column) * kSpacingMm,
+                                  static_cast<double>(row) * kSpacingMm};
     if (const auto tool = corrector_.tool(command)) {
       place->second = {tool->x_mm - command.x_mm, tool->y_mm - command.y_mm, true};
     }
@@ -98,10 +98,10 @@ void ToolField::fill(Cell& cell, std::int64_t column, std::int64_t row) {
   }
   cell.curvature_per_mm = kCurvatureSafety *
                           std::sqrt(along * along + up * up + 2.0 * mixed * mixed) /
-                          (kSpacing_mm * kSpacing_mm);
+                          (kSpacingMm * kSpacingMm);
   for (const auto& look : kLook) {
-    const model::BedPoint command{(static_cast<double>(column) + look[0]) * kSpacing_mm,
-                                  (static_cast<double>(row) + look[1]) * kSpacing_mm};
+    const model::BedPoint command{(static_cast<double>(column) + look[0]) * kSpacingMm,
+                                  (static_cast<double>(row) + look[1]) * kSpacingMm};
     const auto exact = corrector_.tool(command);
     if (!exact) return;
     const model::BedPoint guess = interpolated(cell, look[0], look[1]);
@@ -113,8 +113,8 @@ void ToolField::fill(Cell& cell, std::int64_t column, std::int64_t row) {
 }
 
 const ToolField::Cell& ToolField::cell(model::BedPoint command) {
-  const auto column = static_cast<std::int64_t>(std::floor(command.x_mm / kSpacing_mm));
-  const auto row = static_cast<std::int64_t>(std::floor(command.y_mm / kSpacing_mm));
+  const auto column = static_cast<std::int64_t>(std::floor(command.x_mm / kSpacingMm));
+  const auto row = static_cast<std::int64_t>(std::floor(command.y_mm / kSpacingMm));
   const std::uint64_t wanted = key(column, row);
   if (last_ != nullptr && wanted == last_key_) return *last_;
   const auto [place, fresh] = cells_.try_emplace(wanted);
@@ -128,17 +128,17 @@ tl::expected<model::BedPoint, CorrectionFailure> ToolField::tool(model::BedPoint
   if (!near(command)) return corrector_.tool(command);
   const Cell& found = cell(command);
   if (!found.interpolates) return corrector_.tool(command);
-  const double x = command.x_mm / kSpacing_mm;
-  const double y = command.y_mm / kSpacing_mm;
+  const double x = command.x_mm / kSpacingMm;
+  const double y = command.y_mm / kSpacingMm;
   const model::BedPoint offset = interpolated(found, x - std::floor(x), y - std::floor(y));
   return model::BedPoint{command.x_mm + offset.x_mm, command.y_mm + offset.y_mm};
 }
 
 double ToolField::straight_mm(model::BedPoint command, double flatness_mm) {
-  if (!near(command)) return kCarefulStep_mm;
+  if (!near(command)) return kCarefulStepMm;
   const Cell& found = cell(command);
-  if (!found.interpolates) return kCarefulStep_mm;
-  return std::min(kLongestStep_mm,
+  if (!found.interpolates) return kCarefulStepMm;
+  return std::min(kLongestStepMm,
                   std::sqrt(8.0 * flatness_mm / std::max(found.curvature_per_mm, 1e-12)));
 }
 

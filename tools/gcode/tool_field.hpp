@@ -3,7 +3,7 @@
 /// Where the tool is for a command: Corrector::tool, evaluated on a lattice as the program comes by
 /// and interpolated between.
 ///
-/// Cubic Lagrange interpolation of tool(c) - c over 16 nodes, kSpacing_mm apart. Every cell is held
+/// Cubic Lagrange interpolation of tool(c) - c over 16 nodes, kSpacingMm apart. Every cell is held
 /// against the exact answer at two places before it is used; where twice the larger difference is
 /// above the bound, or where a node has no answer, the cell is not interpolated: each place in it
 /// is computed. Error: below the bound at the places looked at; docs/gcode.md states it as part of
@@ -23,7 +23,7 @@ namespace chaintrue::gcode {
 
 class ToolField {
  public:
-  static constexpr double kSpacing_mm = 16.0;
+  static constexpr double kSpacingMm = 16.0;
 
   /// Keeps the reference.
   ToolField(const Corrector& corrector, double bound_mm)

@@ -24,7 +24,7 @@ constexpr double kFieldShare = 0.005;    // interpolating the map backwards
 constexpr double kLeft = 1.0 - kArcShare - kFlatnessShare - kFieldShare;
 constexpr int kFewestChordsPerTurn = 16;
 /// Shorter commands are rounded too coarsely to tell their stretch.
-constexpr double kLeastStretched_mm = 2.0;
+constexpr double kLeastStretchedMm = 2.0;
 
 bool same_xy(Point a, Point b) { return a.x_mm == b.x_mm && a.y_mm == b.y_mm; }
 
@@ -198,7 +198,7 @@ class Verification {
     const auto done = machine_.run(command, [&](Point tool, Point commanded) {
       const double way = distance_mm(last_command_, commanded);
       const double stretch =
-          way >= kLeastStretched_mm ? distance_mm(last_tool_, tool) / way : 1.0;
+          way >= kLeastStretchedMm ? distance_mm(last_tool_, tool) / way : 1.0;
       last_command_ = commanded;
       last_tool_ = tool;
       ++summary_.places;

@@ -18,7 +18,7 @@ constexpr double kDrawnCorrection = 0.05;
 double size_mm(const ToolVector& vector) { return std::hypot(vector.x_mm, vector.y_mm); }
 
 /// The view is at least so wide, so that a single hole has its surroundings.
-constexpr double kLeastView_mm = 20.0;
+constexpr double kLeastViewMm = 20.0;
 constexpr double kMargin = 0.08;
 /// Height by width: a page is no scroll.
 constexpr double kTallest = 0.8;
@@ -101,7 +101,7 @@ Outline view_of(const PathReport& report, double magnification) {
   Outline view = part_of(report, magnification);
   const double margin = kMargin * std::max({view.x_max_mm - view.x_min_mm,
                                             view.y_max_mm - view.y_min_mm,
-                                            kLeastView_mm});
+                                            kLeastViewMm});
   view = {view.x_min_mm - margin,
           view.x_max_mm + margin,
           view.y_min_mm - margin,
@@ -116,7 +116,7 @@ double magnification_of(const PathReport& report) {
   if (!(largest > 0.0)) return 1.0;
   const Outline part = part_of(report, 0.0);
   const double extent =
-      std::max({part.x_max_mm - part.x_min_mm, part.y_max_mm - part.y_min_mm, kLeastView_mm});
+      std::max({part.x_max_mm - part.x_min_mm, part.y_max_mm - part.y_min_mm, kLeastViewMm});
   return std::max(1.0, std::floor(kDrawnCorrection * extent / largest));
 }
 

@@ -15,7 +15,7 @@ namespace chaintrue::follower {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kInch_mm = 25.4;
+constexpr double kInchMm = 25.4;
 constexpr std::array<char, 3> kAxes = {'x', 'y', 'z'};
 constexpr std::array<char, 3> kCentres = {'i', 'j', 'k'};
 
@@ -31,7 +31,7 @@ class Machine {
   std::vector<Piece> pieces;
 
  private:
-  [[nodiscard]] double mm(double value) const { return inches_ ? kInch_mm * value : value; }
+  [[nodiscard]] double mm(double value) const { return inches_ ? kInchMm * value : value; }
   [[nodiscard]] System& system() { return systems_[system_]; }
   [[nodiscard]] Place to_machine(const Place& program);
   [[nodiscard]] Place to_program(const Place& machine);
@@ -177,14 +177,14 @@ void Machine::arc(const Line& line, bool clockwise) {
   double sweep = std::atan2(end[b] - cb, end[a] - ca) - from;
   const double whole = clockwise ? -kTurn : kTurn;
   // An end within rounding of the start means a whole turn.
-  constexpr double kSame_rad = 5e-7;
-  while (clockwise ? sweep >= -kSame_rad : sweep <= kSame_rad) sweep += whole;
-  while (std::fabs(sweep) > kTurn + kSame_rad) sweep -= whole;
+  constexpr double kSameRad = 5e-7;
+  while (clockwise ? sweep >= -kSameRad : sweep <= kSameRad) sweep += whole;
+  while (std::fabs(sweep) > kTurn + kSameRad) sweep -= whole;
   sweep += whole * (std::round(line.value('p', 1.0)) - 1.0);
   const double r0 = std::hypot(start[a] - ca, start[b] - cb);
   const double r1 = std::hypot(end[a] - ca, end[b] - cb);
   // Sagitta r (1 - cos(h/2)) <= r h^2 / 8.
-  const double step = std::sqrt(8.0 * kChord_mm / std::max({r0, r1, 1e-3}));
+  const double step = std::sqrt(8.0 * kChordMm / std::max({r0, r1, 1e-3}));
   const int count = std::max(8, static_cast<int>(std::ceil(std::fabs(sweep) / step)));
   std::vector<Place> places = {here_};
   for (int i = 1; i <= count; ++i) {
@@ -202,7 +202,7 @@ void Machine::arc(const Line& line, bool clockwise) {
 /// Down and up again; pecks of G83 and G73 retrace the hole.
 void Machine::hole(Place at, double retract, double clear, double bottom) {
   const std::size_t n = plane_axes(plane_)[2];
-  constexpr double kPeckClearance_mm = 0.254;  // LinuxCNC's G83_RAPID_DELTA
+  constexpr double kPeckClearanceMm = 0.254;  // LinuxCNC's G83_RAPID_DELTA
   if (motion_ == 830 || motion_ == 730) {
     for (double depth = retract - row_q_; depth > bottom; depth -= row_q_) {
       at[n] = depth;
@@ -211,7 +211,7 @@ void Machine::hole(Place at, double retract, double clear, double bottom) {
         at[n] = retract;
         go(at, true);
       }
-      at[n] = depth + kPeckClearance_mm;
+      at[n] = depth + kPeckClearanceMm;
       go(at, true);
     }
   }

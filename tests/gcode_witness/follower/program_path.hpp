@@ -22,14 +22,14 @@ struct Piece {
   bool rapid = false;
   std::size_t line = 0;
   double feed_mm_per_min = 0.0;
-  /// From where the last piece ended; arcs as chords within kChord_mm of them.
+  /// From where the last piece ended; arcs as chords within kChordMm of them.
   std::vector<Place> places;
   /// The line says X or Y: until one does, nobody knows where the tool stands.
   bool says_xy = false;
 };
 
 /// What the chords of an arc lie off it at most.
-inline constexpr double kChord_mm = 5e-4;
+inline constexpr double kChordMm = 5e-4;
 
 /// \throws std::runtime_error with the line where the program is not understood.
 [[nodiscard]] std::vector<Piece> program_path(const std::string& program);

@@ -8,7 +8,7 @@ namespace chaintrue::follower {
 namespace {
 
 /// The tool's way bends by 1e-5 per mm at most: over 4 mm that is 2e-5 mm.
-constexpr double kSample_mm = 4.0;
+constexpr double kSampleMm = 4.0;
 
 Place along(const Place& a, const Place& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
@@ -26,7 +26,7 @@ bool follow(const Workshop& workshop, const Place& from, const Place& to, std::v
   const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
   const double piece_mm = workshop.chain_linear_piece_mm;
   const int pieces = piece_mm > 0.0 ? std::max(1, static_cast<int>(length / piece_mm)) : 1;
-  const int samples = std::max(1, static_cast<int>(std::ceil(length / pieces / kSample_mm)));
+  const int samples = std::max(1, static_cast<int>(std::ceil(length / pieces / kSampleMm)));
   for (int i = 0; i < pieces; ++i) {
     const Place a = along(from, to, static_cast<double>(i) / pieces);
     const Place b = along(from, to, static_cast<double>(i + 1) / pieces);

@@ -17,10 +17,10 @@ namespace chaintrue::witness {
 namespace {
 
 /// Truths have nine decimals and passed through inches; a metre has sixteen digits.
-constexpr double kPlace_mm = 1e-6;
+constexpr double kPlaceMm = 1e-6;
 /// A centre that was found from a radius: half the chord is within 1e-12 of the radius where it is
 /// a half circle by rounding, and the square root of that is lost.
-constexpr double kCentre_mm = 1e-5;
+constexpr double kCentreMm = 1e-5;
 /// Twelve digits are written, and inches to millimetres and back costs one.
 constexpr double kFeed = 1e-9;
 
@@ -174,7 +174,7 @@ std::string shown(const Call& call) {
 }
 
 bool near(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) <= kPlace_mm;
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) <= kPlaceMm;
 }
 
 /// Within the arc's plane: along its axis canonical calls give no centre.
@@ -183,7 +183,7 @@ bool same_centre(const Call& linuxcnc, const Call& here) {
     double across = 0.0;
     for (std::size_t i = 0; i < 3; ++i)
       across += axis[i] * (linuxcnc.centre[i] - here.centre[i]);
-    if (std::fabs(across) > kCentre_mm) return false;
+    if (std::fabs(across) > kCentreMm) return false;
   }
   return true;
 }

@@ -19,11 +19,11 @@ model::Machine with_controller(model::Machine machine, model::ControllerKind kin
 follower::Workshop workshop(const grid::CompensationMap& map,
                             const model::ControllerKinematics& kinematics,
                             model::ControllerKind kind) {
-  constexpr double kFluidncSegment_mm = 10.0;  // WallPlotter's segment_length, its default
+  constexpr double kFluidncSegmentMm = 10.0;  // WallPlotter's segment_length, its default
   follower::Workshop result{&map, &kinematics};
   result.single_precision = kind != model::ControllerKind::ideal;
   if (kind == model::ControllerKind::fluidnc_wallplotter)
-    result.chain_linear_piece_mm = kFluidncSegment_mm;
+    result.chain_linear_piece_mm = kFluidncSegmentMm;
   return result;
 }
 

@@ -25,7 +25,7 @@ constexpr std::array kKinds = {ControllerKind::ideal,
                                ControllerKind::fluidnc_wallplotter};
 
 /// What the follower adds of its own: its chords, its samples, and single precision's 6e-5 mm.
-constexpr double kOwn_mm = follower::kChord_mm + 1e-4;
+constexpr double kOwnMm = follower::kChordMm + 1e-4;
 /// The two judges sample and match differently: about the tolerance they may disagree.
 constexpr double kBand = 0.1;
 
@@ -102,7 +102,7 @@ class Trial {
     const auto output = shop_.compensate(program_, tolerance_mm_, why);
     if (!output) return {};
     ++run.compensated;
-    if (!shop_.follows(program_, *output, tolerance_mm_ + kOwn_mm)) {
+    if (!shop_.follows(program_, *output, tolerance_mm_ + kOwnMm)) {
       return fmt::format("the tool is {:.4f} mm off the path",
                          shop_.distance_mm(program_, *output, 100.0));
     }
@@ -123,7 +123,7 @@ class Trial {
   /// Verify's verdict on a changed output is the follower's. Verify looks at more than the path, so
   /// that it may fail where the path alone holds.
   std::string alike(const std::string& output, const char* what) const {
-    if (shop_.follows(program_, output, (1.0 + kBand) * tolerance_mm_ + kOwn_mm)) return {};
+    if (shop_.follows(program_, output, (1.0 + kBand) * tolerance_mm_ + kOwnMm)) return {};
     if (!shop_.verify(program_, output, tolerance_mm_).empty()) return {};
     return fmt::format("verify holds the output {}, but the tool is {:.4f} mm off the path",
                        what,

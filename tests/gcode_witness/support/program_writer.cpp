@@ -12,7 +12,7 @@
 namespace chaintrue::witness {
 namespace {
 
-constexpr double kInch_mm = 25.4;
+constexpr double kInchMm = 25.4;
 
 std::string lower(std::string text) {
   for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -45,7 +45,7 @@ void ProgramWriter::line(std::vector<std::string> words) {
 }
 
 double ProgramWriter::rounded(double mm, int places) const {
-  const double unit = inches_ ? kInch_mm : 1.0;
+  const double unit = inches_ ? kInchMm : 1.0;
   const double scale = std::pow(10.0, inches_ ? places + 1 : places);
   return std::round(mm / unit * scale) / scale * unit;
 }
@@ -95,7 +95,7 @@ std::string ProgramWriter::number(char letter, double value, int places) {
 }
 
 std::string ProgramWriter::length(char letter, double mm, int places) {
-  return inches_ ? number(letter, mm / kInch_mm, places + 1) : number(letter, mm, places);
+  return inches_ ? number(letter, mm / kInchMm, places + 1) : number(letter, mm, places);
 }
 
 std::string ProgramWriter::axis(std::size_t index, double to_mm, double& reached_mm, int places) {
