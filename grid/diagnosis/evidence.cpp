@@ -106,7 +106,8 @@ Space make_space(const Rows& rows, const std::vector<bool>& bad, const Steps& st
   if (steps.project_settings) space.e -= a * rows.expected_change;
   lower.solveInPlace(space.e);
   space.g = rows.g(space.kept, Eigen::all);
-  lower.solveInPlace(space.g);
+  // Eigen's solver reads past an empty right side.
+  if (space.g.cols() > 0) lower.solveInPlace(space.g);
   return space;
 }
 
