@@ -67,6 +67,10 @@ const std::map<std::string, Predict, std::less<>>& predictions() {
   return kPredictions;
 }
 
+/// What is stated exactly is known this well, in mm or rad: no division by zero, and below every
+/// other number here.
+constexpr double kKnownSigma = 1e-7;
+
 bool on_a_ring(const Machine& machine) {
   return std::holds_alternative<model::Ring>(machine.attachment);
 }
@@ -152,6 +156,7 @@ void state_settings(const MeasuredGrid& grid, Session& session) {
                                     ? 1e-3 * grid.sheet->rotation_mrad
                                     : grid.sheet->shift_mm;
     }
+    session.stated_sigma(k) = std::max(session.stated_sigma(k), kKnownSigma);
   }
 }
 

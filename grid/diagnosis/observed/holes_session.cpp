@@ -118,7 +118,8 @@ void state_unknowns(const MeasuredHoles& set, Session& session) {
   for (Eigen::Index k = 0; k < kOfMachine; ++k) {
     const model::Setting setting = session.settings[static_cast<std::size_t>(k)];
     session.stated_value(k) = model::stated_value(session.stated, setting);
-    session.stated_sigma(k) = model::stated_sigma(session.stated, setting);
+    session.stated_sigma(k) =
+        std::max(model::stated_sigma(session.stated, setting), kKnownSigmaMm);
   }
   session.stated_sigma.segment<3>(kOfMachine) << kSheetShiftMm, kSheetShiftMm, kSheetTurnRad;
   session.stated_sigma.segment<2>(kSettings).setConstant(
