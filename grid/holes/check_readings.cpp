@@ -5,6 +5,8 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "grid/holes/hole_distances.hpp"
 #include "grid/map/length_points.hpp"
@@ -87,6 +89,36 @@ tl::expected<MapAt, std::string> map_at(const CompensationMap& map,
   return at;
 }
 
+/// Readings at one mark are as good as their mean, and a check costs the cube of their number.
+struct Repeated {
+  LengthPoint point;  ///< the first of them, with the mean of all lengths
+  double count = 0.0;
+};
+
+std::vector<Repeated> merged(const std::vector<LengthPoint>& points) {
+  std::map<std::pair<double, double>, std::size_t> at;
+  std::vector<Repeated> result;
+  for (const LengthPoint& point : points) {
+    const auto [place, is_new] =
+        at.emplace(std::pair(point.mark.x_mm, point.mark.y_mm), result.size());
+    if (is_new) result.push_back({point, 0.0});
+    Repeated& one = result[place->second];
+    one.count += 1.0;
+    one.point.lengths.left_mm += (point.lengths.left_mm - one.point.lengths.left_mm) / one.count;
+    one.point.lengths.right_mm += (point.lengths.right_mm - one.point.lengths.right_mm) / one.count;
+  }
+  return result;
+}
+
+std::string too_many(std::size_t found, std::size_t most, const char* what) {
+  return fmt::format(
+      "{} {} are more than a check takes ({}); three to five that lie far from each other tell "
+      "as much, and a map of all of them is made by chaintrue fit",
+      found,
+      what,
+      most);
+}
+
 void fill_common(CheckReadings& readings, const CompensationMap& map, const MapAt& at) {
   const auto places = static_cast<Eigen::Index>(at.lengths.size());
   readings.lengths_mm = Eigen::MatrixXd::Zero(2 * places, 2);
@@ -109,11 +141,14 @@ tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& m
   if (!with_machine.machine && map.machine() != nullptr) with_machine.machine = *map.machine();
   const auto points = length_points(with_machine);
   if (!points) return tl::unexpected(points.error().sentence);
+  const std::vector<Repeated> repeated = merged(*points);
+  if (repeated.size() > kMostCheckedPoints)
+    return tl::unexpected(too_many(repeated.size(), kMostCheckedPoints, "points"));
   std::vector<BedPoint> marks;
-  for (const LengthPoint& point : *points) marks.push_back(point.mark);
+  for (const Repeated& one : repeated) marks.push_back(one.point.mark);
   auto at = map_at(map, marks);
   if (!at) return tl::unexpected(at.error());
-  const auto count = static_cast<Eigen::Index>(points->size());
+  const auto count = static_cast<Eigen::Index>(repeated.size());
   const StatedNoise noise = grid.noise.value_or(StatedNoise{});
   CheckReadings readings;
   fill_common(readings, map, *at);
@@ -122,12 +157,13 @@ tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& m
   readings.covariance = at->covariance;
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const LengthPoint& point = (*points)[k];
+    const LengthPoint& point = repeated[k].point;
     readings.residual_mm[2 * i] = point.lengths.left_mm - at->lengths[k].left_mm;
     readings.residual_mm[2 * i + 1] = point.lengths.right_mm - at->lengths[k].right_mm;
     readings.covariance.block<2, 2>(2 * i, 2 * i) +=
-        noise.length_mm * noise.length_mm * Eigen::Matrix2d::Identity() +
-        noise.position_mm * noise.position_mm * at->by_mark[k] * at->by_mark[k].transpose();
+        (noise.length_mm * noise.length_mm * Eigen::Matrix2d::Identity() +
+         noise.position_mm * noise.position_mm * at->by_mark[k] * at->by_mark[k].transpose()) /
+        repeated[k].count;
     readings.groups.push_back({2 * i, 2 * i + 1});
     readings.group_names.push_back(fmt::format("point {}", point.index + 1));
     readings.names.push_back(fmt::format("point {}, left chain", point.index + 1));
@@ -143,6 +179,8 @@ tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& m
     return tl::unexpected(std::string(
         "the holes name no machine; what was commanded becomes chain lengths by its controller"));
   }
+  if (set.distances.size() > kMostCheckedDistances)
+    return tl::unexpected(too_many(set.distances.size(), kMostCheckedDistances, "distances"));
   const auto distances = HoleDistances::of(with_machine);
   if (!distances) return tl::unexpected(distances.error());
   std::vector<BedPoint> marks;
