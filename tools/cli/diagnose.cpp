@@ -3,7 +3,6 @@
 /// chaintrue diagnose: what the simulation gets wrong on these points, why, what naming the cause
 /// gains, and what to measure next.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -25,6 +24,8 @@
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -110,17 +111,13 @@ std::string sentence_of(const std::string& path, const grid::diagnosis::Diagnosi
   return fmt::format("{}: {}", files::name_in_messages(path), failure.sentence);
 }
 
-/// Seconds, where there are hundreds of points: a person is told to wait.
 template <class Set>
-Outcome watched(const DiagnoseCommand& command, const Set& measured, std::string_view what) {
+Outcome diagnosis_of(const DiagnoseCommand& command, const Set& measured) {
   grid::diagnosis::DiagnosisOptions options;
   options.seed = command.seed;
   options.order_assumed = !command.assume_order.empty();
   options.accept_class = command.accept_class;
-  const bool is_watched = ::isatty(STDERR_FILENO) != 0;
-  if (is_watched) fmt::print(stderr, "Diagnosing {} ...", what);
   auto found = grid::diagnosis::diagnose(measured, options);
-  if (is_watched) fmt::print(stderr, "\r\x1b[K");
   if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
   if (found->grid_name.empty())
     found->grid_name = measured.name.empty() ? file_name(command.input.grid) : measured.name;
@@ -128,7 +125,7 @@ Outcome watched(const DiagnoseCommand& command, const Set& measured, std::string
 }
 
 Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredGrid& measured) {
-  auto found = watched(command, measured, fmt::format("{} points", measured.points.size()));
+  auto found = diagnosis_of(command, measured);
   if (!found) return found;
   if (!found->stated_noise) found->stated_noise = measured.noise;
   if (!command.assume_order.empty()) {
@@ -150,7 +147,7 @@ Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredGrid& meas
 }
 
 Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredHoles& set) {
-  return watched(command, set, fmt::format("{} distances", set.distances.size()));
+  return diagnosis_of(command, set);
 }
 
 /// What is said of points alone.
@@ -198,7 +195,7 @@ int run_diagnose(const DiagnoseCommand& command) {
   });
   const bool is_stdout_taken = std::any_of(
       outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });
-  files::write_whole_files(outputs);
+  write_outputs(outputs);
   if (command.json && !is_stdout_taken) {
     fmt::print("{}", file);
   } else {
@@ -210,15 +207,27 @@ int run_diagnose(const DiagnoseCommand& command) {
 }
 
 void add_diagnose_outputs(CLI::App& verb, DiagnoseCommand& command) {
-  verb.add_option("-o,--output", command.output, "The diagnosis with all its numbers (JSON)");
-  verb.add_option("--report", command.report, "The diagnosis as a page for a browser (HTML)");
-  verb.add_option("--extended-machine",
-                  command.extended_machine,
-                  "The machine with its settings calibrated and what was named in it");
-  verb.add_option("--corrected-grid",
-                  command.corrected_grid,
-                  "The points on that machine, marks and readings corrected where the cause lies "
-                  "with them: what to fit");
+  add_output(verb,
+             "-o,--output",
+             command.output,
+             {Origin::diagnosis},
+             "The diagnosis with all its numbers (JSON)");
+  add_output(verb,
+             "--report",
+             command.report,
+             {Origin::page},
+             "The diagnosis as a page for a browser (HTML)");
+  add_output(verb,
+             "--extended-machine",
+             command.extended_machine,
+             {Origin::machine},
+             "The machine with its settings calibrated and what was named in it");
+  add_output(verb,
+             "--corrected-grid",
+             command.corrected_grid,
+             {Origin::measured},
+             "The points on that machine, marks and readings corrected where the cause lies "
+             "with them: what to fit");
   verb.add_flag("--json", command.json, "The diagnosis file on standard output, for programs");
 }
 
@@ -231,9 +240,10 @@ void add_diagnose(CLI::App& app, Run& run) {
   add_grid_options(*verb, command->input);
   add_tape_options(*verb, command->tape);
   add_diagnose_outputs(*verb, *command);
-  verb->add_option("--held-out",
-                   command->held_out,
-                   "Another grid of the same machine: how well what was found foretells it");
+  add_input(*verb,
+            "--held-out",
+            command->held_out,
+            "Another grid of the same machine: how well what was found foretells it");
   verb->add_option("--assume-order",
                    command->assume_order,
                    "Visiting order of points that bear none, lines from the top left; opens drift, "
@@ -243,8 +253,11 @@ void add_diagnose(CLI::App& app, Run& run) {
                  command->accept_class,
                  "Where points cannot tell a long chain from a long tape: take it to be the chain, "
                  "without a reading of its links");
-  verb->add_option(
-          "--seed", command->seed, "Of the simulated chances; the same seed, the same answer")
+  add_number(*verb,
+             "--seed",
+             command->seed,
+             {"", 0.0, 9e15},
+             "Of the simulated chances; the same seed, the same answer")
       ->capture_default_str();
   verb->footer(
       "Any answer is an answer: the exit code is 0 also where nothing was found.\n\n"

@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
-#include "grid/files/whole_file.hpp"
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/report/path_report.hpp"
 
 namespace chaintrue::cli {
+
 int run_gcode_compensate(const GcodeOptions& options) {
   const GcodeMachine machine(options);
   const GcodeText text(options.program);
@@ -35,7 +37,7 @@ int run_gcode_compensate(const GcodeOptions& options) {
                        correction(to)});
         };
   }
-  PendingFile output(options.output);
+  grid::files::PendingFile output(options.output);
   gcode::Compensator compensator(
       machine.corrector(), settings, [&](std::string_view bytes) { output.write(bytes); });
   const auto summary = compensator.run(source, options.dialect());
@@ -45,7 +47,6 @@ int run_gcode_compensate(const GcodeOptions& options) {
     fmt::print(stderr, "nothing is written\n");
     return code;
   }
-  output.commit();
   const std::string words = fmt::format(
       "{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
       "line {}",
@@ -56,10 +57,12 @@ int run_gcode_compensate(const GcodeOptions& options) {
       machine.corrector().firmware().name,
       summary->largest_correction_mm,
       summary->largest_correction_line);
-  fmt::print(stderr, "{}\n", words);
+  std::string page;
   if (!options.report.empty()) {
     const model::Bed& bed = machine.machine().bed;
-    picture.name = options.program;
+    picture.name = options.program == "-"
+                       ? "A program"
+                       : std::filesystem::path(options.program).filename().string();
     picture.verdict = words + ".";
     picture.sheet = {
         -0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
@@ -68,8 +71,10 @@ int run_gcode_compensate(const GcodeOptions& options) {
         {fmt::format("{:g} mm", options.tolerance_mm), "tolerance of the path"},
         {fmt::format("{:.1f} m", summary->path_mm / 1000.0), "path"},
         {fmt::format("{}", summary->commands), "commands written"}};
-    grid::files::write_whole_file(options.report, report::render(report::page_of(picture)));
+    page = report::render(report::page_of(picture));
   }
+  take_place(output, options.output, {{options.report, page}});
+  fmt::print(stderr, "{}\n", words);
   return kDone;
 }
 

@@ -4,8 +4,6 @@
 /// text, messages.
 #pragma once
 
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -71,8 +69,8 @@ class GcodeMachine {
 [[nodiscard]] gcode::CompensateOptions compensate_options(const GcodeOptions& options,
                                                           const GcodeMachine& machine);
 
-/// A program's lines; standard input for "-", which is kept in memory. \throws InputError where it
-/// cannot be read.
+/// A program's lines; standard input ("-") and pipes are kept in memory. \throws InputError where
+/// it cannot be read.
 class GcodeText {
  public:
   explicit GcodeText(const std::string& path);
@@ -89,23 +87,5 @@ int report(const std::string& file, const gcode::Problem& problem);
 /// Prints all findings and how many there are beyond those kept; the exit code of the first, or
 /// kDone.
 int report(const std::string& file, const gcode::Findings& findings);
-
-/// A file that appears whole or not at all; "-" is standard output, written at commit().
-class PendingFile {
- public:
-  /// \throws InputError where it cannot be written.
-  explicit PendingFile(const std::string& path);
-  ~PendingFile();
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
-  void write(std::string_view bytes);
-  /// \throws InputError where not everything could be written.
-  void commit();
-
- private:
-  std::string path_;
-  std::filesystem::path temporary_;
-  std::ofstream file_;
-};
 
 }  // namespace chaintrue::cli

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::cli {
@@ -60,6 +61,7 @@ int run_gcode_verify(const GcodeOptions& options) {
   const auto control =
       verified(options, machine, original, original, options.home_mm(), control_code);
   const bool holds = summary.largest_mm() <= options.tolerance_mm && summary.words_differ.empty();
+  end_progress();
   if (options.json) {
     fmt::print(
         "{{\"holds\": {}, \"largest_mm\": {:.6f}, \"feeds_mm\": {:.6f}, \"rapids_mm\": {:.6f}, "

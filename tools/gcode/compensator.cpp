@@ -23,8 +23,7 @@ constexpr double kCurvatureSafety = 2.0;
 constexpr double kSlopeBase_mm = 1.0;
 
 double chord_tolerance(const CompensateOptions& options) {
-  const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -options.decimals);
-  const double left = (options.tolerance_mm - rounding) / kStretch;
+  const double left = (options.tolerance_mm - least_tolerance_mm(options.decimals)) / kStretch;
   if (!(left > 0.0)) {
     throw std::invalid_argument(
         fmt::format("a tolerance of {} mm leaves nothing beside rounding to {} decimals",
@@ -46,6 +45,8 @@ void Findings::add(Problem problem) {
   ++problem_count;
   if (problems.size() < kMostKept) problems.push_back(std::move(problem));
 }
+
+double least_tolerance_mm(int decimals) { return 0.5 * std::sqrt(3.0) * std::pow(10.0, -decimals); }
 
 void Findings::add(Note note) {
   ++note_count;
