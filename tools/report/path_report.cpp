@@ -114,8 +114,7 @@ Page page_of(const PathReport& report) {
                    {"sheet_y_max_mm", report.sheet.y_max_mm},
                    {"magnification", magnification},
                    {"largest_mm", std::max(largest_mm(report), 1e-3)}};
-  Page page{.title = "Compensated program"};
-  page.subtitle = report.name;
+  Page page{.title = fmt::format("{}, compensated", report.name)};
   page.verdict = report.verdict;
   page.sections.push_back({"On the bed", {chart}});
   page.sections.push_back({"In numbers", {Figures{report.figures}}});
