@@ -111,6 +111,21 @@ std::string sentence_of(const std::string& path, const grid::diagnosis::Diagnosi
   return fmt::format("{}: {}", files::name_in_messages(path), failure.sentence);
 }
 
+/// The cost grows faster than the square of the number (docs/reliability.md); more than these would
+/// take minutes and name nothing else.
+constexpr std::size_t kMostDiagnosed = 400;
+
+/// Empty where there are not too many.
+std::string too_many(std::size_t count, const char* what) {
+  if (count <= kMostDiagnosed) return {};
+  return fmt::format(
+      "{} {} are more than a diagnosis takes ({}): leave some out, evenly over the bed, and keep "
+      "those that were measured twice; chaintrue fit takes them all",
+      count,
+      what,
+      kMostDiagnosed);
+}
+
 template <class Set>
 Outcome diagnosis_of(const DiagnoseCommand& command, const Set& measured) {
   grid::diagnosis::DiagnosisOptions options;
@@ -125,6 +140,9 @@ Outcome diagnosis_of(const DiagnoseCommand& command, const Set& measured) {
 }
 
 Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredGrid& measured) {
+  if (const std::string sentence = too_many(measured.points.size(), "points"); !sentence.empty())
+    return tl::unexpected(
+        fmt::format("{}: {}", files::name_in_messages(command.input.grid), sentence));
   auto found = diagnosis_of(command, measured);
   if (!found) return found;
   if (!found->stated_noise) found->stated_noise = measured.noise;
@@ -147,6 +165,9 @@ Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredGrid& meas
 }
 
 Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredHoles& set) {
+  if (const std::string sentence = too_many(set.distances.size(), "distances"); !sentence.empty())
+    return tl::unexpected(
+        fmt::format("{}: {}", files::name_in_messages(command.input.grid), sentence));
   return diagnosis_of(command, set);
 }
 
