@@ -67,6 +67,10 @@ const std::map<std::string, Predict, std::less<>>& predictions() {
   return kPredictions;
 }
 
+/// Secants of effects and the calibration's steps are good to some micrometres over a bed: readings
+/// that are better are taken to be this good, and the noise that is found says how good they were.
+constexpr double kFinestLengthNoise_mm = 0.01;
+
 /// What is stated exactly is known this well, in mm or rad: no division by zero, and below every
 /// other number here.
 constexpr double kKnownSigma = 1e-7;
@@ -237,7 +241,7 @@ tl::expected<Session, DiagnosisFailure> make_session(const MeasuredGrid& grid) {
                    "State it (\"noise\" in the grid file, or --noise-length-mm, "
                    "--noise-position-mm), or measure at least six points twice");
   }
-  session.noise = {noise->length_mm, noise->position_mm};
+  session.noise = {std::max(noise->length_mm, kFinestLengthNoise_mm), noise->position_mm};
   session.noise_dof = noise->dof;
   return session;
 }

@@ -146,6 +146,14 @@ Outcome diagnosed(const DiagnoseCommand& command, const grid::MeasuredGrid& meas
   auto found = diagnosis_of(command, measured);
   if (!found) return found;
   if (!found->stated_noise) found->stated_noise = measured.noise;
+  constexpr double kFinest_mm = 0.01;
+  if (measured.noise && measured.noise->length_mm < kFinest_mm) {
+    found->notes.push_back(fmt::format(
+        "The readings are stated to {} mm, which is finer than the simulation is computed over a "
+        "bed; they were taken to be good to {} mm.",
+        measured.noise->length_mm,
+        kFinest_mm));
+  }
   if (!command.assume_order.empty()) {
     found->notes.insert(found->notes.begin(),
                         fmt::format("The visiting order was not measured but assumed: {}, lines "
