@@ -115,7 +115,8 @@ MarginalisedSystem marginalise(const LinearisedSystem& system,
   if (steps.project_settings) marginalised.e -= a * system.expected_change;
   lower.solveInPlace(marginalised.e);
   marginalised.g = system.g(marginalised.kept, Eigen::all);
-  lower.solveInPlace(marginalised.g);
+  // Eigen's solver reads past an empty right side.
+  if (marginalised.g.cols() > 0) lower.solveInPlace(marginalised.g);
   return marginalised;
 }
 

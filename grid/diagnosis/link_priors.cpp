@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/link_priors.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
 /// Of whole numbers of links, one is the rule.
-double share_of_links(double links) { return std::pow(0.25, std::abs(links) - 1.0); }
+double log_share_of_links(double links) { return std::log(0.25) * (std::abs(links) - 1.0); }
 
-double strength_density(double signal_to_noise) {
-  const auto normal = [&](double sigma) {
-    return std::exp(-0.5 * std::pow(signal_to_noise / sigma, 2)) / sigma;
+/// log(e^a + e^b)
+double log_add(double a, double b) {
+  return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
+}
+
+/// In logarithms: readings much better than usual make every density smaller than any double.
+double log_strength_density(double signal_to_noise) {
+  const auto log_normal = [&](double sigma) {
+    return -0.5 * std::pow(signal_to_noise / sigma, 2) - std::log(sigma);
   };
-  return (1.0 - kWideSignalToNoisePrior) * normal(kUsualSignalToNoise) +
-         kWideSignalToNoisePrior * normal(kWideSignalToNoise);
+  return log_add(std::log(1.0 - kWideSignalToNoisePrior) + log_normal(kUsualSignalToNoise),
+                 std::log(kWideSignalToNoisePrior) + log_normal(kWideSignalToNoise));
 }
 
 }  // namespace
@@ -23,19 +30,19 @@ void share_out_links(const MarginalisedSystem& marginalised, LinearisedSystem& s
   std::size_t first = 0;
   while (first < system.regressors.size()) {
     std::size_t last = first;
-    double sum = 0.0;
-    std::vector<double> weight;
+    double log_sum = 0.0;
+    std::vector<double> log_weight;
     for (; last < system.regressors.size(); ++last) {
       const Regressor& d = system.regressors[last];
       if (!(d.cause == system.regressors[first].cause)) break;
-      weight.push_back(
-          share_of_links(d.values.front()) *
-          strength_density(marginalised.g.col(static_cast<Eigen::Index>(last)).norm()));
-      sum += weight.back();
+      log_weight.push_back(
+          log_share_of_links(d.values.front()) +
+          log_strength_density(marginalised.g.col(static_cast<Eigen::Index>(last)).norm()));
+      log_sum = last == first ? log_weight.back() : log_add(log_sum, log_weight.back());
     }
     for (std::size_t k = first; k < last && system.regressors[first].fixed; ++k) {
       Regressor& d = system.regressors[k];
-      d.log_prior = std::log(weight[k - first] / sum) -
+      d.log_prior = log_weight[k - first] - log_sum -
                     std::log(static_cast<double>(d.cause.effect->sides.size()));
       if (d.slip) d.log_prior += std::log(kSlipOddsOfVisit * d.visits);
     }

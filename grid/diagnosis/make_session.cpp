@@ -46,6 +46,14 @@ double sigma_of_statement(const Machine& machine, const std::string& what) {
   return machine.chain.mass_kg_per_m;
 }
 
+/// Secants of effects and the calibration's steps are good to some micrometres over a bed: readings
+/// that are better are taken to be this good, and the noise that is found says how good they were.
+constexpr double kFinestLengthNoiseMm = 0.01;
+
+/// What is stated exactly is known this well, in mm or rad: no division by zero, and below every
+/// other number here.
+constexpr double kKnownSigma = 1e-7;
+
 constexpr double kContradiction = 6.0;  // sigmas: no slip of the tape, a slip of the pen
 
 std::optional<std::string> contradiction(const Machine& machine,
@@ -192,7 +200,8 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   return std::make_shared<const observation::ChainLengthReadings>(
       std::move(places),
       ordered,
-      observation::PointNoise{noise->length_mm, noise->position_mm},
+      observation::PointNoise{std::max(noise->length_mm, kFinestLengthNoiseMm),
+                              noise->position_mm},
       noise->dof,
       sheet);
 }
@@ -268,6 +277,7 @@ class Assembly {
       session_.stated_sigma.segment<3>(Session::sheet_column(*part.sheet)) << prior.shift_sigma_mm,
           prior.shift_sigma_mm, prior.rotation_sigma_rad;
     }
+    session_.stated_sigma = session_.stated_sigma.cwiseMax(kKnownSigma);
   }
 
   void state_knowledge() {

@@ -11,9 +11,9 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string_view without_byte_order_mark(std::string_view text) {
-  return text.substr(0, kByteOrderMark.size()) == kByteOrderMark
-             ? text.substr(kByteOrderMark.size())
-             : text;
+  // Some programs write one before the one that is there.
+  while (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return text;
 }
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
@@ -198,8 +198,9 @@ std::vector<std::string> csv_header(std::string_view text) {
   std::vector<std::string> names;
   const char separator = separator_of(text);
   for_each_line(text, [&](std::string_view line, std::size_t) {
-    const std::vector<CsvRow> rows = split_csv(line, separator, ignored);
-    for (const CsvCell& cell : rows.front()) names.push_back(cell.text);
+    for (const CsvRow& row : split_csv(line, separator, ignored)) {
+      for (const CsvCell& cell : row) names.push_back(cell.text);
+    }
     return false;
   });
   return names;

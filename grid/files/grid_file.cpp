@@ -8,6 +8,7 @@
 #include "grid/files/grid_checks.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/machine_record.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/reading_record.hpp"
 #include "grid/files/whole_file.hpp"
 
@@ -37,9 +38,9 @@ struct StatedGrid {
 const Record<StatedNoise>& noise_record() {
   static const auto record =
       Record<StatedNoise>("the noise")
-          .required("length_mm", &StatedNoise::length_mm, number({"mm", 0.0, 100.0}))
-          .required("position_mm", &StatedNoise::position_mm, number({"mm", 0.0, 100.0}))
-          .optional("dof", &StatedNoise::dof, number({"", 1.0, 1e9}));
+          .required("length_mm", &StatedNoise::length_mm, number(kNoiseMm))
+          .required("position_mm", &StatedNoise::position_mm, number(kNoiseMm))
+          .optional("dof", &StatedNoise::dof, number(kNoiseDof));
   return record;
 }
 

@@ -45,9 +45,10 @@ struct GroundcontrolText {
 
 /// The effects ring_radius, chain_pitch_error and chain_sag enter rotationradius, the chain
 /// tolerances and chainsagcorrection, and chain_stretch enters chainelongationfactor where the
-/// controller has it; any other effect is a remark with what can be done about it. The firmware divides the straight part of a chain by 1 + tolerance / 100 where chain_pitch_error
-/// divides the whole of it; the difference, a few tenths of a mm at most, is constant but for the
-/// wrap and goes with the next zeroing of the chains.
+/// controller has it; any other effect is a remark with what can be done about it. The firmware
+/// divides the straight part of a chain by 1 + tolerance / 100 where chain_pitch_error divides the
+/// whole of it; the difference, a few tenths of a mm at most, is constant but for the wrap and goes
+/// with the next zeroing of the chains.
 [[nodiscard]] GroundcontrolText write_groundcontrol(const model::Machine& machine);
 
 }  // namespace chaintrue::grid::files

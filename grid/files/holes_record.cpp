@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "grid/files/machine_record.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/reading_record.hpp"
 
 namespace chaintrue::grid::files {
@@ -15,9 +16,9 @@ namespace {
 const Record<Tape>& tape_record() {
   static const auto record =
       Record<Tape>("the tape")
-          .optional("sigma_mm", &Tape::sigma_mm, number(kTapeSigma))
-          .optional("hook_offset_mm", &Tape::hook_offset_mm, number({"mm", -1000.0, 1000.0}))
-          .optional("hook_sigma_mm", &Tape::hook_sigma_mm, number({"mm", 0.0, 100.0}));
+          .optional("sigma_mm", &Tape::sigma_mm, number(kTapeSigmaMm))
+          .optional("hook_offset_mm", &Tape::hook_offset_mm, number(kHookOffsetMm))
+          .optional("hook_sigma_mm", &Tape::hook_sigma_mm, number(kHoleSigmaMm));
   return record;
 }
 
@@ -76,7 +77,7 @@ const Record<StatedDistance>& distance_record() {
     end_of(distance, "from", &StatedDistance::from);
     end_of(distance, "to", &StatedDistance::to);
     distance.required("distance_mm", &StatedDistance::distance_mm, number(kTapeDistance))
-        .optional("sigma_mm", &StatedDistance::sigma_mm, number(kTapeSigma));
+        .optional("sigma_mm", &StatedDistance::sigma_mm, number(kTapeSigmaMm));
     return distance;
   }();
   return record;
@@ -114,8 +115,8 @@ const Record<StatedHoles>& holes_record() {
           .optional("machine", &StatedHoles::machine, object(machine_record()))
           .sparse("machine_file", &StatedHoles::machine_file, text())
           .optional("tape", &StatedHoles::tape, object(tape_record()))
-          .optional("hole_sigma_mm", &StatedHoles::hole_sigma_mm, number({"mm", 0.0, 100.0}))
-          .optional("noise_dof", &StatedHoles::noise_dof, number({"", 1.0, 1e9}))
+          .optional("hole_sigma_mm", &StatedHoles::hole_sigma_mm, number(kHoleSigmaMm))
+          .optional("noise_dof", &StatedHoles::noise_dof, number(kNoiseDof))
           .optional("sheet", &StatedHoles::sheet, object(sheet_record()))
           .sparse("readings", &StatedHoles::readings, list(object(reading_record())))
           .custom(

@@ -11,12 +11,12 @@
 #include "grid/files/csv_table.hpp"
 #include "grid/files/holes_checks.hpp"
 #include "grid/files/json_reader.hpp"
+#include "grid/files/ranges.hpp"
 
 namespace chaintrue::grid::files {
 
 inline constexpr Range kHoleCoordinate{"mm", -20000.0, 20000.0};
 inline constexpr Range kTapeDistance{"mm", 0.1, 20000.0};
-inline constexpr Range kTapeSigma{"mm", 0.001, 100.0};
 
 struct StatedHoles {
   std::string name;

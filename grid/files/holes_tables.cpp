@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "grid/files/holes_record.hpp"
+#include "grid/files/ranges.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -71,7 +72,7 @@ void read_distance_row(const CsvRow& row, StatedHoles& stated, Problems& problem
   distance.distance_mm = required_number(cell_of(row, 2), "distance_mm", kTapeDistance, problems);
   const CsvCell sigma = cell_of(row, 3);
   if (!sigma.text.empty()) {
-    distance.sigma_mm = checked_number(sigma.text, sigma.place(), "sigma_mm", kTapeSigma, problems);
+    distance.sigma_mm = checked_number(sigma.text, sigma.place(), "sigma_mm", kTapeSigmaMm, problems);
   }
   distance.is_spoilt = problems.list().size() > before;
   stated.distances.push_back(distance);

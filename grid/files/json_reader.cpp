@@ -6,8 +6,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr std::string_view kFormatVersion = "1.0";
-
 const Json kNull;
 
 /// What a text that stands in a number's place probably was meant to be.
@@ -143,9 +141,12 @@ bool KnownKeys::open(const Cursor& at, bool is_root) const {
   }
   const Cursor version = at.child("format_version");
   if (!at.has("format_version")) {
-    if (is_root) version.missing(fmt::format("\"{}\"", kFormatVersion));
-  } else if (version.json() != kFormatVersion) {
-    version.expect(fmt::format("\"{}\", the version that this program reads", kFormatVersion));
+    if (is_root) version.missing(fmt::format("\"{}\"", versions_.back()));
+  } else if (std::find(versions_.begin(), versions_.end(), version.json()) == versions_.end()) {
+    const bool is_one = versions_.size() == 1;
+    version.expect(fmt::format("\"{}\", the version{} that this program reads",
+                               fmt::join(versions_, "\" or \""),
+                               is_one ? "" : "s"));
     return false;
   }
   return true;
@@ -174,7 +175,7 @@ std::vector<std::string> KnownKeys::report_unknown_keys(const Cursor& at) const 
 void KnownKeys::write_head(Json& object) const {
   if (file_type_.empty()) return;
   object["file_type"] = file_type_;
-  object["format_version"] = kFormatVersion;
+  object["format_version"] = versions_.back();
 }
 
 }  // namespace chaintrue::grid::files

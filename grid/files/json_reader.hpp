@@ -197,8 +197,8 @@ template <class V>
 /// The part of a record that does not depend on its type: which keys there are.
 class KnownKeys {
  public:
-  KnownKeys(std::string noun, std::string file_type)
-      : noun_(std::move(noun)), file_type_(std::move(file_type)) {}
+  KnownKeys(std::string noun, std::string file_type, std::vector<std::string> versions)
+      : noun_(std::move(noun)), file_type_(std::move(file_type)), versions_(std::move(versions)) {}
   [[nodiscard]] std::string expected() const { return noun_; }
 
  protected:
@@ -213,6 +213,7 @@ class KnownKeys {
  private:
   std::string noun_;
   std::string file_type_;
+  std::vector<std::string> versions_;
   std::vector<std::string> keys_;
 };
 
@@ -220,9 +221,12 @@ template <class T>
 class Record : public KnownKeys {
  public:
   /// `noun` with its article, as in "expected a sprocket". Records with a file type begin with it
-  /// and the version; as part of another file both may be left out.
-  explicit Record(std::string noun, std::string file_type = {})
-      : KnownKeys(std::move(noun), std::move(file_type)) {}
+  /// and the version; as part of another file both may be left out. `versions` are those that are
+  /// read, the one that is written last.
+  explicit Record(std::string noun,
+                  std::string file_type = {},
+                  std::vector<std::string> versions = {"1.0"})
+      : KnownKeys(std::move(noun), std::move(file_type), std::move(versions)) {}
 
   template <class V>
   Record& required(const std::string& key, V T::*member, Value<V> value) {

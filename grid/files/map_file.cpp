@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "grid/files/content_hash.hpp"
 #include "grid/files/json_reader.hpp"
 #include "grid/files/map_surface_record.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -17,7 +19,6 @@ constexpr Range kPlaceMm{"mm", -1e5, 1e5};
 constexpr Range kErrorMm{"mm", -1e5, 1e5};
 constexpr Range kAny{"", -1e12, 1e12};
 constexpr Range kPositive{"", 0.0, 1e12};
-constexpr Range kFadeWidthMm{"mm", 1.0, 1e5};
 
 /// A map as it stands in the file, where that differs from the map in memory.
 struct MapPart {
@@ -35,6 +36,7 @@ struct MapPart {
   std::optional<MirrorTest> mirror;
   std::optional<DistancesUsed> distances;
   std::vector<std::string> notes;
+  std::string content_hash = {};
 };
 
 const Record<model::BedPoint>& place_record() {
@@ -205,6 +207,22 @@ const Record<DistancesUsed>& distances_record() {
   return record;
 }
 
+/// The hash stands in files of version 1.1, and there it must be right.
+void check_content(const Cursor& at) {
+  const Cursor hash = at.child("content_hash");
+  if (at.has("content_hash")) {
+    if (hash.json() != content_hash(at.json())) {
+      hash.expect(
+          "the hash of this file's content: something in it was changed or damaged since it was "
+          "written; fit the points again");
+    }
+  } else if (at.child("format_version").json() == "1.0") {
+    at.warn("written before maps carried a hash of their content; taken to be undamaged");
+  } else {
+    hash.missing("the hash of this file's content");
+  }
+}
+
 void check_map(const Cursor& at, MapPart& map) {
   if (map.model.has_value() == map.direct.has_value()) {
     at.expect("either \"on_machine\" or \"direct\", the two kinds of surface, and not both");
@@ -214,6 +232,7 @@ void check_map(const Cursor& at, MapPart& map) {
         "another way: without a machine nothing is left where a surface fades out");
   }
   if (!at.clean()) return;
+  check_content(at);
   try {
     const MeasuredArea area(map.hull, map.edge_mm, map.domain);
   } catch (const std::invalid_argument&) {
@@ -223,7 +242,8 @@ void check_map(const Cursor& at, MapPart& map) {
 
 const Record<MapPart>& map_record() {
   static const auto record =
-      Record<MapPart>("a chaintrue_map file", "chaintrue_map")
+      Record<MapPart>(
+          "a chaintrue_map file", "chaintrue_map", std::vector<std::string>{"1.0", "1.1"})
           .optional("name", &MapPart::name, text())
           .optional("on_machine", &MapPart::model, object(model_part_record()))
           .optional("direct", &MapPart::direct, object(direct_part_record()))
@@ -238,6 +258,7 @@ const Record<MapPart>& map_record() {
           .optional("mirror", &MapPart::mirror, object(mirror_record()))
           .optional("distances", &MapPart::distances, object(distances_record()))
           .required("notes", &MapPart::notes, list(text()))
+          .sparse("content_hash", &MapPart::content_hash, text())
           .check(check_map);
   return record;
 }
@@ -290,16 +311,25 @@ MapContents contents_of(const MapPart& part) {
 
 }  // namespace
 
-CompensationMap parse_map(const std::string& text, const std::string& file) {
-  return CompensationMap(contents_of(read_document(map_record(), text, file)));
+CompensationMap parse_map(const std::string& text,
+                          const std::string& file,
+                          std::vector<Warning>* warnings) {
+  Problems problems(file);
+  CompensationMap map(contents_of(read_document(map_record(), text, problems)));
+  if (warnings != nullptr) {
+    warnings->insert(warnings->end(), problems.warnings().begin(), problems.warnings().end());
+  }
+  return map;
 }
 
-CompensationMap read_map(const std::filesystem::path& path) {
-  return parse_map(read_whole_file(path), name_in_messages(path));
+CompensationMap read_map(const std::filesystem::path& path, std::vector<Warning>* warnings) {
+  return parse_map(read_whole_file(path), name_in_messages(path), warnings);
 }
 
 std::string write_map(const CompensationMap& map) {
-  return write_document(map_record(), part_of(map.contents()));
+  Json json = map_record().write(part_of(map.contents()));
+  json["content_hash"] = content_hash(json);
+  return print_json(json);
 }
 
 }  // namespace chaintrue::grid::files

@@ -3,20 +3,30 @@
 /// chaintrue_map files: a compensation map with its machine, surface, hull, noise, covariance and
 /// its own error. Unknown keys are errors, except "comment". Same map, same bytes.
 ///
+/// Version 1.1 ends in a "content_hash" over everything else (FNV-1a, 64 bits; layout and comments
+/// do not count): a map that does not match it is refused, since a chain length would be wrong
+/// without a sign. Version 1.0 has none and is taken as it is, with a warning.
+///
 /// The covariance of the unknowns is kept as the rows of its lower triangular factor, to seven
 /// digits: a sigma is never worth more.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "grid/files/input_error.hpp"
 #include "grid/map/compensation_map.hpp"
 
 namespace chaintrue::grid::files {
 
-/// "-" reads standard input. \throws InputError with every problem of the file.
-[[nodiscard]] CompensationMap read_map(const std::filesystem::path& path);
-[[nodiscard]] CompensationMap parse_map(const std::string& text, const std::string& file);
+/// "-" reads standard input. \param warnings where not null, what was odd is added to it
+/// \throws InputError with every problem of the file.
+[[nodiscard]] CompensationMap read_map(const std::filesystem::path& path,
+                                       std::vector<Warning>* warnings = nullptr);
+[[nodiscard]] CompensationMap parse_map(const std::string& text,
+                                        const std::string& file,
+                                        std::vector<Warning>* warnings = nullptr);
 [[nodiscard]] std::string write_map(const CompensationMap& map);
 
 }  // namespace chaintrue::grid::files

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Numbers as people and programs write them into files, read without the locale. Private to
-/// grid/files.
+/// Numbers as people and programs write them into files and on the command line, read without the
+/// locale.
 #pragma once
 
 #include <optional>

@@ -9,6 +9,7 @@
 
 #include "grid/files/csv_table.hpp"
 #include "grid/files/grid_checks.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::files {
@@ -99,9 +100,8 @@ void number_visits(std::vector<StatedPoint>& points) {
 }
 
 void check_options(const OpticalOptions& options, Problems& problems) {
-  constexpr Range kPitch{"mm", 5.0, 1000.0};
-  if (!kPitch.holds(options.pitch_mm)) {
-    problems.add("--pitch-mm", fmt::format("{}", options.pitch_mm), kPitch.expected());
+  if (!kOpticalPitchMm.holds(options.pitch_mm)) {
+    problems.add("--pitch-mm", fmt::format("{}", options.pitch_mm), kOpticalPitchMm.expected());
   }
   if (options.machine.controller.kind == model::ControllerKind::ideal) {
     problems.add(

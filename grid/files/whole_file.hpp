@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A file is read whole and written whole or not at all. "-" is standard input and standard output.
-///
-/// Writing goes to a temporary file in the same directory, which then takes the name in one step:
-/// whoever looks sees the old file or the new one. Devices and pipes (/dev/null, /dev/stdout) are
-/// written to directly; a symbolic link keeps pointing at the file it names. Not for two writers of
-/// the same name at once: the last one wins, whole.
+/// A file is read whole and written whole or not at all (pending_file.hpp says how). "-" is
+/// standard input and standard output.
 #pragma once
 
 #include <filesystem>
@@ -29,7 +25,7 @@ struct OutputFile {
 };
 /// All of them or none: no name is taken before every text lies beside its place. Devices and
 /// standard output come last. \throws InputError as write_whole_file, for the first that fails, and
-/// where two name the same file.
+/// where two name the same file; ReaderGone where a pipe's reader left.
 void write_whole_files(const std::vector<OutputFile>& outputs);
 
 }  // namespace chaintrue::grid::files

@@ -5,6 +5,8 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "grid/observation/tape_distances.hpp"
 #include "grid/map/length_points.hpp"
@@ -87,10 +89,40 @@ tl::expected<MapAt, std::string> map_at(const CompensationMap& map,
   return at;
 }
 
+/// Readings at one mark are as good as their mean, and a check costs the cube of their number.
+struct Repeated {
+  LengthPoint point;  ///< the first of them, with the mean of all lengths
+  double count = 0.0;
+};
+
+std::vector<Repeated> merged(const std::vector<LengthPoint>& points) {
+  std::map<std::pair<double, double>, std::size_t> at;
+  std::vector<Repeated> result;
+  for (const LengthPoint& point : points) {
+    const auto [place, is_new] =
+        at.emplace(std::pair(point.mark.x_mm, point.mark.y_mm), result.size());
+    if (is_new) result.push_back({point, 0.0});
+    Repeated& one = result[place->second];
+    one.count += 1.0;
+    one.point.lengths.left_mm += (point.lengths.left_mm - one.point.lengths.left_mm) / one.count;
+    one.point.lengths.right_mm += (point.lengths.right_mm - one.point.lengths.right_mm) / one.count;
+  }
+  return result;
+}
+
+std::string too_many(std::size_t found, std::size_t most, const char* what) {
+  return fmt::format(
+      "{} {} are more than a check takes ({}); three to five that lie far from each other tell "
+      "as much, and a map of all of them is made by chaintrue fit",
+      found,
+      what,
+      most);
+}
+
 /// The new points of one file: where they are on the map, and what they say there.
 struct Part {
   std::vector<BedPoint> marks;
-  std::vector<LengthPoint> points;  ///< of a grid
+  std::vector<Repeated> points;  ///< of a grid
   StatedNoise noise;
   std::optional<observation::TapeDistances> distances;
 };
@@ -101,9 +133,11 @@ tl::expected<Part, std::string> part_of(const CompensationMap& map, const Measur
   const auto points = length_points(with_machine);
   if (!points) return tl::unexpected(points.error().sentence);
   Part part;
-  part.points = *points;
+  part.points = merged(*points);
+  if (part.points.size() > kMostCheckedPoints)
+    return tl::unexpected(too_many(part.points.size(), kMostCheckedPoints, "points"));
   part.noise = grid.noise.value_or(StatedNoise{});
-  for (const LengthPoint& point : *points) part.marks.push_back(point.mark);
+  for (const Repeated& one : part.points) part.marks.push_back(one.point.mark);
   return part;
 }
 
@@ -112,6 +146,8 @@ tl::expected<Part, std::string> part_of(const CompensationMap& map, const Measur
     return tl::unexpected(std::string(
         "the holes name no machine; what was commanded becomes chain lengths by its controller"));
   }
+  if (set.distances.size() > kMostCheckedDistances)
+    return tl::unexpected(too_many(set.distances.size(), kMostCheckedDistances, "distances"));
   auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) return tl::unexpected(distances.error());
   Part part;
@@ -141,13 +177,14 @@ Rows rows_of_points(const Part& part, const MapAt& at, std::size_t first) {
             Eigen::MatrixXd::Zero(count, count)};
   for (std::size_t i = 0; i < part.points.size(); ++i) {
     const auto row = 2 * static_cast<Eigen::Index>(i);
-    const ChainLengths& read = part.points[i].lengths;
+    const ChainLengths& read = part.points[i].point.lengths;
     const ChainLengths& told = at.lengths[first + i];
     const Eigen::Matrix2d& by_mark = at.by_mark[first + i];
     rows.residual_mm.segment<2>(row) << read.left_mm - told.left_mm, read.right_mm - told.right_mm;
     rows.noise.block<2, 2>(row, row) =
-        part.noise.length_mm * part.noise.length_mm * Eigen::Matrix2d::Identity() +
-        part.noise.position_mm * part.noise.position_mm * by_mark * by_mark.transpose();
+        (part.noise.length_mm * part.noise.length_mm * Eigen::Matrix2d::Identity() +
+         part.noise.position_mm * part.noise.position_mm * by_mark * by_mark.transpose()) /
+        part.points[i].count;
   }
   return rows;
 }
@@ -172,7 +209,7 @@ Rows rows_of_distances(const Part& part, const MapAt& at, std::size_t first) {
 
 /// `of` tells files apart where there are several: "", or " of holes.json".
 void name_rows(const Part& part, const std::string& of, Eigen::Index row, CheckReadings& readings) {
-  for (const LengthPoint& point : part.points) {
+  for (const auto& [point, count] : part.points) {
     readings.groups.push_back({row, row + 1});
     row += 2;
     readings.group_names.push_back(fmt::format("point {}{}", point.index + 1, of));

@@ -155,22 +155,88 @@ class Proposals {
 
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
-/// log of evidence times prior; the posterior of q goes into the hypothesis.
-double weigh(Proposal& proposal, const CheckReadings& readings) {
+/// K without any change, factored once: n^3. Every hypothesis adds a few directions U to it, or a
+/// part that is diagonal, and costs n^2 or less:
+///   (K + U U')^-1 = K^-1 - K^-1 U M^-1 U' K^-1,  |K + U U'| = |K| |M|,  M = I + U' K^-1 U     (W)
+class Unchanged {
+ public:
+  explicit Unchanged(const CheckReadings& readings)
+      : factor_(readings.covariance),
+        inverse_(factor_.solve(
+            Eigen::MatrixXd::Identity(readings.covariance.rows(), readings.covariance.cols()))),
+        log_root_det_(Eigen::MatrixXd(factor_.matrixL()).diagonal().array().log().sum()) {}
+
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& y) const { return inverse_ * y; }
+  [[nodiscard]] const Eigen::MatrixXd& inverse() const { return inverse_; }
+  [[nodiscard]] double log_root_det() const { return log_root_det_; }
+
+ private:
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd inverse_;
+  double log_root_det_;
+};
+
+double log_root_det(const Eigen::LLT<Eigen::MatrixXd>& factor) {
+  return Eigen::MatrixXd(factor.matrixL()).diagonal().array().log().sum();
+}
+
+/// The readings of some rows say nothing: s^2 is added to their variances.
+double log_evidence_of_bad(const Unchanged& nothing,
+                           const Eigen::VectorXd& y,
+                           const Eigen::VectorXd& pulled,
+                           const Eigen::VectorXd& more_variance) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < more_variance.size(); ++i) {
+    if (more_variance[i] > 0.0) rows.push_back(i);
+  }
+  const Eigen::VectorXd s = more_variance(rows).cwiseSqrt();
+  Eigen::MatrixXd m = s.asDiagonal() * nothing.inverse()(rows, rows) * s.asDiagonal();
+  m.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> factor(m);
+  const Eigen::VectorXd seen = s.cwiseProduct(pulled(rows));
+  return -nothing.log_root_det() - log_root_det(factor) -
+         0.5 * (y.dot(pulled) - seen.dot(factor.solve(seen)));
+}
+
+/// Every place may have changed by itself: K and as much on it as all places together.
+double log_evidence_of_unknown(const CheckReadings& readings,
+                               const Eigen::MatrixXd& by_q,
+                               double sigma,
+                               const Eigen::VectorXd& y) {
   Eigen::MatrixXd k = readings.covariance;
-  k.diagonal() += proposal.more_variance;
-  const Eigen::MatrixXd p = proposal.sigma.array().square().matrix().asDiagonal();
-  k += proposal.by_q * p * proposal.by_q.transpose();
-  const Eigen::LLT<Eigen::MatrixXd> factor(k);
+  if (by_q.rows() == by_q.cols() && by_q.isIdentity(0.0)) {
+    k.diagonal().array() += sigma * sigma;
+  } else {
+    k.selfadjointView<Eigen::Lower>().rankUpdate(by_q, sigma * sigma);
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(k.selfadjointView<Eigen::Lower>());
+  return -log_root_det(factor) - 0.5 * y.dot(factor.solve(y));
+}
+
+/// log of evidence times prior; the posterior of q goes into the hypothesis.
+double weigh(Proposal& proposal, const CheckReadings& readings, const Unchanged& nothing) {
+  const double prior = std::log(proposal.prior);
   const Eigen::VectorXd y = readings.residual_mm - proposal.mean;
-  const Eigen::VectorXd pulled = factor.solve(y);
-  const Eigen::MatrixXd lower = factor.matrixL();
-  double value =
-      std::log(proposal.prior) - lower.diagonal().array().log().sum() - 0.5 * y.dot(pulled);
-  const Eigen::MatrixXd cross = p * proposal.by_q.transpose();
-  const Eigen::VectorXd q = cross * pulled;
-  const Eigen::MatrixXd covariance = p - cross * factor.solve(cross.transpose());
   CheckHypothesis& hypothesis = proposal.hypothesis;
+  if (hypothesis.what == "unknown") {
+    return prior + log_evidence_of_unknown(readings, proposal.by_q, kUnknownSigmaMm, y);
+  }
+  const Eigen::VectorXd pulled = nothing.solve(y);
+  if (hypothesis.what == "bad_point")
+    return prior + log_evidence_of_bad(nothing, y, pulled, proposal.more_variance);
+  if (proposal.by_q.cols() == 0) return prior - nothing.log_root_det() - 0.5 * y.dot(pulled);
+  const Eigen::MatrixXd u = proposal.by_q * proposal.sigma.asDiagonal();
+  Eigen::MatrixXd m = u.transpose() * (nothing.inverse() * u);
+  m.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> factor(m);
+  const Eigen::VectorXd seen = u.transpose() * pulled;
+  const Eigen::VectorXd taken = factor.solve(seen);
+  double value = prior - nothing.log_root_det() - log_root_det(factor) -
+                 0.5 * (y.dot(pulled) - seen.dot(taken));
+  const Eigen::VectorXd q = proposal.sigma.cwiseProduct(taken);
+  const Eigen::MatrixXd covariance = proposal.sigma.asDiagonal() *
+                                     factor.solve(Eigen::MatrixXd::Identity(m.rows(), m.cols())) *
+                                     proposal.sigma.asDiagonal();
   int pitch = -1;
   for (const Side side : model::kSides) {
     if (const int column = proposal.zero_column[side]; column >= 0) {
@@ -275,7 +341,8 @@ void tell(MapCheck& check, const CheckReadings& readings) {
 MapCheck judge(const CheckReadings& readings) {
   std::vector<Proposal> proposals = Proposals(readings).all();
   std::vector<double> weights;
-  for (Proposal& proposal : proposals) weights.push_back(weigh(proposal, readings));
+  const Unchanged nothing(readings);
+  for (Proposal& proposal : proposals) weights.push_back(weigh(proposal, readings, nothing));
   const double most = *std::max_element(weights.begin(), weights.end());
   double sum = 0.0;
   for (double& weight : weights) sum += weight = std::exp(weight - most);

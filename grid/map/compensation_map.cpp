@@ -47,6 +47,19 @@ Eigen::VectorXd slopes_at_end(const std::vector<double>& nodes,
       {node(0), node(1), node(2)}, values.col(at(0)), values.col(at(1)), values.col(at(2)));
 }
 
+/// Lengths that stay the same beyond the points lead a search nowhere: it goes over the surface as
+/// that would go on.
+std::shared_ptr<const MapField> field_to_search(const MapContents& contents,
+                                                const std::shared_ptr<const MapField>& field) {
+  if (contents.outside.way != Outside::clamp ||
+      !std::holds_alternative<DirectSurface>(contents.surface)) {
+    return field;
+  }
+  MapContents going_on = contents;
+  going_on.outside.way = Outside::linear;
+  return MapField::make(going_on);
+}
+
 }  // namespace
 
 interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
@@ -140,9 +153,10 @@ tl::expected<BedPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted,
   constexpr int kSteps = 30;
   constexpr double kSettledMm = 1e-9;
   const interp::Rectangle& domain = contents_.domain;
+  const std::shared_ptr<const MapField> field = field_to_search(contents_, field_);
   BedPoint mark{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
   for (int step = 0; step < kSteps; ++step) {
-    const auto here = field_->at(mark);
+    const auto here = field->at(mark);
     if (!here) return tl::unexpected(here.error());
     const Eigen::Vector2d missing(wanted.left_mm - here->lengths.left_mm,
                                   wanted.right_mm - here->lengths.right_mm);

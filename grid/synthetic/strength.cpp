@@ -17,6 +17,9 @@
 namespace chaintrue::grid::synthetic {
 namespace {
 
+/// What is stated exactly is known this well, in mm: below every other number here.
+constexpr double kKnownSigma = 1e-7;
+
 using model::AppliedEffect;
 using model::Machine;
 using model::Visit;
@@ -155,7 +158,9 @@ StrengthTable::StrengthTable(const Machine& stated,
   }
   for (Eigen::Index k = 0; k < settings; ++k) {
     by_setting(2 * count + k, k) =
-        1.0 / model::stated_sigma(stated, model::kMachineSettings[static_cast<std::size_t>(k)]);
+        1.0 / std::max(kKnownSigma,
+                       model::stated_sigma(stated,
+                                           model::kMachineSettings[static_cast<std::size_t>(k)]));
   }
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(by_setting);
   settings_basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(by_setting.rows(), settings);

@@ -35,8 +35,12 @@ class CommandFixture : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] Outcome run(const std::string& arguments) const {
+    return run_line(CHAINTRUE_COMMAND " " + arguments);
+  }
+  /// Any line of the shell's, in the folder.
+  [[nodiscard]] Outcome run_line(const std::string& shell) const {
     const std::string line =
-        "cd " + folder_.string() + " && " CHAINTRUE_COMMAND " " + arguments + " >out.txt 2>err.txt";
+        "cd " + folder_.string() + " && { " + shell + "\n} >out.txt 2>err.txt";
     const int status = std::system(line.c_str());
     return {WEXITSTATUS(status), content_of(folder_ / "out.txt"), content_of(folder_ / "err.txt")};
   }

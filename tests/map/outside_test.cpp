@@ -119,6 +119,31 @@ TEST(OutsideTheMapByName, MapFilesKeepTheWay) {
   }
 }
 
+TEST(OutsideTheMapByName, WhatADirectMapAnswersItsInverseFinds) {
+  grid::FitOptions options;
+  options.surface = grid::SurfaceKind::direct;
+  const auto direct = grid::fit(middle_grid(false), options);
+  ASSERT_TRUE(direct.has_value()) << direct.error().sentence;
+  for (const Outside way : {Outside::continued, Outside::refuse, Outside::linear, Outside::clamp}) {
+    SCOPED_TRACE(static_cast<int>(way));
+    const CompensationMap map = direct->with_outside({way, 150.0});
+    const interp::Rectangle& domain = map.contents().domain;
+    for (int i = 0; i <= 20; ++i) {
+      for (int j = 0; j <= 20; ++j) {
+        const model::BedPoint asked{domain.x_min + domain.width() * i / 20.0,
+                                    domain.y_min + domain.height() * j / 20.0};
+        const auto answer = map.query(asked);
+        if (!answer || answer->status != MapStatus::inside) continue;
+        const auto found = map.inverse(answer->lengths);
+        ASSERT_TRUE(found.has_value()) << asked.x_mm << ", " << asked.y_mm;
+        // The search stops at steps of 1e-9 mm.
+        EXPECT_NEAR(found->x_mm, asked.x_mm, 1e-7);
+        EXPECT_NEAR(found->y_mm, asked.y_mm, 1e-7);
+      }
+    }
+  }
+}
+
 TEST(OutsideTheMapByName, ADirectMapHasNothingToFadeTo) {
   auto measured = middle_grid(false);
   grid::FitOptions options;

@@ -70,6 +70,23 @@ TEST(Page, TextCannotBecomeMarkup) {
   EXPECT_THAT(html, HasSubstr("\\u003c/script>"));
 }
 
+/// File names are bytes; a page is UTF-8 whatever they are.
+TEST(Page, BytesThatAreNoTextAreReplaced) {
+  const std::string bad[] = {
+      "\xFF", "\xC3", "\xC0\x80", "\xED\xA0\x80", "\xF5\x80\x80\x80", "\xE2\x82"};
+  for (const std::string& bytes : bad) {
+    MapReport report = sample_report();
+    report.name = "a" + bytes + "b";
+    const std::string html = render(page_of(report));
+    EXPECT_EQ(html.find(bytes + "b"), std::string::npos);
+    EXPECT_THAT(html, HasSubstr("\xEF\xBF\xBD"));
+    EXPECT_NO_THROW((void)nlohmann::json(html).dump()) << "strict UTF-8";
+  }
+  MapReport report = sample_report();
+  report.name = "Säge \xE2\x82\xAC \xF0\x9F\x94\xA9";
+  EXPECT_THAT(render(page_of(report)), HasSubstr(report.name));
+}
+
 TEST(Page, EmbeddedScriptsCannotEndTheirElement) {
   for (const char* const kind : {"vega", "asset", "chart"}) {
     ASSERT_FALSE(embedded_files(kind).empty()) << kind;

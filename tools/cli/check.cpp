@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "grid/files/check_file.hpp"
-#include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/holes/map_check.hpp"
 #include "tools/cli/grid_input.hpp"
+#include "tools/cli/map_input.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -49,7 +50,7 @@ std::string in_words(const grid::MapCheck& check) {
 }
 
 int run_check(const CheckCommand& command) {
-  const grid::CompensationMap map = grid::files::read_map(command.map);
+  const grid::CompensationMap map = read_map_input(command.map);
   std::vector<grid::MeasuredFile> files;
   std::vector<std::string> names = {command.input.grid};
   names.insert(names.end(), command.with.begin(), command.with.end());
@@ -65,8 +66,7 @@ int run_check(const CheckCommand& command) {
         stderr, "{}: {}\n", grid::files::name_in_messages(command.input.grid), check.error());
     return kBadInput;
   }
-  grid::files::write_whole_file(command.output,
-                                command.json ? grid::files::write_check(*check) : in_words(*check));
+  write_output(command.output, command.json ? grid::files::write_check(*check) : in_words(*check));
   return check->is_valid_as_it_is() ? kDone : kCheckFailed;
 }
 
@@ -76,13 +76,15 @@ void add_check(CLI::App& app, Run& run) {
   auto command = std::make_shared<CheckCommand>();
   CLI::App* verb = app.add_subcommand(
       "check", "A few new points: is the map still valid, does re-zeroing mend it, or not");
-  verb->add_option("map", command->map, "A chaintrue_map file")->required();
+  add_input(*verb, "map", command->map, "A chaintrue_map file")->required();
   add_grid_options(*verb, command->input);
   add_tape_options(*verb, command->tape);
   verb->add_option(
       "--with", command->with, "More new points, or holes and distances: all are held against the map");
   verb->add_flag("--json", command->json, "All numbers, for scripts");
-  verb->add_option("-o,--output", command->output, "- is standard output")->capture_default_str();
+  add_output(
+      *verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")
+      ->capture_default_str();
   verb->footer(
       "Three to five points far from each other will do, or holes and distances between them;\n"
       "chaintrue plan --check sets those points that tell best.\n"

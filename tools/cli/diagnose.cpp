@@ -3,7 +3,6 @@
 /// chaintrue diagnose: what the simulation gets wrong on these points, why, what naming the cause
 /// gains, and what to measure next.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -24,6 +23,8 @@
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -120,16 +121,42 @@ std::string counted(const grid::Measured& measured) {
   return fmt::format("{} points and {} distances", points, distances);
 }
 
-/// Seconds, where there are hundreds of points: a person is told to wait.
-Outcome watched(const DiagnoseCommand& command, const grid::Measured& measured) {
+/// The cost grows faster than the square of the number (docs/reliability.md); more than these would
+/// take minutes and name nothing else.
+constexpr std::size_t kMostDiagnosed = 600;
+
+/// Empty where there are not too many.
+std::string too_many(const grid::Measured& measured) {
+  std::size_t units = 0;
+  for (const auto& own : measured.grids) units += own.points.size();
+  for (const auto& set : measured.holes) units += set.distances.size();
+  if (units <= kMostDiagnosed) return {};
+  return fmt::format(
+      "{} are more than a diagnosis takes ({}): leave some out, evenly over the bed, and keep "
+      "those that were measured twice; chaintrue fit takes them all",
+      counted(measured),
+      kMostDiagnosed);
+}
+
+/// Readings better than the simulation is computed over a bed.
+void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
+  constexpr double kFinestMm = 0.01;
+  for (const auto& own : measured.grids) {
+    if (!own.noise || own.noise->length_mm >= kFinestMm) continue;
+    found.notes.push_back(fmt::format(
+        "The readings are stated to {} mm, which is finer than the simulation is computed over a "
+        "bed; they were taken to be good to {} mm.",
+        own.noise->length_mm,
+        kFinestMm));
+  }
+}
+
+Outcome diagnosis_of(const DiagnoseCommand& command, const grid::Measured& measured) {
   grid::diagnosis::DiagnosisOptions options;
   options.seed = command.seed;
   options.order_assumed = !command.assume_order.empty();
   options.accept_class = command.accept_class;
-  const bool is_watched = ::isatty(STDERR_FILENO) != 0;
-  if (is_watched) fmt::print(stderr, "Diagnosing {} ...", counted(measured));
   auto found = grid::diagnosis::diagnose(measured, options);
-  if (is_watched) fmt::print(stderr, "\r\x1b[K");
   if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
   if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
   return *std::move(found);
@@ -170,8 +197,13 @@ tl::expected<grid::diagnosis::Transfer, std::string> held_out(const DiagnoseComm
 Outcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
   refuse_for_others(command, measured);
   if (!measured.grids.empty()) assume_order(command, measured.grids.front());
-  auto found = watched(command, measured);
+  if (const std::string sentence = too_many(measured); !sentence.empty()) {
+    return tl::unexpected(
+        fmt::format("{}: {}", files::name_in_messages(command.input.grid), sentence));
+  }
+  auto found = diagnosis_of(command, measured);
   if (!found) return found;
+  note_fine_readings(measured, *found);
   if (!command.assume_order.empty()) {
     found->notes.insert(found->notes.begin(),
                         fmt::format("The visiting order was not measured but assumed: {}, lines "
@@ -208,7 +240,7 @@ int run_diagnose(const DiagnoseCommand& command) {
   });
   const bool is_stdout_taken = std::any_of(
       outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });
-  files::write_whole_files(outputs);
+  write_outputs(outputs);
   if (command.json && !is_stdout_taken) {
     fmt::print("{}", file);
   } else {
@@ -220,15 +252,27 @@ int run_diagnose(const DiagnoseCommand& command) {
 }
 
 void add_diagnose_outputs(CLI::App& verb, DiagnoseCommand& command) {
-  verb.add_option("-o,--output", command.output, "The diagnosis with all its numbers (JSON)");
-  verb.add_option("--report", command.report, "The diagnosis as a page for a browser (HTML)");
-  verb.add_option("--extended-machine",
-                  command.extended_machine,
-                  "The machine with its settings calibrated and what was named in it");
-  verb.add_option("--corrected-grid",
-                  command.corrected_grid,
-                  "The points on that machine, marks and readings corrected where the cause lies "
-                  "with them: what to fit");
+  add_output(verb,
+             "-o,--output",
+             command.output,
+             {Origin::diagnosis},
+             "The diagnosis with all its numbers (JSON)");
+  add_output(verb,
+             "--report",
+             command.report,
+             {Origin::page},
+             "The diagnosis as a page for a browser (HTML)");
+  add_output(verb,
+             "--extended-machine",
+             command.extended_machine,
+             {Origin::machine},
+             "The machine with its settings calibrated and what was named in it");
+  add_output(verb,
+             "--corrected-grid",
+             command.corrected_grid,
+             {Origin::measured},
+             "The points on that machine, marks and readings corrected where the cause lies "
+             "with them: what to fit");
   verb.add_flag("--json", command.json, "The diagnosis file on standard output, for programs");
 }
 
@@ -240,13 +284,15 @@ void add_diagnose(CLI::App& app, Run& run) {
       "diagnose", "What the simulation gets wrong, why, and what naming the cause gains");
   add_grid_options(*verb, command->input);
   add_tape_options(*verb, command->tape);
-  verb->add_option("--with",
-                   command->with,
-                   "More grids and holes of the same machine: all are weighed in one estimate");
+  add_input(*verb,
+            "--with",
+            command->with,
+            "More grids and holes of the same machine: all are weighed in one estimate");
   add_diagnose_outputs(*verb, *command);
-  verb->add_option("--held-out",
-                   command->held_out,
-                   "Another grid of the same machine: how well what was found foretells it");
+  add_input(*verb,
+            "--held-out",
+            command->held_out,
+            "Another grid of the same machine: how well what was found foretells it");
   verb->add_option("--assume-order",
                    command->assume_order,
                    "Visiting order of points that bear none, lines from the top left; opens drift, "
@@ -256,8 +302,11 @@ void add_diagnose(CLI::App& app, Run& run) {
                  command->accept_class,
                  "Where points cannot tell a long chain from a long tape: take it to be the chain, "
                  "without a reading of its links");
-  verb->add_option(
-          "--seed", command->seed, "Of the simulated chances; the same seed, the same answer")
+  add_number(*verb,
+             "--seed",
+             command->seed,
+             {"", 0.0, 9e15},
+             "Of the simulated chances; the same seed, the same answer")
       ->capture_default_str();
   verb->footer(
       "Any answer is an answer: the exit code is 0 also where nothing was found.\n\n"

@@ -7,15 +7,21 @@
 #include <cstdio>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "grid/files/catalogue_file.hpp"
 #include "grid/files/machine_file.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/synthetic/effect_picture.hpp"
+#include "model/reading_model.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/effect_drawing.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -206,6 +212,34 @@ EffectSide chosen_side(const Effect& effect, const std::string& word) {
   return EffectSide::none;
 }
 
+/// Marks all over the bed that the machine, or the machine with the effect, cannot hold the sled
+/// at.
+std::optional<std::string> unreachable(const model::Machine& machine,
+                                       const model::AppliedEffect& effect) {
+  model::Machine with = machine;
+  with.effects.push_back(effect);
+  for (const model::Machine* one : {&machine, static_cast<const model::Machine*>(&with)}) {
+    const model::ReadingModel model(*one);
+    for (const auto& [columns, rows] : {std::pair{7, 4}, std::pair{10, 6}, std::pair{20, 10}}) {
+      for (const model::Visit& visit : synthetic::regular_session(machine, columns, rows)) {
+        const auto reading = model.at(visit.position);
+        if (reading && reading->position_jacobian.allFinite()) continue;
+        return fmt::format(
+            "the sled cannot be held at ({:.0f}, {:.0f}) mm of this bed: {}. Look at the left "
+            "motor, stated at ({:.0f}, {:.0f}) mm, and the right one at ({:.0f}, {:.0f}) mm",
+            visit.position.x_mm,
+            visit.position.y_mm,
+            reading ? "the chains do not tell its place" : model::explain(reading.error()),
+            machine.motors.left.x_mm,
+            machine.motors.left.y_mm,
+            machine.motors.right.x_mm,
+            machine.motors.right.y_mm);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 int show_picture(const Effect& effect, const EffectsOptions& options) {
   const model::Machine machine = files::read_machine(options.machine);
   OptionProblems problems;
@@ -217,10 +251,14 @@ int show_picture(const Effect& effect, const EffectsOptions& options) {
   grid::StatedNoise noise;
   noise.length_mm = options.length_noise_mm;
   noise.position_mm = options.position_noise_mm;
+  if (const auto why = unreachable(machine, model::effects::applied(effect, side, values))) {
+    fmt::print(stderr, "{}: {}\n", options.machine, *why);
+    return kNotSupportedOrOutside;
+  }
   const synthetic::EffectPicture picture =
       synthetic::picture_effect(machine, effect, side, values, noise);
-  if (!options.drawing.empty())
-    files::write_whole_file(options.drawing, draw_effect(machine, picture));
+  if (!options.drawing.empty()) write_output(options.drawing, draw_effect(machine, picture));
+  end_progress();
   if (options.json) {
     fmt::print("{}", files::write_effect_picture(picture));
     return kDone;
@@ -270,17 +308,19 @@ void add_effects(CLI::App& app, Run& run) {
       "effects", "List the catalogue of effects, or show what one of them does to a machine");
   verb->add_option("id", options->id, "Effect; without it the catalogue is listed");
   auto* machine =
-      verb->add_option("--machine", options->machine, "chaintrue_machine file to show it on");
+      add_input(*verb, "--machine", options->machine, "chaintrue_machine file to show it on");
   verb->add_option(
           "--side", options->side, "left, right, both, x or y; default: the effect's first")
       ->needs(machine);
   verb->add_option("--set", options->values, "parameter=number instead of the usual size")
       ->needs(machine);
-  verb->add_option("--length-noise-mm", options->length_noise_mm, "One sigma")
-      ->capture_default_str();
-  verb->add_option("--position-noise-mm", options->position_noise_mm, "One sigma")
-      ->capture_default_str();
-  verb->add_option("--draw", options->drawing, "Also draw it into this SVG file")->needs(machine);
+  add_number(
+      *verb, "--length-noise-mm", options->length_noise_mm, {"mm", 1e-6, 100.0}, "One sigma");
+  add_number(
+      *verb, "--position-noise-mm", options->position_noise_mm, grid::files::kNoiseMm, "One sigma");
+  add_output(
+      *verb, "--draw", options->drawing, {Origin::drawing}, "Also draw it into this SVG file")
+      ->needs(machine);
   verb->add_flag("--json", options->json, "For programs");
   verb->add_flag("--markdown", options->markdown, "The catalogue as docs/effects.md");
   verb->footer(

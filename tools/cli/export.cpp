@@ -10,6 +10,7 @@
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -25,7 +26,7 @@ struct ExportCommand {
 int export_groundcontrol(const ExportCommand& command) {
   const files::GroundcontrolText settings =
       files::write_groundcontrol(files::read_machine(command.machine));
-  files::write_whole_file(command.output, settings.text);
+  write_output(command.output, settings.text);
   for (const std::string& remark : settings.remarks) fmt::print(stderr, "{}\n", remark);
   return kDone;
 }
@@ -41,8 +42,12 @@ void add_export(CLI::App& app, Run& run) {
   auto command = std::make_shared<ExportCommand>();
   CLI::App* groundcontrol =
       verb->add_subcommand("groundcontrol", "The numbers to type into GroundControl's settings");
-  groundcontrol->add_option("machine", command->machine, "A chaintrue_machine file")->required();
-  groundcontrol->add_option("-o,--output", command->output, "Where they go; - is standard output")
+  add_input(*groundcontrol, "machine", command->machine, "A chaintrue_machine file")->required();
+  add_output(*groundcontrol,
+             "-o,--output",
+             command->output,
+             {Origin::list},
+             "Where they go; - is standard output")
       ->capture_default_str();
   groundcontrol->footer(kExample);
   groundcontrol->callback(

@@ -16,6 +16,7 @@
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/outside_option.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -52,7 +53,7 @@ int finish(const FitCommand& command,
                map.error().sentence);
     return kBadInput;
   }
-  grid::files::write_whole_file(command.output, grid::files::write_map(*map));
+  write_output(command.output, grid::files::write_map(*map));
   fmt::print(stderr, "{}{}", fit_in_words(*map), more_words);
   return kDone;
 }
@@ -136,11 +137,13 @@ void add_fit(CLI::App& app, Run& run) {
   CLI::App* verb = app.add_subcommand("fit", "Measured points become a compensation map");
   add_grid_options(*verb, command->input);
   add_tape_options(*verb, command->tape);
-  verb->add_option("--with",
-                   command->with,
-                   "More files of the same machine, grids or chaintrue_holes: all are fitted at once, "
-                   "in the frame of the first");
-  verb->add_option("-o,--output", command->output, "The map file; - is standard output")
+  add_input(*verb,
+            "--with",
+            command->with,
+            "More files of the same machine, grids or chaintrue_holes: all are fitted at once, "
+            "in the frame of the first");
+  add_output(
+      *verb, "-o,--output", command->output, {Origin::map}, "The map file; - is standard output")
       ->required();
   verb->add_option("--surface",
                    command->surface,

@@ -1,30 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode: the verbs check, lengths, compensate, verify, explain and their options.
-#include <charconv>
-#include <cmath>
 #include <memory>
 #include <string>
 
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
 using Action = int (*)(const GcodeOptions&);
 
-/// Above zero, in the unit that the option's name carries.
-CLI::Validator positive() {
-  return CLI::Validator(
-      [](std::string& text) {
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool good = error == std::errc{} && end == text.data() + text.size() &&
-                          std::isfinite(value) && value > 0.0;
-        return good ? std::string() : "expected a number above zero, found " + text;
-      },
-      "> 0");
-}
+constexpr grid::files::Range kToleranceMm{"mm", 1e-4, 100.0};
 
 CLI::App* add(CLI::App& parent,
               Run& run,
@@ -42,18 +31,20 @@ CLI::App* add(CLI::App& parent,
   verb->add_flag("--tools-have-no-diameter",
                  options->tools_have_no_diameter,
                  "G41 and G42 change nothing; otherwise they are refused");
-  verb->add_option("--step-budget",
-                   options->step_budget,
-                   "Steps in loops and subroutines until a program counts as endless")
-      ->capture_default_str();
+  add_number(*verb,
+             "--step-budget",
+             options->step_budget,
+             {"", 1.0, 1e12},
+             "Steps in loops and subroutines until a program counts as endless");
   verb->callback([options, action, &run] { run = [options, action] { return action(*options); }; });
   return verb;
 }
 
 void add_machine_options(CLI::App& verb, GcodeOptions& options, bool map_required) {
-  auto* map = verb.add_option("--map", options.map, "The compensation map");
+  auto* map = add_input(verb, "--map", options.map, "The compensation map");
   if (map_required) map->required();
-  verb.add_option(
+  add_input(
+      verb,
       "--machine",
       options.machine,
       "A machine file: what the controller believes, if not the map's machine as it was stated");
@@ -65,20 +56,19 @@ void add_machine_options(CLI::App& verb, GcodeOptions& options, bool map_require
 }
 
 void add_limits(CLI::App& verb, GcodeOptions& options) {
-  verb.add_option("--tolerance-mm", options.tolerance_mm, "How far the tool may stray")
-      ->check(positive())
-      ->capture_default_str();
-  verb.add_option("--decimals", options.decimals, "Of the output's coordinates")
-      ->check(CLI::Range(2, 6))
-      ->capture_default_str();
-  verb.add_option("--largest-correction-mm", options.largest_correction_mm, "Refuse larger ones")
-      ->check(positive())
-      ->capture_default_str();
-  verb.add_option("--steepest-correction",
-                  options.steepest_correction,
-                  "Refuse changes above this, in mm per mm")
-      ->check(positive())
-      ->capture_default_str();
+  add_number(
+      verb, "--tolerance-mm", options.tolerance_mm, kToleranceMm, "How far the tool may stray");
+  add_number(verb, "--decimals", options.decimals, {"", 2.0, 6.0}, "Of the output's coordinates");
+  add_number(verb,
+             "--largest-correction-mm",
+             options.largest_correction_mm,
+             {"mm", 0.001, 1000.0},
+             "Refuse larger ones");
+  add_number(verb,
+             "--steepest-correction",
+             options.steepest_correction,
+             {"mm per mm", 1e-6, 10.0},
+             "Refuse changes above this, in mm per mm");
   verb.add_flag(
       "--keep-rapids-whole", options.keep_rapids_whole, "Only the ends of rapids are made true");
   verb.add_flag("--home-is-zero",
@@ -100,7 +90,7 @@ void add_gcode(CLI::App& app, Run& run) {
                         "check",
                         "What the program does, and what would go wrong, by line",
                         run_gcode_check);
-  check->add_option("file", options->program, "G-code; - is standard input")->required();
+  add_input(*check, "file", options->program, "G-code; - is standard input")->required();
   add_machine_options(*check, *options, false);
   add_limits(*check, *options);
   check->add_flag("--json", options->json, "JSON in place of words");
@@ -110,14 +100,15 @@ void add_gcode(CLI::App& app, Run& run) {
 
   CLI::App* lengths =
       add(*gcode, run, options, "lengths", "The chain lengths along the path", run_gcode_lengths);
-  lengths->add_option("file", options->program, "G-code; - is standard input")->required();
+  add_input(*lengths, "file", options->program, "G-code; - is standard input")->required();
   add_machine_options(*lengths, *options, true);
-  lengths->add_option("-o,--output", options->output, "CSV; - is standard output")
+  add_output(*lengths, "-o,--output", options->output, {Origin::table}, "CSV; - is standard output")
       ->capture_default_str();
-  lengths
-      ->add_option("--every-mm", options->every_mm, "Places along a move are at most so far apart")
-      ->check(positive())
-      ->capture_default_str();
+  add_number(*lengths,
+             "--every-mm",
+             options->every_mm,
+             {"mm", 1e-9, 1e5},
+             "Places along a move are at most so far apart");
   lengths->add_flag("--json", options->json, "One JSON object a line in place of CSV");
   lengths->footer(
       "Example:\n"
@@ -130,14 +121,19 @@ void add_gcode(CLI::App& app, Run& run) {
                              "compensate",
                              "Rewrite a program so that the tool goes where it says",
                              run_gcode_compensate);
-  compensate->add_option("file", options->program, "G-code; - is standard input")->required();
+  add_input(*compensate, "file", options->program, "G-code; - is standard input")->required();
   add_machine_options(*compensate, *options, true);
-  compensate
-      ->add_option("-o,--output", options->output, "The compensated program; - is standard output")
+  add_output(*compensate,
+             "-o,--output",
+             options->output,
+             {Origin::program},
+             "The compensated program; - is standard output")
       ->required();
-  compensate->add_option("--report",
-                         options->report,
-                         "A page with the path before and after, coloured by the correction");
+  add_output(*compensate,
+             "--report",
+             options->report,
+             {Origin::page},
+             "A page with the path before and after, coloured by the correction");
   add_limits(*compensate, *options);
   compensate->add_flag("--no-verify",
                        options->no_verify,
@@ -155,8 +151,8 @@ void add_gcode(CLI::App& app, Run& run) {
           "verify",
           "Run a program on a simulated controller and machine; exit code 1 when the tool strays",
           run_gcode_verify);
-  verify->add_option("original", options->program, "Where the tool shall go")->required();
-  verify->add_option("run", options->other, "What the controller is given")->required();
+  add_input(*verify, "original", options->program, "Where the tool shall go")->required();
+  add_input(*verify, "run", options->other, "What the controller is given")->required();
   add_machine_options(*verify, *options, true);
   add_limits(*verify, *options);
   verify->add_flag("--json", options->json, "JSON in place of words");

@@ -7,8 +7,11 @@
 #include <iterator>
 #include <string>
 
+#include "grid/files/input_error.hpp"
 #include "grid/files/machine_file.hpp"
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/gcode/controller_check.hpp"
 #include "tools/gcode/path_lengths.hpp"
 #include "tools/gcode/survey.hpp"
@@ -25,6 +28,7 @@ gcode::BedRectangle sheet(const GcodeOptions& options) {
 }
 
 void print_survey(const gcode::Survey& survey, bool json) {
+  end_progress();
   const gcode::Box box = survey.box.value_or(gcode::Box{});
   const double slowest = survey.slowest_mm_per_min.value_or(0.0);
   const double fastest = survey.fastest_mm_per_min.value_or(0.0);
@@ -70,6 +74,30 @@ void print_survey(const gcode::Survey& survey, bool json) {
   if (survey.slowest_mm_per_min) fmt::print("feed {:.6g} to {:.6g} mm/min\n", slowest, fastest);
 }
 
+/// Beyond this a table of lengths is of no use to anybody: 2 GB.
+constexpr double kMostRows = 2e7;
+
+/// \throws InputError where the table would be longer; a program that cannot be read to its end is
+/// left to whoever reports it.
+void refuse_endless_lengths(const GcodeOptions& options, const GcodeText& text) {
+  auto source = text.open();
+  Findings ignored;
+  const auto survey =
+      gcode::survey(source, options.dialect(), options.home_mm(), sheet(options), ignored);
+  if (!survey) return;
+  const double rows = survey->path_mm / options.every_mm;
+  if (rows <= kMostRows) return;
+  throw grid::files::InputError(
+      {{"command line",
+        "--every-mm",
+        fmt::format("{}", options.every_mm),
+        fmt::format("at least {:.2g} mm: {:.1f} m of path would make {:.1e} rows, about {:.0f} GB",
+                    survey->path_mm / kMostRows,
+                    survey->path_mm / 1000.0,
+                    rows,
+                    rows * 1e-7)}});
+}
+
 }  // namespace
 
 int run_gcode_check(const GcodeOptions& options) {
@@ -112,8 +140,10 @@ int run_gcode_check(const GcodeOptions& options) {
 
 int run_gcode_lengths(const GcodeOptions& options) {
   const GcodeMachine machine(options);
-  auto source = GcodeText(options.program).open();
-  PendingFile output(options.output);
+  const GcodeText text(options.program);
+  refuse_endless_lengths(options, text);
+  auto source = text.open();
+  grid::files::PendingFile output(options.output);
   if (!options.json) {
     output.write(
         "line,kind,x_mm,y_mm,z_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,feed_mm_per_min\n");
@@ -168,7 +198,7 @@ int run_gcode_lengths(const GcodeOptions& options) {
                                            write,
                                            findings);
   if (!outcome) return report(options.program, outcome.error());
-  output.commit();
+  take_place(output, options.output, {});
   return report(options.program, findings);
 }
 

@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
-#include "grid/files/whole_file.hpp"
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/report/path_report.hpp"
 
 namespace chaintrue::cli {
@@ -22,9 +23,9 @@ struct Proof {
 Proof prove(const GcodeOptions& options,
             const GcodeMachine& machine,
             const GcodeText& text,
-            PendingFile& output) {
+            grid::files::PendingFile& output) {
   auto original = text.open();
-  auto written = output.written();
+  auto written = written_so_far(output);
   const auto outcome = gcode::verify(original,
                                      written,
                                      machine.corrector(),
@@ -80,7 +81,7 @@ int run_gcode_compensate(const GcodeOptions& options) {
                        correction(to)});
         };
   }
-  PendingFile output(options.output);
+  grid::files::PendingFile output(options.output);
   gcode::Compensator compensator(
       machine.corrector(), settings, [&](std::string_view bytes) { output.write(bytes); });
   const auto summary = compensator.run(source, options.dialect());
@@ -93,7 +94,6 @@ int run_gcode_compensate(const GcodeOptions& options) {
   Proof proof;
   if (!options.no_verify) proof = prove(options, machine, text, output);
   const bool holds = proof.fault.empty();
-  if (holds) output.commit();
   const std::string words = fmt::format(
       "{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
       "line {}",
@@ -104,6 +104,32 @@ int run_gcode_compensate(const GcodeOptions& options) {
       machine.corrector().firmware().name,
       summary->largest_correction_mm,
       summary->largest_correction_line);
+  std::string page;
+  if (!options.report.empty()) {
+    const model::Bed& bed = machine.machine().bed;
+    picture.name = options.program == "-"
+                       ? "A program"
+                       : std::filesystem::path(options.program).filename().string();
+    picture.verdict = verdict(options, machine, proof);
+    picture.sheet = {
+        -0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
+    picture.figures = {
+        {fmt::format("{:.2f} mm", summary->largest_correction_mm), "largest correction"},
+        {fmt::format("{:g} mm", options.tolerance_mm), "tolerance of the path"},
+        {fmt::format("{:.1f} m", summary->path_mm / 1000.0), "path"},
+        {fmt::format("{}", summary->commands), holds ? "commands written" : "commands"}};
+    if (!options.no_verify) {
+      picture.figures.insert(
+          picture.figures.begin(),
+          {fmt::format("{:.3f} mm", proof.largest_mm), "largest distance from the path"});
+    }
+    page = report::render(report::page_of(picture));
+  }
+  if (holds) {
+    take_place(output, options.output, {{options.report, page}});
+  } else if (!options.report.empty()) {
+    write_output(options.report, page);
+  }
   fmt::print(stderr, "{}\n", words);
   if (!holds) {
     fmt::print(stderr,
@@ -121,24 +147,6 @@ int run_gcode_compensate(const GcodeOptions& options) {
                machine.corrector().firmware().name,
                proof.largest_mm,
                options.tolerance_mm);
-  }
-  if (!options.report.empty()) {
-    const model::Bed& bed = machine.machine().bed;
-    picture.name = options.program;
-    picture.verdict = verdict(options, machine, proof);
-    picture.sheet = {
-        -0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
-    picture.figures = {
-        {fmt::format("{:.2f} mm", summary->largest_correction_mm), "largest correction"},
-        {fmt::format("{:g} mm", options.tolerance_mm), "tolerance of the path"},
-        {fmt::format("{:.1f} m", summary->path_mm / 1000.0), "path"},
-        {fmt::format("{}", summary->commands), holds ? "commands written" : "commands"}};
-    if (!options.no_verify) {
-      picture.figures.insert(
-          picture.figures.begin(),
-          {fmt::format("{:.3f} mm", proof.largest_mm), "largest distance from the path"});
-    }
-    grid::files::write_whole_file(options.report, report::render(report::page_of(picture)));
   }
   return holds ? kDone : kCheckFailed;
 }

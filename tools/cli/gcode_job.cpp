@@ -4,17 +4,19 @@
 #include "tools/cli/gcode_job.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 
+#include "grid/files/file_identity.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/machine_file.hpp"
-#include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/map_input.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/gcode/file_hash.hpp"
 
 namespace chaintrue::cli {
@@ -42,14 +44,6 @@ bool number(std::string_view text, double& value) {
 
 int exit_code(gcode::ProblemName name) {
   return gcode::kind(name) == gcode::ProblemKind::bad_input ? kBadInput : kNotSupportedOrOutside;
-}
-
-void copy_file(const std::filesystem::path& from, std::FILE* to) {
-  std::ifstream file(from, std::ios::binary);
-  std::array<char, 65536> bytes{};
-  while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0) {
-    std::fwrite(bytes.data(), 1, static_cast<std::size_t>(file.gcount()), to);
-  }
 }
 
 }  // namespace
@@ -87,7 +81,7 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options) {
   hash.add(text);
   map_hash_ = hash.text();
   map_ = std::make_unique<grid::CompensationMap>(
-      grid::files::parse_map(text, grid::files::name_in_messages(options.map)));
+      parse_map_input(text, grid::files::name_in_messages(options.map)));
   target_ = std::make_unique<gcode::CompensationTarget>(
       *map_, options.frame == "bed" ? grid::Frame::bed : grid::Frame::marks);
   if (!options.machine.empty()) {
@@ -111,6 +105,16 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options) {
 gcode::CompensateOptions compensate_options(const GcodeOptions& options,
                                             const GcodeMachine& machine) {
   gcode::CompensateOptions result;
+  const double least_mm = gcode::least_tolerance_mm(options.decimals);
+  if (options.tolerance_mm <= least_mm) {
+    throw InputError({{"command line",
+                       "--tolerance-mm",
+                       fmt::format("{}", options.tolerance_mm),
+                       fmt::format("more than {:.2g} mm, which rounding to {} decimals takes; more "
+                                   "--decimals round less",
+                                   least_mm,
+                                   options.decimals)}});
+  }
   result.tolerance_mm = options.tolerance_mm;
   result.decimals = options.decimals;
   result.home = options.home_mm();
@@ -125,7 +129,8 @@ gcode::CompensateOptions compensate_options(const GcodeOptions& options,
 }
 
 GcodeText::GcodeText(const std::string& path) : path_(path) {
-  if (path == "-") text_ = grid::files::read_whole_file(path);
+  // A pipe can be read once only.
+  if (path == "-" || !grid::files::identity_of(path)) text_ = grid::files::read_whole_file(path);
 }
 
 gcode::LineSource GcodeText::open() const {
@@ -150,11 +155,13 @@ std::string GcodeText::hash() const {
 }
 
 int report(const std::string& file, const gcode::Problem& problem) {
+  end_progress();
   fmt::print(stderr, "{}: {}\n", grid::files::name_in_messages(file), problem.message());
   return exit_code(problem.name);
 }
 
 int report(const std::string& file, const gcode::Findings& findings) {
+  end_progress();
   for (const gcode::Note& note : findings.notes) {
     fmt::print(stderr,
                "{}: line {}: note: {}\n",
@@ -177,49 +184,12 @@ int report(const std::string& file, const gcode::Findings& findings) {
   return code;
 }
 
-PendingFile::PendingFile(const std::string& path) : path_(path) {
-  const std::filesystem::path place =
-      path == "-" ? std::filesystem::temp_directory_path() / "chaintrue_output"
-                  : std::filesystem::path(path);
-  temporary_ = place;
-  temporary_ += fmt::format(".{}.part", ::getpid());
-  if (path != "-" && std::filesystem::is_directory(place))
-    throw InputError({{path, "", "", "the name of a file, not of a folder"}});
-  file_.open(temporary_, std::ios::binary | std::ios::trunc);
-  if (!file_) throw InputError({{path, "", "", "a place that can be written to"}});
-}
-
-PendingFile::~PendingFile() {
-  if (temporary_.empty()) return;
-  file_.close();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
-}
-
-void PendingFile::write(std::string_view bytes) {
-  file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
-gcode::LineSource PendingFile::written() {
-  file_.flush();
-  auto source = gcode::LineSource::from_file(temporary_.string());
-  if (!file_ || !source) throw InputError({{path_, "", "", "room for the whole file"}});
+gcode::LineSource written_so_far(grid::files::PendingFile& file) {
+  const std::string place = file.flushed();
+  if (place.empty()) return gcode::LineSource::from_text(file.held());
+  auto source = gcode::LineSource::from_file(place);
+  if (!source) throw InputError({{place, "", "", "room for the whole file"}});
   return std::move(*source);
-}
-
-void PendingFile::commit() {
-  file_.close();
-  if (!file_) throw InputError({{path_, "", "", "room for the whole file"}});
-  if (path_ == "-") {
-    copy_file(temporary_, stdout);
-    std::filesystem::remove(temporary_);
-  } else {
-    std::error_code error;
-    std::filesystem::rename(temporary_, path_, error);
-    if (error)
-      throw InputError({{path_, "", "", "a place that can be written to: " + error.message()}});
-  }
-  temporary_.clear();
 }
 
 }  // namespace chaintrue::cli

@@ -4,8 +4,6 @@
 /// text, messages.
 #pragma once
 
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -81,8 +79,8 @@ class GcodeMachine {
 [[nodiscard]] gcode::VerifyOptions verify_options(const GcodeOptions& options,
                                                   const GcodeMachine& machine);
 
-/// A program's lines; standard input for "-", which is kept in memory. \throws InputError where it
-/// cannot be read.
+/// A program's lines; standard input ("-") and pipes are kept in memory. \throws InputError where
+/// it cannot be read.
 class GcodeText {
  public:
   explicit GcodeText(const std::string& path);
@@ -100,24 +98,8 @@ int report(const std::string& file, const gcode::Problem& problem);
 /// kDone.
 int report(const std::string& file, const gcode::Findings& findings);
 
-/// A file that appears whole or not at all; "-" is standard output, written at commit().
-class PendingFile {
- public:
-  /// \throws InputError where it cannot be written.
-  explicit PendingFile(const std::string& path);
-  ~PendingFile();
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
-  void write(std::string_view bytes);
-  /// What has been written so far, as a program. \throws InputError where it could not be written.
-  [[nodiscard]] gcode::LineSource written();
-  /// \throws InputError where not everything could be written.
-  void commit();
-
- private:
-  std::string path_;
-  std::filesystem::path temporary_;
-  std::ofstream file_;
-};
+/// What a file that has not taken its place yet holds, as a program. \throws InputError where it
+/// could not be written.
+[[nodiscard]] gcode::LineSource written_so_far(grid::files::PendingFile& file);
 
 }  // namespace chaintrue::cli

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/progress.hpp"
 
 namespace chaintrue::cli {
 namespace {

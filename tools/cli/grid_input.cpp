@@ -8,28 +8,38 @@
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/machine_file.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/holes/sets_together.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
 
 namespace chaintrue::cli {
 
 void add_grid_options(CLI::App& verb, GridInput& input) {
-  verb.add_option("grid",
-                  input.grid,
-                  "The measured points: a chaintrue_grid file, or CSV; - is standard input")
+  add_input(verb,
+            "grid",
+            input.grid,
+            "The measured points: a chaintrue_grid file, or CSV; - is standard input")
       ->required();
-  verb.add_option(
-      "--machine", input.machine, "A chaintrue_machine file, in place of the grid's own");
-  verb.add_option("--noise-length-mm",
-                  input.length_noise_mm,
-                  "One sigma of a chain length, in place of the grid's own");
-  verb.add_option("--noise-position-mm",
-                  input.position_noise_mm,
-                  "One sigma of the tool's place on each axis, in place of the grid's own");
-  verb.add_option("--noise-dof",
-                  input.noise_dof,
-                  "How well the noise is known, in degrees of freedom (15 where unsaid)");
+  add_input(
+      verb, "--machine", input.machine, "A chaintrue_machine file, in place of the grid's own");
+  add_number(verb,
+             "--noise-length-mm",
+             input.length_noise_mm,
+             grid::files::kNoiseMm,
+             "One sigma of a chain length, in place of the grid's own");
+  add_number(verb,
+             "--noise-position-mm",
+             input.position_noise_mm,
+             grid::files::kNoiseMm,
+             "One sigma of the tool's place on each axis, in place of the grid's own");
+  add_number(verb,
+             "--noise-dof",
+             input.noise_dof,
+             grid::files::kNoiseDof,
+             "How well the noise is known, in degrees of freedom (15 where unsaid)");
 }
 
 namespace {
@@ -73,16 +83,26 @@ std::optional<model::Machine> machine_of(const GridInput& input) {
 }  // namespace
 
 void add_tape_options(CLI::App& verb, TapeInput& input) {
-  verb.add_option("--tape-sigma-mm", input.sigma_mm, "Of holes: one sigma of a tape reading");
-  verb.add_option("--hook-offset-mm",
-                  input.hook_offset_mm,
-                  "Of holes: every reading is longer than the distance by this much");
-  verb.add_option("--hook-sigma-mm",
-                  input.hook_sigma_mm,
-                  "Of holes: how well that is known, one sigma; exactly where unsaid");
-  verb.add_option("--hole-sigma-mm",
-                  input.hole_sigma_mm,
-                  "Of holes: one sigma of a hole beside where its chains put it, on each axis");
+  add_number(verb,
+             "--tape-sigma-mm",
+             input.sigma_mm,
+             grid::files::kTapeSigmaMm,
+             "Of holes: one sigma of a tape reading");
+  add_number(verb,
+             "--hook-offset-mm",
+             input.hook_offset_mm,
+             grid::files::kHookOffsetMm,
+             "Of holes: every reading is longer than the distance by this much");
+  add_number(verb,
+             "--hook-sigma-mm",
+             input.hook_sigma_mm,
+             grid::files::kHoleSigmaMm,
+             "Of holes: how well that is known, one sigma; exactly where unsaid");
+  add_number(verb,
+             "--hole-sigma-mm",
+             input.hole_sigma_mm,
+             grid::files::kHoleSigmaMm,
+             "Of holes: one sigma of a hole beside where its chains put it, on each axis");
 }
 
 grid::MeasuredGrid read_grid_input(const GridInput& input) {

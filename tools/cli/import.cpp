@@ -11,7 +11,10 @@
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/optical_file.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -48,7 +51,7 @@ int import_optical(const OpticalCommand& command) {
   options.pitch_mm = command.pitch_mm;
   if (!command.order.empty()) options.order = orders().at(command.order);
   const files::ReadOptical read = files::read_optical(command.input, options);
-  files::write_whole_file(command.output, files::write_grid(read.grid));
+  write_output(command.output, files::write_grid(read.grid));
   fmt::print(stderr,
              "{} of {} squares were visited; the sheet is taken as placed by hand, to {} mm and {} "
              "mrad{}\n",
@@ -65,18 +68,27 @@ void add_optical(CLI::App& import, Run& run) {
   CLI::App* verb = import.add_subcommand("optical",
                                          "A scan by WebControl's or GroundControl's optical "
                                          "calibration becomes a grid of commanded positions");
-  verb->add_option("file",
-                   command->input,
-                   "The scan: 15 lines of 31 errors in x, an empty line, the same in y")
+  add_input(*verb,
+            "file",
+            command->input,
+            "The scan: 15 lines of 31 errors in x, an empty line, the same in y")
       ->required();
-  verb->add_option(
-          "--machine", command->machine, "The machine, with the controller in force at the scan")
+  add_input(
+      *verb, "--machine", command->machine, "The machine, with the controller in force at the scan")
       ->required();
-  verb->add_option("--pitch-mm", command->pitch_mm, "From square to square")->capture_default_str();
+  add_number(*verb,
+             "--pitch-mm",
+             command->pitch_mm,
+             grid::files::kOpticalPitchMm,
+             "From square to square");
   verb->add_option(
           "--order", command->order, "In which order the squares were visited, if you know it")
       ->check(CLI::IsMember({"rows", "columns", "serpentine_rows", "serpentine_columns"}));
-  verb->add_option("-o,--output", command->output, "The grid file; - is standard output")
+  add_output(*verb,
+             "-o,--output",
+             command->output,
+             {Origin::measured},
+             "The grid file; - is standard output")
       ->capture_default_str();
   verb->footer(
       "A scan made with a compensation switched on shows what that one left and cannot be imported "
@@ -96,7 +108,7 @@ int import_groundcontrol(const GroundcontrolCommand& command) {
   const files::ReadMachine read = files::read_groundcontrol(command.input);
   std::vector<std::string> comments;
   for (const files::Warning& warning : read.warnings) comments.push_back(warning.sentence);
-  files::write_whole_file(command.output, files::write_machine(read.machine, comments));
+  write_output(command.output, files::write_machine(read.machine, comments));
   print_warnings(read.warnings);
   return kDone;
 }
@@ -105,8 +117,12 @@ void add_groundcontrol(CLI::App& import, Run& run) {
   auto command = std::make_shared<GroundcontrolCommand>();
   CLI::App* verb = import.add_subcommand(
       "groundcontrol", "GroundControl's settings become a machine and its controller");
-  verb->add_option("file", command->input, "groundcontrol.ini")->required();
-  verb->add_option("-o,--output", command->output, "The machine file; - is standard output")
+  add_input(*verb, "file", command->input, "groundcontrol.ini")->required();
+  add_output(*verb,
+             "-o,--output",
+             command->output,
+             {Origin::machine},
+             "The machine file; - is standard output")
       ->capture_default_str();
   verb->footer(
       "What the settings do not say is assumed, and said so here and in the file.\n\n"

@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The command's entrance: parses, runs the chosen verb, turns outcomes into exit codes.
-#include <fmt/format.h>
+#include <fcntl.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 
 #include "grid/files/input_error.hpp"
+#include "grid/files/pending_file.hpp"
+#include "grid/printing.hpp"
+#include "tools/cli/map_input.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -17,7 +29,70 @@ int report_bad_input(const grid::files::InputError& error) {
   return kBadInput;
 }
 
+/// A stream that is closed would lend its number to the next file that is opened; it is taken up
+/// by one that can be neither read nor written in its place.
+void take_up_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
+    const int taken = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    if (taken != stream && taken >= 0) ::close(taken);
+  }
+}
+
+/// What was printed must have arrived: an answer that nobody could read is no answer. A pipe whose
+/// reader has left is not worth a word.
+int finish_standard_output(int code, int error_number) {
+  const bool was_broken = std::ferror(stdout) != 0;
+  errno = 0;
+  const bool is_broken = std::fflush(stdout) != 0 || was_broken;
+  if (!is_broken) return code;
+  if (errno != 0) error_number = errno;
+  if (error_number == EPIPE) return code;
+  return report_bad_input(grid::files::InputError(
+      {{"standard output",
+        "",
+        std::error_code(error_number == 0 ? EIO : error_number, std::generic_category()).message(),
+        "something that can be written to"}}));
+}
+
+int run_verb(const Run& run, const std::string& verb) {
+  try {
+    check_numbers();
+    check_places();
+    const Progress progress(verb);
+    return finish_standard_output(run(), 0);
+  } catch (const grid::files::InputError& error) {
+    return report_bad_input(error);
+  } catch (const grid::files::ReaderGone&) {
+    return kDone;
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0) return finish_standard_output(kDone, error.code().value());
+    fmt::print(stderr, "chaintrue: internal error, please report it: {}\n", error.what());
+    return kInternal;
+  } catch (const std::logic_error& error) {
+    if (!map_on_trust().empty()) {
+      return report_bad_input(
+          grid::files::InputError({{map_on_trust(),
+                                    "",
+                                    "numbers that do not belong together",
+                                    "a map as chaintrue wrote it; fit the points again"}}));
+    }
+    fmt::print(stderr, "chaintrue: internal error, please report it: {}\n", error.what());
+    return kInternal;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "chaintrue: not enough memory for this much\n");
+    return kNotSupportedOrOutside;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "chaintrue: internal error, please report it: {}\n", error.what());
+    return kInternal;
+  }
+}
+
 int main_with_exit_code(int argc, char** argv) {
+  take_up_closed_streams();
+  grid::files::remove_pending_files_on_signals();
+  // A limit on file sizes is then an error of writing, told like any other.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{"chaintrue makes a hanging two-chain router cut true.", "chaintrue"};
   app.require_subcommand(1);
   app.set_version_flag("--version", CHAINTRUE_VERSION);
@@ -29,16 +104,10 @@ int main_with_exit_code(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kUsage;
+    const int code = app.exit(error) == 0 ? kDone : kUsage;
+    return finish_standard_output(code, 0);
   }
-  try {
-    return run();
-  } catch (const grid::files::InputError& error) {
-    return report_bad_input(error);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "chaintrue: internal error, please report it: {}\n", error.what());
-    return kInternal;
-  }
+  return run_verb(run, app.get_subcommands().front()->get_name());
 }
 
 }  // namespace

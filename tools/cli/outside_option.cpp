@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/outside_option.hpp"
+#include "grid/files/ranges.hpp"
+#include "tools/cli/numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -27,9 +29,11 @@ void add_outside_options(CLI::App& verb, OutsideOption& option, const std::strin
                   "machine), linear or clamp; " +
                       usual)
       ->check(CLI::IsMember({"continued", "refuse", "fade", "linear", "clamp"}));
-  verb.add_option("--fade-mm", option.fade_width_mm, "Over how far --outside fade fades")
-      ->check(CLI::Range(1.0, 1e5))
-      ->capture_default_str();
+  add_number(verb,
+             "--fade-mm",
+             option.fade_width_mm,
+             grid::files::kFadeWidthMm,
+             "Over how far --outside fade fades");
 }
 
 grid::OutsideRule rule_of(const OutsideOption& option, const grid::OutsideRule& usual) {

@@ -12,9 +12,13 @@
 #include "grid/files/holes_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/map_file.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/holes/passes.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -77,9 +81,9 @@ int simulate(const PassesCommand& command) {
   for (const grid::HolesPass& pass : result->passes) text += line_of(pass);
   text += ending(result->passes.back(), command.request.worthwhile_mm, 0);
   if (!command.map.empty()) {
-    files::write_whole_file(command.map,
-                            files::write_map(grid::map_of(result->last_set, result->fit)));
+    write_output(command.map, files::write_map(grid::map_of(result->last_set, result->fit)));
   }
+  end_progress();
   fmt::print("{}", text);
   return kDone;
 }
@@ -116,9 +120,9 @@ int follow(const PassesCommand& command) {
   }
   text += ending(last, command.request.worthwhile_mm, sets.size() - used);
   if (!command.map.empty()) {
-    files::write_whole_file(command.map,
-                            files::write_map(grid::map_of(sets[used - 1], *passes.fit())));
+    write_output(command.map, files::write_map(grid::map_of(sets[used - 1], *passes.fit())));
   }
+  end_progress();
   fmt::print("{}", text);
   return kDone;
 }
@@ -143,25 +147,38 @@ void add_passes(CLI::App& app, Run& run) {
   grid::SimulatedPassesRequest& request = command->request;
   CLI::App* verb = app.add_subcommand(
       "passes", "Cut, measure, correct, and again, until the next pass would not pay");
-  verb->add_option(
-      "sets", command->sets, "chaintrue_holes files, in the order of the passes; none: simulated");
-  verb->add_option("--machine",
-                   command->machine,
-                   "A chaintrue_machine file: simulated on it, or in place of the sets' own");
-  verb->add_option("--passes", request.most, "Simulated: at most so many")->capture_default_str();
-  verb->add_option("--holes", request.plan.holes, "Simulated: holes of a pass")
-      ->capture_default_str();
-  verb->add_option("--tape-sigma-mm", request.plan.tape_sigma_mm, "Simulated: of a tape reading")
-      ->capture_default_str();
-  verb->add_option("--hole-sigma-mm", request.plan.hole_sigma_mm, "Simulated: of a hole")
-      ->capture_default_str();
-  verb->add_option("--worthwhile-mm",
-                   request.worthwhile_mm,
-                   "A pass that takes less off the expected error is not asked for")
-      ->capture_default_str();
-  verb->add_option("--seed", request.seed, "Simulated: same seed, same bytes")
-      ->capture_default_str();
-  verb->add_option("-o,--output", command->map, "Write the last pass's map to this file");
+  add_input(*verb,
+            "sets",
+            command->sets,
+            "chaintrue_holes files, in the order of the passes; none: simulated");
+  add_input(*verb,
+            "--machine",
+            command->machine,
+            "A chaintrue_machine file: simulated on it, or in place of the sets' own");
+  add_number(*verb, "--passes", request.most, {"", 1.0, 100.0}, "Simulated: at most so many");
+  add_number(*verb,
+             "--holes",
+             request.plan.holes,
+             {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles},
+             "Simulated: holes of a pass");
+  add_number(*verb,
+             "--tape-sigma-mm",
+             request.plan.tape_sigma_mm,
+             grid::files::kTapeSigmaMm,
+             "Simulated: of a tape reading");
+  add_number(*verb,
+             "--hole-sigma-mm",
+             request.plan.hole_sigma_mm,
+             grid::files::kHoleSigmaMm,
+             "Simulated: of a hole");
+  add_number(*verb,
+             "--worthwhile-mm",
+             request.worthwhile_mm,
+             {"mm", 0.0, 100.0},
+             "A pass that takes less off the expected error is not asked for");
+  add_number(*verb, "--seed", request.seed, {"", 0.0, 9e15}, "Simulated: same seed, same bytes");
+  add_output(
+      *verb, "-o,--output", command->map, {Origin::map}, "Write the last pass's map to this file");
   verb->footer(
       "What one pass learnt of the machine is where the next one begins. Between passes the "
       "controller's\nsettings may change, the machine as first stated may not.\n\n"

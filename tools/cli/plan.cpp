@@ -23,6 +23,8 @@
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/follow_up.hpp"
 #include "tools/cli/follow_up_holes.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/plan_check.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/plan_holes.hpp"
@@ -143,7 +145,7 @@ int run_holes_follow_up(const PlanOptions& options, const std::string& text) {
   outputs.push_back(
       {options.output,
        is_json(text) ? holes_follow_up_json(found, set) : holes_follow_up_csv(found, set)});
-  files::write_whole_files(outputs);
+  write_outputs(outputs);
   fmt::print(stderr, "{}", follow_up_list(found));
   const bool has_readings = std::any_of(
       found.next_measurements.begin(), found.next_measurements.end(), [](const auto& next) {
@@ -171,7 +173,7 @@ int run_follow_up(const PlanOptions& options) {
   outputs.push_back(
       {options.output,
        is_json(text) ? follow_up_json(found, measured) : follow_up_csv(found, measured)});
-  files::write_whole_files(outputs);
+  write_outputs(outputs);
   fmt::print(stderr, "{}", follow_up_list(found));
   const bool has_readings = std::any_of(found.next_measurements.begin(),
                                         found.next_measurements.end(),
@@ -216,10 +218,10 @@ int run_plan(PlanOptions options) {
     return kNotSupportedOrOutside;
   }
   const ExpectedErrors errors = expected_errors(plan->map, read.machine.bed);
-  if (!options.drawing.empty()) {
-    files::write_whole_file(options.drawing, draw_plan(*plan, read.machine.bed, errors));
-  }
-  files::write_whole_file(options.output, marks_csv(plan->marks));
+  std::vector<files::OutputFile> outputs = {{options.output, marks_csv(plan->marks)}};
+  if (!options.drawing.empty())
+    outputs.push_back({options.drawing, draw_plan(*plan, read.machine.bed, errors)});
+  write_outputs(outputs);
   fmt::print(stderr, "{}", in_words(*plan, options, errors));
   return kDone;
 }
@@ -230,37 +232,43 @@ void add_plan(CLI::App& app, Run& run) {
   auto options = std::make_shared<PlanOptions>();
   CLI::App* verb = app.add_subcommand(
       "plan", "Where to measure: a list for the workshop, and how good the map will be");
-  verb->add_option("--machine",
-                   options->machine,
-                   "chaintrue_machine file; - is standard input. With --after only where the grid "
-                   "names none, with --check not at all");
-  auto* grid = verb->add_option("grid", options->grid, "With --after: the points measured so far");
-  verb->add_option("--after",
-                   options->after,
-                   "A chaintrue_diagnosis of them: what to measure next, and the lines to add to "
-                   "the grid's file")
+  add_input(*verb,
+            "--machine",
+            options->machine,
+            "chaintrue_machine file; - is standard input. With --after only where the grid "
+            "names none, with --check not at all");
+  auto* grid = add_input(*verb, "grid", options->grid, "With --after: the points measured so far");
+  add_input(*verb,
+            "--after",
+            options->after,
+            "A chaintrue_diagnosis of them: what to measure next, and the lines to add to "
+            "the grid's file")
       ->needs(grid);
   const grid::PlanRequest usual;
   const grid::CheckPlanRequest usual_check;
-  auto* points =
-      verb->add_option("--points",
-                       options->points,
-                       fmt::format("How many, {} to {}; {} where unsaid. With --check {} "
-                                   "to {}; {} where unsaid",
-                                   grid::kFewestPlanned,
-                                   grid::kMostPlanned,
-                                   usual.points,
-                                   grid::kFewestCheckPoints,
-                                   grid::kMostCheckPoints,
-                                   usual_check.points));
-  verb->add_option("--check",
-                   options->check.map,
-                   "Plan the few points that tell best, later, whether this chaintrue_map still "
-                   "holds")
+  auto* points = add_number(*verb,
+                            "--points",
+                            options->points,
+                            {"", 1.0, 1000.0},
+                            fmt::format("How many, {} to {}; {} where unsaid. With --check {} "
+                                        "to {}; {} where unsaid",
+                                        grid::kFewestPlanned,
+                                        grid::kMostPlanned,
+                                        usual.points,
+                                        grid::kFewestCheckPoints,
+                                        grid::kMostCheckPoints,
+                                        usual_check.points));
+  add_input(*verb,
+            "--check",
+            options->check.map,
+            "Plan the few points that tell best, later, whether this chaintrue_map still "
+            "holds")
       ->excludes("--after");
-  verb->add_option("--margin-mm",
-                   options->margin_mm,
-                   "From the bed's edge to the outermost marks; 10 for points, 50 for holes");
+  add_number(*verb,
+             "--margin-mm",
+             options->margin_mm,
+             {"mm", 0.0, 10000.0},
+             "From the bed's edge to the outermost marks; 10 for points, 50 for holes");
   add_plan_holes_options(*verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
     return fmt::format("Noise of {}, one sigma; {:g} where unsaid, with --check {:g}",
@@ -268,19 +276,25 @@ void add_plan(CLI::App& app, Run& run) {
                        usually_mm,
                        in_check_mm);
   };
-  verb->add_option("--length-noise-mm",
-                   options->length_noise_mm,
-                   noise_words("a chain length", usual.noise.length_mm, usual_check.length_mm));
-  verb->add_option(
-      "--position-noise-mm",
-      options->position_noise_mm,
-      noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm));
-  verb->add_option("-o,--output", options->output, "The list (CSV); - is standard output")
+  add_number(*verb,
+             "--length-noise-mm",
+             options->length_noise_mm,
+             {"mm", 0.001, 50.0},
+             noise_words("a chain length", usual.noise.length_mm, usual_check.length_mm));
+  add_number(*verb,
+             "--position-noise-mm",
+             options->position_noise_mm,
+             {"mm", 0.0, 50.0},
+             noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm));
+  add_output(
+      *verb, "-o,--output", options->output, {Origin::list}, "The list (CSV); - is standard output")
       ->capture_default_str();
-  verb->add_option("--svg",
-                   options->drawing,
-                   "Draw the points over the expected error of the map, or the holes and their "
-                   "distances, into this SVG file");
+  add_output(*verb,
+             "--svg",
+             options->drawing,
+             {Origin::drawing},
+             "Draw the points over the expected error of the map, or the holes and their "
+             "distances, into this SVG file");
   verb->footer(
       "The list goes row by row from the bottom left, turning round at the end of each row;\n"
       "chaintrue simulate --marks takes it. The expected error is told on standard error.\n"

@@ -7,10 +7,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/holes/map_check.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/map_input.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -44,7 +45,7 @@ std::string draw(const grid::CheckPlan& plan, const grid::CompensationMap& map) 
 int plan_the_check(const CheckPlanOptions& options,
                    const std::string& output,
                    const std::string& drawing) {
-  const grid::CompensationMap map = files::read_map(options.map);
+  const grid::CompensationMap map = read_map_input(options.map);
   check_options(options.request, map);
   const auto plan = grid::plan_check(map, options.request);
   if (!plan) {
@@ -54,7 +55,7 @@ int plan_the_check(const CheckPlanOptions& options,
   std::vector<files::OutputFile> outputs;
   if (!drawing.empty()) outputs.push_back({drawing, draw(*plan, map)});
   outputs.push_back({output, marks_csv(plan->marks)});
-  files::write_whole_files(outputs);
+  write_outputs(outputs);
   fmt::print(
       stderr,
       "{} points for chaintrue check. Links of one chain that grew by {:g} % would stand out "

@@ -7,10 +7,13 @@
 #include <cstdio>
 #include <vector>
 
+#include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/holes_drawing.hpp"
 #include "tools/cli/holes_words.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -46,33 +49,52 @@ void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& reque
 
 void add_plan_holes_options(CLI::App& verb, HolesPlanOptions& options, CLI::Option* points) {
   grid::HolesPlanRequest& request = options.request;
-  verb.add_option("--holes",
-                  request.holes,
-                  fmt::format("Plan holes and tape distances instead: how many holes, {} to {}",
-                              grid::kFewestPlannedHoles,
-                              grid::kMostPlannedHoles))
+  add_number(verb,
+             "--holes",
+             request.holes,
+             {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles},
+             fmt::format("Plan holes and tape distances instead: how many holes, {} to {}",
+                         grid::kFewestPlannedHoles,
+                         grid::kMostPlannedHoles))
+      ->default_str("")
       ->excludes(points);
-  verb.add_option("--distances",
-                  request.distances,
-                  "Of --holes: how many to measure; where unsaid twice the holes and two more, "
-                  "with --edges six more");
+  add_number(verb,
+             "--distances",
+             request.distances,
+             {"", 1.0, 10000.0},
+             "Of --holes: how many to measure; where unsaid twice the holes and two more, "
+             "with --edges six more")
+      ->default_str("");
   verb.add_flag("--edges",
                 request.edges,
                 "Of --holes: measure to the sheet's edges as well, so that jobs come out where "
                 "they belong on the sheet, not only true in themselves");
-  verb.add_option(
-          "--tape-sigma-mm", request.tape_sigma_mm, "Of --holes: one sigma of a tape reading")
-      ->capture_default_str();
-  verb.add_option("--hole-sigma-mm",
-                  request.hole_sigma_mm,
-                  "Of --holes: one sigma of a hole beside where its chains put it, on each axis")
-      ->capture_default_str();
-  verb.add_option("--tape-length-mm", request.longest_mm, "Of --holes: the tape's length")
-      ->capture_default_str();
-  verb.add_option("--gcode", options.gcode, "Of --holes: write a program that drills them");
-  verb.add_option("--depth-mm", options.depth_mm, "Of --gcode: how deep")->capture_default_str();
-  verb.add_option("--clearance-mm", options.clearance_mm, "Of --gcode: how high between holes")
-      ->capture_default_str();
+  add_number(verb,
+             "--tape-sigma-mm",
+             request.tape_sigma_mm,
+             grid::files::kTapeSigmaMm,
+             "Of --holes: one sigma of a tape reading");
+  add_number(verb,
+             "--hole-sigma-mm",
+             request.hole_sigma_mm,
+             grid::files::kHoleSigmaMm,
+             "Of --holes: one sigma of a hole beside where its chains put it, on each axis");
+  add_number(verb,
+             "--tape-length-mm",
+             request.longest_mm,
+             {"mm", 500.0, 100000.0},
+             "Of --holes: the tape's length");
+  add_output(verb,
+             "--gcode",
+             options.gcode,
+             {Origin::program},
+             "Of --holes: write a program that drills them");
+  add_number(verb, "--depth-mm", options.depth_mm, {"mm", 0.1, 100.0}, "Of --gcode: how deep");
+  add_number(verb,
+             "--clearance-mm",
+             options.clearance_mm,
+             {"mm", 0.1, 100.0},
+             "Of --gcode: how high between holes");
 }
 
 int plan_the_holes(const HolesPlanOptions& options,
@@ -91,7 +113,7 @@ int plan_the_holes(const HolesPlanOptions& options,
     outputs.push_back({options.gcode, holes_gcode(*plan, options.depth_mm, options.clearance_mm)});
   }
   outputs.push_back({output, workshop_list(*plan)});
-  files::write_whole_files(outputs);
+  write_outputs(outputs);
   fmt::print(stderr, "{}", plan_in_words(*plan, options.request));
   return kDone;
 }

@@ -11,10 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "grid/files/map_file.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/map_input.hpp"
 #include "tools/cli/outside_option.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -111,9 +112,9 @@ int run_inverse(const grid::CompensationMap& map, const QueryCommand& command) {
                grid::explain(point.error()));
     return kNotSupportedOrOutside;
   }
-  files::write_whole_file(
-      command.output,
-      command.json ? fmt::format("{{\"x_mm\": {:.6f}, \"y_mm\": {:.6f}, \"status\": \"{}\"}}\n",
+  write_output(command.output,
+               command.json
+                   ? fmt::format("{{\"x_mm\": {:.6f}, \"y_mm\": {:.6f}, \"status\": \"{}\"}}\n",
                                  point->x_mm,
                                  point->y_mm,
                                  grid::name(map.status(*point, frame_of(command))))
@@ -125,7 +126,7 @@ int run_inverse(const grid::CompensationMap& map, const QueryCommand& command) {
 }
 
 int run_query(const QueryCommand& command) {
-  const grid::CompensationMap stored = files::read_map(command.map);
+  const grid::CompensationMap stored = read_map_input(command.map);
   if (command.outside.way == "fade" && stored.machine() == nullptr) {
     fmt::print(stderr,
                "{}: without a machine nothing is left where the map's surface fades out\n",
@@ -152,7 +153,7 @@ int run_query(const QueryCommand& command) {
                point.y_mm,
                grid::explain(lines.back().answer.error()));
   }
-  files::write_whole_file(command.output, command.json ? as_json(lines) : as_csv(lines));
+  write_output(command.output, command.json ? as_json(lines) : as_csv(lines));
   return outside == 0 ? kDone : kNotSupportedOrOutside;
 }
 
@@ -180,10 +181,12 @@ void add_query(CLI::App& app, Run& run) {
   auto command = std::make_shared<QueryCommand>();
   CLI::App* verb = app.add_subcommand(
       "query", "Chain lengths for points of the bed, or the point for chain lengths");
-  verb->add_option("map", command->map, "A chaintrue_map file; - is standard input")->required();
+  add_input(*verb, "map", command->map, "A chaintrue_map file; - is standard input")->required();
   verb->add_option("coordinates", command->coordinates, "X Y, in mm, as many pairs as you like");
-  verb->add_option(
-      "--points", command->points, "A CSV with the columns x_mm and y_mm; - is standard input");
+  add_input(*verb,
+            "--points",
+            command->points,
+            "A CSV with the columns x_mm and y_mm; - is standard input");
   verb->add_option("--inverse", command->inverse, "Chain lengths L R in mm: where is the tool?")
       ->expected(2);
   verb->add_option("--frame",
@@ -192,7 +195,8 @@ void add_query(CLI::App& app, Run& run) {
                    "sheet's placement taken out")
       ->check(CLI::IsMember({"marks", "bed"}))
       ->capture_default_str();
-  verb->add_option("-o,--output", command->output, "- is standard output")->capture_default_str();
+  add_output(*verb, "-o,--output", command->output, {Origin::table}, "- is standard output")
+      ->capture_default_str();
   add_outside_options(*verb, command->outside, "as the map says where not said");
   verb->add_flag("--json", command->json, "JSON in place of CSV");
   verb->footer(

@@ -12,11 +12,12 @@
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/file_type.hpp"
 #include "grid/files/input_error.hpp"
-#include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/certificate.hpp"
 #include "tools/cli/diagnosis_page.hpp"
+#include "tools/cli/map_input.hpp"
 #include "tools/cli/map_report.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/report/map_report.hpp"
 
@@ -45,13 +46,13 @@ struct Reportable {
 report::Page page_of_map(const std::string& text,
                          const std::string& file,
                          std::string_view source) {
-  return report::page_of(map_report(files::parse_map(text, file), source));
+  return report::page_of(map_report(parse_map_input(text, file), source));
 }
 
 report::Page certificate_of_map(const std::string& text,
                                 const std::string& file,
                                 std::string_view source) {
-  return certificate(files::parse_map(text, file), source);
+  return certificate(parse_map_input(text, file), source);
 }
 
 report::Page page_of_diagnosis(const std::string& text,
@@ -90,7 +91,7 @@ int run_report(const ReportCommand& command) {
                               "\"chaintrue_map\": only a map has a certificate"}});
   }
   const auto page = command.certificate ? kind.certificate : kind.page;
-  files::write_whole_file(command.output, report::render(page(text, file, source)));
+  write_output(command.output, report::render(page(text, file, source)));
   if (command.output != "-")
     fmt::print(stderr, "The report is {}: open it in any browser.\n", command.output);
   return kDone;
@@ -102,11 +103,13 @@ void add_report(CLI::App& app, Run& run) {
   auto command = std::make_shared<ReportCommand>();
   CLI::App* verb = app.add_subcommand(
       "report", "A map or a diagnosis as a page for a browser, to be read without a network");
-  verb->add_option("file",
-                   command->input,
-                   "A chaintrue_map or chaintrue_diagnosis file; - is standard input")
+  add_input(*verb,
+            "file",
+            command->input,
+            "A chaintrue_map or chaintrue_diagnosis file; - is standard input")
       ->required();
-  verb->add_option("-o,--output", command->output, "The HTML file; - is standard output")
+  add_output(
+      *verb, "-o,--output", command->output, {Origin::page}, "The HTML file; - is standard output")
       ->required();
   verb->add_flag("--certificate", command->certificate, "One page of a map, to print");
   verb->footer(

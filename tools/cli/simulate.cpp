@@ -13,8 +13,11 @@
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/points_file.hpp"
+#include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/calibration/setting.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/simulate_options.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -38,10 +41,7 @@ int simulate_session(const SimulateOptions& options, const model::Machine& machi
   session->grid.name =
       options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;
   const std::string text = files::write_grid(session->grid);
-  if (!options.answer.empty()) {
-    files::write_whole_file(options.answer, files::write_answer(session->answer));
-  }
-  files::write_whole_file(options.output, text);
+  write_outputs({{options.answer, files::write_answer(session->answer)}, {options.output, text}});
   return kDone;
 }
 
@@ -68,7 +68,7 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
         visits[index].position.y_mm,
         model::explain(reason));
   }
-  files::write_whole_file(options.output, files::write_grid(read.grid));
+  write_output(options.output, files::write_grid(read.grid));
   return read.unreachable.empty() ? kDone : kNotSupportedOrOutside;
 }
 
@@ -103,20 +103,25 @@ int run_simulate(const SimulateOptions& options) {
 void add_design_options(CLI::App& verb, SimulateOptions& o) {
   auto* where = verb.add_option_group("where");
   where->add_option("--grid", o.grid, "Columns x rows of marks, as in 7x4");
-  where->add_option("--random", o.random_points, "So many marks anywhere");
-  where->add_option("--marks", o.marks, "CSV of marks (x_mm, y_mm), such as a plan's");
-  where->add_option(
-      "--points", o.points, "CSV of true places: readings there without noise, all digits");
-  where->add_option("--holes",
-                    o.holes.plan.holes,
-                    "So many holes, as chaintrue plan --holes sets them, and a tape");
+  add_number(*where, "--random", o.random_points, {"", 1.0, 1e6}, "So many marks anywhere")
+      ->default_str("");
+  add_input(*where, "--marks", o.marks, "CSV of marks (x_mm, y_mm), such as a plan's");
+  add_input(
+      *where, "--points", o.points, "CSV of true places: readings there without noise, all digits");
+  add_number(*where,
+             "--holes",
+             o.holes.plan.holes,
+             {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles},
+             "So many holes, as chaintrue plan --holes sets them, and a tape")
+      ->default_str("");
   where->require_option(1);
   verb.add_option("--spacing", o.spacing, "Of --grid: regular or chebyshev (denser at the edges)")
       ->capture_default_str();
-  verb.add_option(
-      "--margin-mm",
-      o.margin_mm,
-      "From the bed's edge to the outermost marks; default: bed rounded down to 100 mm");
+  add_number(verb,
+             "--margin-mm",
+             o.margin_mm,
+             {"mm", 0.0, 10000.0},
+             "From the bed's edge to the outermost marks; default: bed rounded down to 100 mm");
   verb.add_flag("--without-corners", o.without_corners, "Leave the four corners out");
   verb.add_option("--region", o.region, "Marks on this part only: whole, left, right, top, bottom")
       ->capture_default_str();
@@ -124,52 +129,88 @@ void add_design_options(CLI::App& verb, SimulateOptions& o) {
                   o.order,
                   "Of visits: rows, columns, serpentine_rows, serpentine_columns, random")
       ->capture_default_str();
-  verb.add_option(
-          "--repeats", o.repeats, "Second visits of measured marks, spread over the session")
-      ->capture_default_str();
-  verb.add_option("--jitter-mm", o.jitter_mm, "The sled is put down up to this far beside a mark")
-      ->capture_default_str();
+  add_number(verb,
+             "--repeats",
+             o.repeats,
+             {"", 0.0, 1e6},
+             "Second visits of measured marks, spread over the session");
+  add_number(verb,
+             "--jitter-mm",
+             o.jitter_mm,
+             {"mm", 0.0, 1000.0},
+             "The sled is put down up to this far beside a mark");
 }
 
 void add_noise_options(CLI::App& verb, SimulateOptions& o) {
-  verb.add_option("--length-noise-mm", o.noise.length_mm, "One sigma of each chain's reading")
-      ->capture_default_str();
-  verb.add_option("--position-noise-mm", o.noise.position_mm, "One sigma of each coordinate")
-      ->capture_default_str();
+  add_number(verb,
+             "--length-noise-mm",
+             o.noise.length_mm,
+             grid::files::kNoiseMm,
+             "One sigma of each chain's reading");
+  add_number(verb,
+             "--position-noise-mm",
+             o.noise.position_mm,
+             grid::files::kNoiseMm,
+             "One sigma of each coordinate");
   verb.add_flag(
       "--heavy-tails", o.noise.heavy_tails, "Student's t (4 degrees of freedom) of the same sigma");
-  verb.add_option(
-          "--length-rounding-mm", o.noise.length_rounding_mm, "Round readings to whole multiples")
-      ->capture_default_str();
-  verb.add_option("--position-rounding-mm",
-                  o.noise.position_rounding_mm,
-                  "Round marks to whole multiples, 0.5 for a tape")
-      ->capture_default_str();
-  verb.add_option("--stated-length-noise-mm",
-                  o.stated_length_mm,
-                  "What the person believes; default: the truth");
-  verb.add_option("--stated-position-noise-mm",
-                  o.stated_position_mm,
-                  "What the person believes; default: the truth");
-  verb.add_option("--stated-dof", o.stated_dof, "How well it is believed (degrees of freedom)");
-  verb.add_option("--bad-points", o.bad.count, "So many marks written down wrong")
-      ->capture_default_str();
-  verb.add_option("--bad-size-mm", o.bad.size_mm, "How far off those are")->capture_default_str();
+  add_number(verb,
+             "--length-rounding-mm",
+             o.noise.length_rounding_mm,
+             grid::files::kNoiseMm,
+             "Round readings to whole multiples");
+  add_number(verb,
+             "--position-rounding-mm",
+             o.noise.position_rounding_mm,
+             grid::files::kNoiseMm,
+             "Round marks to whole multiples, 0.5 for a tape");
+  add_number(verb,
+             "--stated-length-noise-mm",
+             o.stated_length_mm,
+             grid::files::kNoiseMm,
+             "What the person believes; default: the truth");
+  add_number(verb,
+             "--stated-position-noise-mm",
+             o.stated_position_mm,
+             grid::files::kNoiseMm,
+             "What the person believes; default: the truth");
+  add_number(verb,
+             "--stated-dof",
+             o.stated_dof,
+             grid::files::kNoiseDof,
+             "How well it is believed (degrees of freedom)");
+  add_number(verb, "--bad-points", o.bad.count, {"", 0.0, 1e6}, "So many marks written down wrong");
+  add_number(verb, "--bad-size-mm", o.bad.size_mm, {"mm", 0.0, 10000.0}, "How far off those are");
 }
 
 void add_holes_options(CLI::App& verb, HolesOptions& o) {
-  verb.add_option("--distances", o.plan.distances, "Of --holes: how many are measured");
+  add_number(verb,
+             "--distances",
+             o.plan.distances,
+             {"", 1.0, 10000.0},
+             "Of --holes: how many are measured")
+      ->default_str("");
   verb.add_flag("--edges", o.plan.edges, "Of --holes: some of them to the sheet's edges");
-  verb.add_option("--tape-sigma-mm", o.plan.tape_sigma_mm, "Of --holes: one sigma of a reading")
-      ->capture_default_str();
-  verb.add_option("--hole-sigma-mm",
-                  o.plan.hole_sigma_mm,
-                  "Of --holes: one sigma of a hole beside where its chains put it, on each axis")
-      ->capture_default_str();
-  verb.add_option("--hook-offset-mm", o.hook_offset_mm, "Of --holes: added to every reading")
-      ->capture_default_str();
-  verb.add_option("--tape-rounding-mm", o.rounding_mm, "Of --holes: read to whole multiples")
-      ->capture_default_str();
+  add_number(verb,
+             "--tape-sigma-mm",
+             o.plan.tape_sigma_mm,
+             grid::files::kTapeSigmaMm,
+             "Of --holes: one sigma of a reading");
+  add_number(verb,
+             "--hole-sigma-mm",
+             o.plan.hole_sigma_mm,
+             grid::files::kHoleSigmaMm,
+             "Of --holes: one sigma of a hole beside where its chains put it, on each axis");
+  add_number(verb,
+             "--hook-offset-mm",
+             o.hook_offset_mm,
+             grid::files::kHookOffsetMm,
+             "Of --holes: added to every reading");
+  add_number(verb,
+             "--tape-rounding-mm",
+             o.rounding_mm,
+             {"mm", 0.0, 100.0},
+             "Of --holes: read to whole multiples");
 }
 
 void add_truth_options(CLI::App& verb, SimulateOptions& o) {
@@ -180,14 +221,21 @@ void add_truth_options(CLI::App& verb, SimulateOptions& o) {
       "--offset", o.offsets, "Hidden offset of a setting, truth less stated: motor_left_x_mm=1.5");
   verb.add_flag(
       "--draw-settings", o.draw_settings, "Draw motors and zeros from the machine's uncertainty");
-  verb.add_option("--sheet-shift-mm", o.sheet_shift_mm, "The sheet was placed by hand, this well");
-  verb.add_option(
-      "--sheet-rotation-mrad", o.sheet_rotation_mrad, "The sheet was placed by hand, this well");
+  add_number(verb,
+             "--sheet-shift-mm",
+             o.sheet_shift_mm,
+             {"mm", 0.0, 1000.0},
+             "The sheet was placed by hand, this well");
+  add_number(verb,
+             "--sheet-rotation-mrad",
+             o.sheet_rotation_mrad,
+             {"mrad", 0.0, 500.0},
+             "The sheet was placed by hand, this well");
   verb.add_option("--model",
                   o.model,
                   "straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d")
       ->capture_default_str();
-  verb.add_option("--seed", o.seed, "Same seed, same bytes")->capture_default_str();
+  add_number(verb, "--seed", o.seed, {"", 0.0, 9e15}, "Same seed, same bytes");
 }
 
 }  // namespace
@@ -196,18 +244,21 @@ void add_simulate(CLI::App& app, Run& run) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App* verb = app.add_subcommand(
       "simulate", "Make a grid as a person would measure it on a machine with hidden effects");
-  verb->add_option("--machine", options->machine, "chaintrue_machine file, as its owner states it")
+  add_input(*verb, "--machine", options->machine, "chaintrue_machine file, as its owner states it")
       ->required();
   add_design_options(*verb, *options);
   add_noise_options(*verb, *options);
   add_holes_options(*verb, options->holes);
   add_truth_options(*verb, *options);
   verb->add_option("--name", options->name, "Name of the grid");
-  verb->add_option("-o,--output",
-                   options->output,
-                   "chaintrue_grid (of --holes: chaintrue_holes) file; - is standard output")
+  add_output(*verb,
+             "-o,--output",
+             options->output,
+             {Origin::measured},
+             "chaintrue_grid (of --holes: chaintrue_holes) file; - is standard output")
       ->capture_default_str();
-  verb->add_option("--answer", options->answer, "Write what was hidden to this file");
+  add_output(
+      *verb, "--answer", options->answer, {Origin::answer}, "Write what was hidden to this file");
   verb->footer(
       "Examples:\n"
       "  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x4 --jitter-mm "

@@ -7,6 +7,7 @@
 
 #include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/plan_holes.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -41,7 +42,7 @@ int simulate_the_holes(const HolesOptions& options,
     fmt::print(stderr, "chaintrue simulate: {}\n", made.error());
     return kNotSupportedOrOutside;
   }
-  grid::files::write_whole_file(output, grid::files::write_holes(made->set));
+  write_output(output, grid::files::write_holes(made->set));
   return kDone;
 }
 

@@ -15,6 +15,8 @@
 #include "grid/files/whole_file.hpp"
 #include "model/square.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/square_drawing.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -104,9 +106,10 @@ int run_square(const SquareOptions& options) {
                model::explain(failure.reason));
     return kNotSupportedOrOutside;
   }
-  if (!options.drawing.empty())
-    files::write_whole_file(options.drawing, draw_square(*square, task));
-  files::write_whole_file("-", options.json ? as_json(*square, task) : as_table(*square, task));
+  std::vector<files::OutputFile> outputs = {
+      {"-", options.json ? as_json(*square, task) : as_table(*square, task)}};
+  if (!options.drawing.empty()) outputs.push_back({options.drawing, draw_square(*square, task)});
+  write_outputs(outputs);
   return kDone;
 }
 
@@ -116,22 +119,25 @@ void add_square(CLI::App& app, Run& run) {
   auto options = std::make_shared<SquareOptions>();
   CLI::App* verb = app.add_subcommand(
       "square", "Predict a test square: sides, diagonals and bows as a ruler would show them");
-  verb->add_option("--machine",
-                   options->machine,
-                   "chaintrue_machine file: what the machine is, with its effects")
+  add_input(*verb,
+            "--machine",
+            options->machine,
+            "chaintrue_machine file: what the machine is, with its effects")
       ->required();
-  verb->add_option("--controller-machine",
-                   options->controller_machine,
-                   "chaintrue_machine file: what the controller believes")
+  add_input(*verb,
+            "--controller-machine",
+            options->controller_machine,
+            "chaintrue_machine file: what the controller believes")
       ->required();
-  verb->add_option("--size-mm", options->size_mm, "Length of a side")->capture_default_str();
+  add_number(*verb, "--size-mm", options->size_mm, {"mm", 1.0, 5000.0}, "Length of a side");
   verb->add_option("--at", options->at, "X Y of the lower left corner, mm")
       ->required()
       ->expected(2);
   verb->add_flag(
       "--below", options->below, "The square hangs below --at, which is its upper left corner");
   verb->add_flag("--json", options->json, "JSON, all digits, instead of a table");
-  verb->add_option("-o,--output", options->drawing, "Draw it into this SVG file");
+  add_output(
+      *verb, "-o,--output", options->drawing, {Origin::drawing}, "Draw it into this SVG file");
   verb->footer(
       "Example:\n"
       "  build/chaintrue square --machine fixtures/machines/classic.json --controller-machine "

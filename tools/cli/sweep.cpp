@@ -3,9 +3,7 @@
 /// chaintrue sweep: accuracy against the simulator over any product of factors; stopped, resumed,
 /// split and merged at will.
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -17,7 +15,10 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/sweep/run_sweep.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/processes.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/cli/sweep_page.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -58,29 +59,6 @@ sweep::Share parse_shard(const std::string& text, OptionProblems& problems) {
   return share;
 }
 
-// A line that is written over, on a terminal only.
-class Progress {
- public:
-  void operator()(std::uint64_t finished, std::uint64_t total) {
-    if (!on_terminal_) return;
-    const auto now = Clock::now();
-    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-    if (finished < total && now - last_ < std::chrono::milliseconds(200)) return;
-    last_ = now;
-    const double left_s =
-        elapsed_s / static_cast<double>(finished) * static_cast<double>(total - finished);
-    fmt::print(stderr, "\r{} of {} cells, {:.0f} s left   ", finished, total, left_s);
-    if (finished == total) fmt::print(stderr, "\n");
-    std::fflush(stderr);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point last_ = start_ - std::chrono::hours(1);
-  bool on_terminal_ = isatty(STDERR_FILENO) == 1;
-};
-
 void refuse_old_results(const SweepOptions& options) {
   const fs::path parts = fs::path(options.directory) / "parts";
   std::error_code error;
@@ -107,8 +85,8 @@ int assemble(const sweep::SweepSpec& spec,
     return kDone;
   }
   const auto errors = write_results(spec, store, options.directory);
-  files::write_whole_file(fs::path(options.directory) / "report.html",
-                          report::render(sweep_page(spec, errors)));
+  write_output(fs::path(options.directory) / "report.html",
+               report::render(sweep_page(spec, errors)));
   fmt::print(stderr,
              "{} cells: {}/results.csv, summary.json, report.html\n",
              store.cells(),
@@ -128,7 +106,11 @@ int run_sweep_verb(const SweepOptions& options) {
     run.share.rank = processes.rank();
     run.share.ranks = processes.count();
     run.threads = options.threads;
-    problems.require("--threads", options.threads, 0.0, 4096.0);
+    if (options.directory.empty() || options.directory == "-") {
+      problems.add("-o",
+                   options.directory.empty() ? "an empty name" : "-",
+                   "the name of a folder; a sweep writes many files");
+    }
     problems.throw_if_any();
     read = files::read_sweep(options.specification);
     refuse_old_results(options);
@@ -139,11 +121,15 @@ int run_sweep_verb(const SweepOptions& options) {
   // has finished.
   if (processes.all(failure == nullptr)) {
     try {
-      if (processes.rank() == 0) run.progress = Progress();
+      if (processes.rank() == 0)
+        run.progress = [](std::uint64_t finished, std::uint64_t total) {
+          progress_is(static_cast<double>(finished), static_cast<double>(total));
+        };
       sweep::run_sweep(read->spec, read->hash, run);
     } catch (...) {
       failure = std::current_exception();
     }
+    end_progress();
     if (processes.all(failure == nullptr) && processes.rank() == 0) {
       return assemble(read->spec,
                       sweep::ResultStore(options.directory, read->hash, cells(read->spec)),
@@ -161,14 +147,14 @@ void add_sweep(CLI::App& app, Run& run) {
   auto options = std::make_shared<SweepOptions>();
   CLI::App* verb =
       app.add_subcommand("sweep", "Accuracy against the simulator over any product of factors");
-  verb->add_option("specification", options->specification, "chaintrue_sweep file")->required();
+  add_input(*verb, "specification", options->specification, "chaintrue_sweep file")->required();
   verb->add_option("-o,--output", options->directory, "Folder for the parts and the results")
       ->required();
   verb->add_option("--shard", options->shard, "Only this share of the cells, as in 3/16");
   verb->add_flag("--resume",
                  options->resume,
                  "Go on with the finished cells that the folder holds; merges shards too");
-  verb->add_option("--threads", options->threads, "0: all cores")->capture_default_str();
+  add_number(*verb, "--threads", options->threads, {"", 0.0, 4096.0}, "0: all cores");
   verb->footer(
       "Over several machines: mpirun -n 4 build/chaintrue sweep SPEC.json -o DIR\n\n"
       "Example:\n"

@@ -33,9 +33,12 @@ constexpr double kArcShare = 0.005;
 /// A circle keeps its shape even where the tolerance would let it become a point.
 constexpr double kMostTurnRad = 0.25 * std::numbers::pi;
 
+/// Half a unit of the last decimal, in X, Y and Z.
+double rounding_mm(int decimals) { return 0.5 * std::sqrt(3.0) * std::pow(10.0, -decimals); }
+
 double chord_tolerance(const CompensateOptions& options, bool single_precision) {
-  const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -options.decimals) +
-                          (single_precision ? kSinglePrecisionMm : 0.0);
+  const double rounding =
+      rounding_mm(options.decimals) + (single_precision ? kSinglePrecisionMm : 0.0);
   const double left = ((1.0 - kSpare) * options.tolerance_mm - rounding) / kStretch;
   if (!(left > 0.0)) {
     throw std::invalid_argument(
@@ -53,6 +56,10 @@ bool stays(const Move& move) {
 int sign(double value, int otherwise) { return value > 0.0 ? 1 : value < 0.0 ? -1 : otherwise; }
 
 }  // namespace
+
+double least_tolerance_mm(int decimals) {
+  return (rounding_mm(decimals) + kSinglePrecisionMm) / (1.0 - kSpare);
+}
 
 Compensator::Compensator(const Corrector& corrector, CompensateOptions options, ByteSink out)
     : corrector_(corrector),

@@ -78,6 +78,9 @@ struct CompensateSummary {
   double steepest_correction = 0.0;
 };
 
+/// What rounding to so many decimals takes of a tolerance; a tolerance must be larger.
+[[nodiscard]] double least_tolerance_mm(int decimals);
+
 /// One run, not thread safe.
 class Compensator final : private Sink {
  public:

@@ -186,8 +186,7 @@ Page page_of(const PathReport& report) {
                    {"magnification", magnification},
                    {"least_mm", colours.least_mm},
                    {"largest_mm", colours.largest_mm}};
-  Page page{.title = "Compensated program"};
-  page.subtitle = report.name;
+  Page page{.title = fmt::format("{}, compensated", report.name)};
   page.verdict = report.verdict;
   page.sections.push_back({"The part", {chart}});
   page.sections.push_back({"In numbers", {Figures{report.figures}}});

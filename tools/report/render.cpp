@@ -4,6 +4,7 @@
 /// Vega and the script.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -26,7 +27,37 @@ struct Overloaded : Handlers... {
 template <class... Handlers>
 Overloaded(Handlers...) -> Overloaded<Handlers...>;
 
-std::string escaped(std::string_view text) {
+/// How many bytes the UTF-8 character at the text's beginning has; 0 where they are none (RFC
+/// 3629).
+std::size_t character_length(std::string_view text) {
+  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80U) return 1;
+  const std::size_t length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
+  if (first < 0xC2U || first > 0xF4U || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) return 0;
+  }
+  const unsigned second = byte(1);
+  const bool is_overlong = (first == 0xE0U && second < 0xA0U) || (first == 0xF0U && second < 0x90U);
+  const bool is_no_character =
+      (first == 0xEDU && second > 0x9FU) || (first == 0xF4U && second > 0x8FU);
+  return is_overlong || is_no_character ? 0 : length;
+}
+
+/// File names are bytes: those that are no UTF-8 become the replacement character.
+std::string as_utf8(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    out += length == 0 ? std::string_view("\xEF\xBF\xBD") : text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return out;
+}
+
+std::string escaped(std::string_view bytes) {
+  const std::string text = as_utf8(bytes);
   std::string out;
   out.reserve(text.size());
   for (const char c : text) {

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/origin.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "grid/files/content_hash.hpp"
+#include "grid/files/input_error.hpp"
+#include "grid/files/json_text.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+constexpr std::string_view kSignature =
+    "Written by chaintrue and not changed since, if its content has the hash ";
+constexpr std::string_view kMark = "<!-- made by chaintrue -->";
+constexpr std::string_view kPageHead = "<!DOCTYPE html>\n";
+
+constexpr std::array kPlainTypes = {std::pair{"chaintrue_map", Origin::map},
+                                    std::pair{"chaintrue_diagnosis", Origin::diagnosis},
+                                    std::pair{"chaintrue_answer", Origin::answer},
+                                    std::pair{"chaintrue_check", Origin::check}};
+constexpr std::array kSignedTypes = {std::pair{"chaintrue_grid", Origin::measured},
+                                     std::pair{"chaintrue_holes", Origin::measured},
+                                     std::pair{"chaintrue_belts", Origin::measured},
+                                     std::pair{"chaintrue_machine", Origin::machine}};
+
+/// What results begin with.
+constexpr std::array<std::string_view, 6> kTables = {
+    "x_mm,y_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,status\n",
+    "x_mm,y_mm,status\n",
+    "line,kind,x_mm,y_mm,z_mm,left_mm,right_mm,",
+    "[\n  {\"x_mm\": ",
+    "{\"line\": ",
+    "{\"x_mm\": "};
+
+bool is_signature(const Json& comment) {
+  return comment.is_string() && comment.get_ref<const std::string&>().starts_with(kSignature);
+}
+
+/// The comments of a file's root, one by one.
+std::vector<std::string> comments_of(const Json& document) {
+  std::vector<std::string> comments;
+  if (!document.contains("comment")) return comments;
+  const Json& comment = document.at("comment");
+  if (comment.is_string()) comments.push_back(comment.get<std::string>());
+  if (!comment.is_array()) return comments;
+  for (const Json& line : comment) {
+    if (line.is_string()) comments.push_back(line.get<std::string>());
+  }
+  return comments;
+}
+
+bool is_as_signed(const Json& document) {
+  const std::vector<std::string> comments = comments_of(document);
+  return std::any_of(comments.begin(), comments.end(), [&](const std::string& comment) {
+    return comment == std::string(kSignature) + content_hash(document);
+  });
+}
+
+Origin origin_of_json(const std::string& text) {
+  Problems ignored("");
+  Json document;
+  try {
+    document = parse_json(text, ignored);
+  } catch (const InputError&) {
+    return Origin::foreign;
+  }
+  if (!document.is_object() || !document.contains("file_type")) return Origin::foreign;
+  const Json type = document.at("file_type");
+  for (const auto& [name, origin] : kPlainTypes) {
+    if (type == name) return origin;
+  }
+  for (const auto& [name, origin] : kSignedTypes) {
+    if (type == name) return is_as_signed(document) ? origin : Origin::changed;
+  }
+  return Origin::foreign;
+}
+
+/// The last line of a signed list.
+std::string signature_line(std::string_view text) {
+  return "# " + std::string(kSignature) + content_hash(Json(std::string(text))) + "\n";
+}
+
+Origin origin_of_list(std::string_view text) {
+  const std::size_t begin = text.rfind("# " + std::string(kSignature));
+  if (begin == std::string_view::npos) return Origin::foreign;
+  return text.substr(begin) == signature_line(text.substr(0, begin)) ? Origin::list
+                                                                     : Origin::changed;
+}
+
+std::string signed_json(const std::string& text) {
+  Problems ignored("");
+  const Json document = parse_json(text, ignored);
+  Json comments = Json::array();
+  for (const std::string& comment : comments_of(document)) {
+    if (!is_signature(comment)) comments.push_back(comment);
+  }
+  const std::string signature = std::string(kSignature) + content_hash(document);
+  comments.push_back(signature);
+  Json out = Json::object();
+  for (const auto& [key, value] : document.items()) {
+    if (key == "comment") continue;
+    out[key] = value;
+    if (key == "format_version") out["comment"] = comments.size() == 1 ? Json(signature) : comments;
+  }
+  return print_json(out);
+}
+
+}  // namespace
+
+Origin origin_of(std::string_view text) {
+  for (const std::string_view head : kTables) {
+    if (text.starts_with(head)) return Origin::table;
+  }
+  if (text.starts_with("{")) return origin_of_json(std::string(text));
+  if (text.starts_with(std::string(kPageHead) + std::string(kMark))) return Origin::page;
+  const std::string_view first_line = text.substr(0, text.find('\n'));
+  if (first_line.starts_with("<svg") && first_line.ends_with(kMark)) return Origin::drawing;
+  if (first_line.starts_with("(compensated by chaintrue") ||
+      first_line.starts_with("(chaintrue plan:")) {
+    return Origin::program;
+  }
+  if (text.find("\nMeasured less map  ") != std::string_view::npos) return Origin::table;
+  return origin_of_list(text);
+}
+
+std::string signed_text(const std::string& text, Origin kind) {
+  if (text.starts_with("{") && (kind == Origin::measured || kind == Origin::machine))
+    return signed_json(text);
+  if (kind == Origin::list) return text + signature_line(text);
+  if (kind == Origin::page && text.starts_with(kPageHead))
+    return std::string(kPageHead) + std::string(kMark) + "\n" + text.substr(kPageHead.size());
+  if (kind == Origin::drawing && text.starts_with("<svg")) {
+    const std::size_t end = text.find('\n');
+    return text.substr(0, end) + std::string(kMark) + text.substr(std::min(end, text.size()));
+  }
+  return text;
+}
+
+}  // namespace chaintrue::grid::files

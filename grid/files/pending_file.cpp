@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/pending_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <random>
+#include <system_error>
+#include <utility>
+
+#include "grid/files/input_error.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(std::string name, std::string found, std::string expected) {
+  throw InputError({{std::move(name), "", std::move(found), std::move(expected)}});
+}
+
+/// The system's own words for an error number, in English whatever the locale.
+std::string words_of(int error_number) {
+  return std::error_code(error_number, std::generic_category()).message();
+}
+
+/// What a signal handler may look at: names of temporary files, in memory that never moves. A slot
+/// is claimed before its file is made, so that no file is ever without one.
+struct Slot {
+  std::atomic<bool> is_taken{false};
+  std::atomic<bool> is_named{false};
+  std::array<char, 4096> name{};
+};
+std::array<Slot, 16> slots;
+
+extern "C" void remove_pending_and_end(int signal_number) {
+  for (const Slot& slot : slots) {
+    if (slot.is_named.load()) ::unlink(slot.name.data());
+  }
+  std::signal(signal_number, SIG_DFL);
+  std::raise(signal_number);
+}
+
+int claim_slot(const std::string& name) {
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    Slot& slot = slots[i];
+    if (name.size() >= slot.name.size() || slot.is_taken.exchange(true)) continue;
+    std::memcpy(slot.name.data(), name.c_str(), name.size() + 1);
+    slot.is_named.store(true);
+    return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void free_slot(int& slot) {
+  if (slot < 0) return;
+  slots[static_cast<std::size_t>(slot)].is_named.store(false);
+  slots[static_cast<std::size_t>(slot)].is_taken.store(false);
+  slot = -1;
+}
+
+/// The open descriptor that a path such as /dev/stdout or /proc/self/fd/3 stands for.
+std::optional<int> descriptor_behind(const fs::path& path) {
+  if (path == "-" || path == "/dev/stdout") return STDOUT_FILENO;
+  if (path == "/dev/stderr") return STDERR_FILENO;
+  if (path.parent_path() != "/dev/fd" && path.parent_path() != "/proc/self/fd") return std::nullopt;
+  const std::string digits = path.filename().string();
+  int number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return error == std::errc{} && end == digits.data() + digits.size() ? std::optional(number)
+                                                                      : std::nullopt;
+}
+
+/// The file that a path names in the end; empty where it is no file but a device, a pipe or an open
+/// descriptor, which are written to directly.
+fs::path file_behind(const fs::path& path) {
+  if (path.empty()) fail("output file", "an empty name", "the name of a file");
+  if (descriptor_behind(path)) return {};
+  std::error_code error;
+  if (fs::is_directory(path, error)) fail(path.string(), "a directory", "the name of a file");
+  fs::path target = path;
+  if (fs::is_symlink(path, error)) {
+    target = fs::weakly_canonical(path, error);
+    if (error) fail(path.string(), words_of(error.value()), "a link that leads to a file");
+  }
+  struct stat status = {};
+  if (::stat(target.c_str(), &status) != 0) return target;
+  if (!S_ISREG(status.st_mode)) return {};
+  // An administrator may write everywhere; a file without any right to be written to is protected
+  // against that too.
+  constexpr mode_t kAnybodyWrites = S_IWUSR | S_IWGRP | S_IWOTH;
+  const bool is_protected = (status.st_mode & kAnybodyWrites) == 0;
+  if (is_protected || ::access(target.c_str(), W_OK) != 0) {
+    fail(path.string(),
+         is_protected ? "a protected file" : words_of(errno),
+         "a file that may be written to");
+  }
+  return target;
+}
+
+/// A new file takes the rights that the process gives new files, an old one keeps its own.
+mode_t rights_for(const struct stat* old) {
+  if (old != nullptr) return old->st_mode & 07777U;
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return 0666U & ~mask;
+}
+
+std::string unpredictable_name_beside(const fs::path& target) {
+  std::random_device bits;
+  const std::uint64_t number = (static_cast<std::uint64_t>(bits()) << 32U) | bits();
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  // A name may have 255 bytes; the target's own name in front helps whoever finds one.
+  return (folder / fmt::format(".{}.{:016x}", target.filename().string().substr(0, 200), number))
+      .string();
+}
+
+/// False with errno set where not everything could be written.
+bool write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ::ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+constexpr std::size_t kPiece = std::size_t{1} << 18U;
+
+}  // namespace
+
+PendingFile::PendingFile(fs::path path) : path_(std::move(path)), target_(file_behind(path_)) {
+  if (target_.empty()) return;
+  temporary_ = unpredictable_name_beside(target_);
+  slot_ = claim_slot(temporary_);
+  descriptor_ =
+      ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+  if (descriptor_ >= 0) return;
+  const int error_number = errno;
+  temporary_.clear();
+  free_slot(slot_);
+  fail(path_.string(), words_of(error_number), "a directory that exists and can be written to");
+}
+
+PendingFile::~PendingFile() { discard(); }
+
+void PendingFile::discard() {
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+  free_slot(slot_);
+}
+
+void PendingFile::refuse(int error_number) {
+  discard();
+  fail(path_.string(), words_of(error_number), "room and the right to write the file");
+}
+
+void PendingFile::write(std::string_view bytes) {
+  held_.append(bytes);
+  if (target_.empty() || held_.size() < kPiece) return;
+  if (error_number_ == 0 && !write_all(descriptor_, held_)) error_number_ = errno;
+  held_.clear();
+}
+
+std::string PendingFile::flushed() {
+  if (target_.empty()) return {};
+  if (error_number_ == 0 && !write_all(descriptor_, held_)) error_number_ = errno;
+  held_.clear();
+  if (error_number_ != 0) refuse(error_number_);
+  return temporary_;
+}
+
+void PendingFile::finish() {
+  if (flushed().empty()) return;
+  struct stat old = {};
+  const bool replaces = ::stat(target_.c_str(), &old) == 0;
+  // Only an administrator may give a file away; for everybody else it is their own already.
+  if (replaces && ::fchown(descriptor_, old.st_uid, old.st_gid) != 0 && errno != EPERM)
+    refuse(errno);
+  if (::fchmod(descriptor_, rights_for(replaces ? &old : nullptr)) != 0 ||
+      ::fsync(descriptor_) != 0 || ::close(std::exchange(descriptor_, -1)) != 0) {
+    refuse(errno);
+  }
+}
+
+void PendingFile::take_name() {
+  if (target_.empty()) return;
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) refuse(errno);
+  temporary_.clear();
+  free_slot(slot_);
+}
+
+void PendingFile::put_out() const {
+  if (!target_.empty()) return;
+  const auto open_already = descriptor_behind(path_);
+  // What was printed before comes first.
+  if (open_already) std::fflush(*open_already == STDERR_FILENO ? stderr : stdout);
+  const int descriptor = open_already ? *open_already : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  const bool is_written = descriptor >= 0 && write_all(descriptor, held_);
+  const int error_number = errno;
+  if (!open_already && descriptor >= 0) ::close(descriptor);
+  if (is_written) return;
+  if (error_number == EPIPE) throw ReaderGone();
+  fail(path_ == "-" ? "standard output" : path_.string(),
+       words_of(error_number),
+       "something that can be written to");
+}
+
+void take_places(const std::vector<PendingFile*>& files) {
+  for (PendingFile* file : files) file->finish();
+  for (PendingFile* file : files) file->take_name();
+  for (const PendingFile* file : files) file->put_out();
+}
+
+void remove_pending_files_on_signals() {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    struct sigaction action = {};
+    if (::sigaction(signal_number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
+    action = {};
+    action.sa_handler = remove_pending_and_end;
+    ::sigemptyset(&action.sa_mask);
+    ::sigaction(signal_number, &action, nullptr);
+  }
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The gate that every printed number passes: NaN and infinity do not get through.
+///
+/// In grid/ and tools/ <fmt/format.h> leads here (grid/printing/ comes first on their include path),
+/// and code in namespace chaintrue that says fmt::format, fmt::format_to or fmt::print means these:
+/// they are fmt's own, and throw std::logic_error where a number is not finite. Such a number is a
+/// mistake of the program's; that it stops here keeps it out of files, tables, pages and sentences.
+/// JSON has the same gate in its writer (grid/files/json_text.hpp), charts in theirs
+/// (tools/report/render.cpp).
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+
+namespace chaintrue::fmt {
+
+using namespace ::fmt;  // NOLINT(google-build-using-namespace): stands in for it
+
+namespace gate {
+
+[[noreturn]] inline void refuse() {
+  throw std::logic_error("a number that is none, or infinite, was about to be printed");
+}
+
+template <class T>
+void pass(const T& value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    if (!std::isfinite(value)) refuse();
+  }
+}
+template <class Iterator, class Sentinel>
+void pass(const ::fmt::join_view<Iterator, Sentinel, char>& values) {
+  for (auto at = values.begin; at != values.end; ++at) pass(*at);
+}
+
+}  // namespace gate
+
+template <class... Args>
+[[nodiscard]] std::string format(::fmt::format_string<Args...> text, Args&&... args) {
+  (gate::pass(args), ...);
+  return ::fmt::format(text, std::forward<Args>(args)...);
+}
+
+template <class Output, class... Args>
+Output format_to(Output output, ::fmt::format_string<Args...> text, Args&&... args) {
+  (gate::pass(args), ...);
+  return ::fmt::format_to(std::move(output), text, std::forward<Args>(args)...);
+}
+
+template <class... Args>
+void print(::fmt::format_string<Args...> text, Args&&... args) {
+  (gate::pass(args), ...);
+  ::fmt::print(text, std::forward<Args>(args)...);
+}
+
+/// Talk that cannot be told (standard error is full or closed) is no reason to stop.
+template <class... Args>
+void print(std::FILE* file, ::fmt::format_string<Args...> text, Args&&... args) {
+  (gate::pass(args), ...);
+  const std::string whole = ::fmt::format(text, std::forward<Args>(args)...);
+  const bool is_written = std::fwrite(whole.data(), 1, whole.size(), file) == whole.size();
+  if (!is_written && file != stderr)
+    throw std::system_error(errno, std::generic_category(), "standard output");
+}
+
+}  // namespace chaintrue::fmt

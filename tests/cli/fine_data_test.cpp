@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Readings much better than a tape's, a laser tracker's, and settings that are stated exactly get a
+// right answer.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "grid/files/diagnosis_file.hpp"
+#include "tests/cli/command_fixture.hpp"
+
+namespace chaintrue {
+namespace {
+
+class FineData : public testing_support::CommandFixture {
+ protected:
+  const std::string machine_ = std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json";
+
+  [[nodiscard]] grid::diagnosis::Diagnosis diagnosed(const std::string& machine,
+                                                     double noise_mm,
+                                                     const std::string& more) const {
+    EXPECT_EQ(run(fmt::format("simulate --machine {} --grid 7x4 --repeats 6 --jitter-mm 8 "
+                              "--length-noise-mm {} --position-noise-mm {} {} --seed 3 -o g.json",
+                              machine,
+                              noise_mm,
+                              noise_mm,
+                              more))
+                  .code,
+              0);
+    const auto outcome = run("diagnose g.json -o d.json");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return grid::files::read_diagnosis(folder_ / "d.json");
+  }
+};
+
+TEST_F(FineData, NameTheCauseWithItsSize) {
+  constexpr double kTruth = 0.0012;
+  for (const double noise_mm : {1e-3, 1e-6}) {
+    SCOPED_TRACE(noise_mm);
+    const auto found = diagnosed(machine_,
+                                 noise_mm,
+                                 fmt::format("--draw-settings --effect "
+                                             "chain_pitch_error:left:elongation={}",
+                                             kTruth));
+    ASSERT_EQ(found.causes.size(), 1U);
+    EXPECT_EQ(found.causes[0].cause.effect->id, "chain_pitch_error");
+    const auto& size = found.causes[0].parameters.at(0);
+    // Four sigmas: one draw in 16 000 lies beyond them.
+    EXPECT_LT(std::abs(size.value - kTruth), 4.0 * size.sigma);
+    EXPECT_THAT(found.notes, testing::Contains(testing::HasSubstr("taken to be good to 0.01 mm")));
+  }
+}
+
+TEST_F(FineData, FindNothingWhereNothingIs) {
+  const auto found = diagnosed(machine_, 1e-6, "--draw-settings");
+  EXPECT_EQ(found.verdict, grid::diagnosis::Verdict::nothing_found) << found.sentence;
+}
+
+TEST_F(FineData, SettingsMayBeStatedExactly) {
+  std::string text = testing_support::content_of(machine_);
+  for (const char* key : {"\"motor_position_mm\": ", "\"chain_zero_mm\": "}) {
+    const std::size_t value = text.find(key) + std::string(key).size();
+    ASSERT_NE(text.find(key), std::string::npos);
+    text.replace(value, text.find_first_of(",}\n", value) - value, "0");
+  }
+  write("exact.json", text);
+  const auto found =
+      diagnosed("exact.json", 0.2, "--effect chain_pitch_error:left:elongation=0.0012");
+  ASSERT_EQ(found.causes.size(), 1U);
+  EXPECT_EQ(found.causes[0].cause.effect->id, "chain_pitch_error");
+}
+
+}  // namespace
+}  // namespace chaintrue

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Work that would not end is refused by a sentence before it begins; what is affordable is done.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+
+#include "tests/cli/command_fixture.hpp"
+
+namespace chaintrue {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::content_of;
+using testing_support::Outcome;
+
+class Limits : public testing_support::CommandFixture {
+ protected:
+  [[nodiscard]] Outcome timed(const std::string& arguments, std::chrono::seconds most) const {
+    const auto start = std::chrono::steady_clock::now();
+    Outcome outcome = run(arguments);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, most) << arguments;
+    return outcome;
+  }
+  static std::string fixture(const std::string& name) {
+    return std::string(CHAINTRUE_FIXTURES) + "/" + name;
+  }
+  void simulate(int points, const std::string& output) const {
+    ASSERT_EQ(run(fmt::format("simulate --machine {} --random {} --length-noise-mm 0.2 "
+                              "--position-noise-mm 0.3 --seed 1 -o {}",
+                              fixture("machines/classic.json"),
+                              points,
+                              output))
+                  .code,
+              0);
+  }
+};
+
+// The refusals read a file and no more; ten seconds leave a loaded machine room.
+constexpr std::chrono::seconds kBeforeWork(10);
+// Half a second's work, which once did not end in a minute.
+constexpr std::chrono::seconds kNoWork(30);
+
+TEST_F(Limits, ADiagnosisOfAThousandPointsIsRefusedAtOnce) {
+  simulate(1000, "many.json");
+  const Outcome outcome = timed("diagnose many.json", kBeforeWork);
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("many.json: 1000 points are more than a diagnosis takes (400): leave some "
+                        "out"));
+}
+
+TEST_F(Limits, ACheckTakesRepeatsAsTheirMean) {
+  ASSERT_EQ(run("fit " + fixture("grids/seven_by_four.json") + " -o m.json").code, 0);
+  const Outcome query = run("query m.json -900 300 0 0 900 -400");
+  ASSERT_EQ(query.code, 0);
+  std::string once = "x_mm,y_mm,left_mm,right_mm\n";
+  std::string often = once;
+  std::size_t line = query.out.find('\n') + 1;
+  while (line < query.out.size()) {
+    std::size_t cells = line;
+    for (int i = 0; i < 4; ++i) cells = query.out.find(',', cells) + 1;
+    const std::string row = query.out.substr(line, cells - 1 - line) + "\n";
+    once += row;
+    for (int i = 0; i < 700; ++i) often += row;
+    line = query.out.find('\n', line) + 1;
+  }
+  write("once.csv", once);
+  write("often.csv", often);
+  const std::string noise = " --noise-length-mm 0.2 --noise-position-mm 0.3";
+  const Outcome one = run("check m.json once.csv" + noise);
+  const Outcome many = timed("check m.json often.csv" + noise, kNoWork);
+  EXPECT_EQ(one.code, 0);
+  EXPECT_EQ(many.code, 0);
+  EXPECT_THAT(many.out, HasSubstr("The map is still valid"));
+}
+
+TEST_F(Limits, ACheckOfTooManyPointsIsRefusedAtOnce) {
+  ASSERT_EQ(run("fit " + fixture("grids/seven_by_four.json") + " -o m.json").code, 0);
+  simulate(1500, "many.json");
+  const Outcome outcome = timed("check m.json many.json", kBeforeWork);
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("1500 points are more than a check takes (1000)"));
+}
+
+}  // namespace
+}  // namespace chaintrue

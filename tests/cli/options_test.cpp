@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Options that are numbers go by the rules of numbers in files; what a person can type is answered
+// or refused by a sentence, with exit code 3.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/cli/command_fixture.hpp"
+
+namespace chaintrue {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing_support::content_of;
+using testing_support::Outcome;
+
+class Options : public testing_support::CommandFixture {
+ protected:
+  void expect_refused(const std::string& arguments, const std::string& words) const {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr(words));
+    EXPECT_EQ(outcome.out, "");
+  }
+  static std::string fixture(const std::string& name) {
+    return std::string(CHAINTRUE_FIXTURES) + "/" + name;
+  }
+  const std::string grid_ = fixture("grids/seven_by_four.json");
+};
+
+TEST_F(Options, AreHeldToTheRangesOfFiles) {
+  const std::string fit = "fit " + grid_ + " -o m.json ";
+  const std::string dof = "command line: --noise-dof: found ";
+  expect_refused(fit + "--noise-dof 0", dof + "0, expected a number from 1 to 1000000000");
+  expect_refused(fit + "--noise-dof -1", dof + "-1, expected a number from 1 to");
+  expect_refused(fit + "--noise-dof nan", dof + "nan, expected a number from 1 to");
+  const std::string length = "command line: --noise-length-mm: found ";
+  for (const char* value : {"-1", "nan", "inf", "1e300", "1e999", "abc", "0x10"}) {
+    expect_refused(fit + "--noise-length-mm " + value,
+                   length + value + ", expected a number in mm from 0 to 100");
+  }
+  expect_refused(fit + "--noise-length-mm 0,2", "with a decimal point");
+  expect_refused("gcode check b.nc --step-budget -1",
+                 "command line: --step-budget: found -1, expected a whole number from 1 to");
+  expect_refused("gcode check b.nc --step-budget 1.5", "a whole number");
+  EXPECT_FALSE(exists("m.json"));
+}
+
+TEST_F(Options, ThatAreWrongAreAllNamedAtOnce) {
+  const Outcome outcome = run("fit " + grid_ + " -o m.json --noise-dof 0 --noise-length-mm nan");
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("--noise-dof"));
+  EXPECT_THAT(outcome.err, HasSubstr("--noise-length-mm"));
+}
+
+TEST_F(Options, OfACheckAreNumbersToo) {
+  ASSERT_EQ(run("fit " + grid_ + " -o m.json").code, 0);
+  expect_refused("check m.json " + fixture("grids/five_new_points.json") + " --noise-length-mm nan",
+                 "--noise-length-mm: found nan");
+}
+
+TEST_F(Options, OfACompensationLeaveRoomForRounding) {
+  ASSERT_EQ(run("fit " + grid_ + " -o m.json").code, 0);
+  write("b.nc", "G21 G90\nG0 X0 Y0\nG1 X300 Y100 F500\nM2\n");
+  const std::string compensate = "gcode compensate b.nc --map m.json -o t.nc --tolerance-mm 0.0005";
+  // Rounding to three decimals takes sqrt(3) / 2 of 0.001 mm.
+  expect_refused(compensate, "--tolerance-mm: found 0.0005, expected more than 0.00087 mm");
+  EXPECT_EQ(run(compensate + " --decimals 4").code, 0);
+}
+
+TEST_F(Options, OfLengthsAskForATableThatCanBe) {
+  ASSERT_EQ(run("fit " + grid_ + " -o m.json").code, 0);
+  write("b.nc", "G21 G90\nG0 X0 Y0\nG1 X300 Y400 F500\nM2\n");
+  expect_refused("gcode lengths b.nc --map m.json --every-mm 1e-9",
+                 "--every-mm: found 1e-09, expected at least 2.5e-05 mm: 0.5 m of path would make "
+                 "5.0e+11 rows, about 50000 GB");
+}
+
+TEST_F(Options, OfAFarMotorGiveNoTableOfNothing) {
+  std::string machine = content_of(fixture("machines/classic.json"));
+  const std::size_t left = machine.find("-1489.2");
+  ASSERT_NE(left, std::string::npos);
+  for (const char* x_mm : {"10", "-90000", "-1200"}) {
+    std::string far = machine;
+    far.replace(left, 7, x_mm);
+    write("far.json", far);
+    for (const char* effect : {"chain_pitch_error", "chain_stretch"}) {
+      SCOPED_TRACE(std::string(effect) + " with the left motor at x = " + x_mm);
+      const Outcome outcome = run(std::string("effects ") + effect + " --machine far.json");
+      EXPECT_TRUE(outcome.code == 0 || outcome.code == 3 || outcome.code == 4) << outcome.code;
+      EXPECT_THAT(outcome.out, Not(HasSubstr("nan")));
+      EXPECT_THAT(outcome.err, Not(HasSubstr("internal error")));
+      if (outcome.code != 0) EXPECT_THAT(outcome.err, HasSubstr("left motor"));
+    }
+  }
+}
+
+TEST_F(Options, TwoByteOrderMarksBeforeACommentAreNoReasonToFall) {
+  write("points.csv", "\xEF\xBB\xBF\xEF\xBB\xBF# x\n");
+  for (const char* verb : {"fit points.csv -o m.json", "diagnose points.csv"}) {
+    const Outcome outcome = run(verb);
+    EXPECT_EQ(outcome.code, 3) << verb;
+    EXPECT_THAT(outcome.err, HasSubstr("found only blank lines and comments"));
+  }
+  write("one.csv", "\xEF\xBB\xBF# only one\nx_mm,y_mm,left_mm,right_mm\n");
+  EXPECT_THAT(run("fit one.csv -o m.json").err, HasSubstr("at least 8 points"));
+}
+
+TEST_F(Options, AMapThatWasChangedIsRefused) {
+  ASSERT_EQ(run("fit " + grid_ + " -o m.json").code, 0);
+  std::string text = content_of(folder_ / "m.json");
+  const std::size_t key = text.find("\"coefficients_left_mm\"");
+  const std::size_t digit = text.find_first_of("123456789", key);
+  ASSERT_NE(digit, std::string::npos);
+  std::string changed = text;
+  changed[digit] = changed[digit] == '1' ? '2' : '1';
+  write("changed.json", changed);
+  write("b.nc", "G21 G90\nG0 X0 Y0\nM2\n");
+  const char* words = "/content_hash: found";
+  expect_refused("query changed.json 0 0", words);
+  expect_refused("report changed.json -o r.html", words);
+  expect_refused("gcode compensate b.nc --map changed.json -o t.nc", words);
+  expect_refused("check changed.json " + fixture("grids/five_new_points.json"), words);
+  // A comment and another layout change nothing of what it says.
+  std::string commented = text;
+  commented.insert(commented.find("\"name\""), "\"comment\": \"the shop's\",\n");
+  write("commented.json", commented);
+  EXPECT_EQ(run("query commented.json 0 0").out, run("query m.json 0 0").out);
+}
+
+TEST_F(Options, AMapWithoutAHashIsTakenAndSaidToBe) {
+  ASSERT_EQ(run("fit " + grid_ + " -o m.json").code, 0);
+  std::string text = content_of(folder_ / "m.json");
+  text.replace(text.find("\"1.1\""), 5, "\"1.0\"");
+  const std::size_t hash = text.rfind(",\n  \"content_hash\"");
+  ASSERT_NE(hash, std::string::npos);
+  text.erase(hash, text.rfind('\n', text.size() - 2) - hash);
+  write("old.json", text);
+  const Outcome outcome = run("query old.json 0 0");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out, run("query m.json 0 0").out);
+  EXPECT_THAT(outcome.err, HasSubstr("written before maps carried a hash of their content"));
+}
+
+}  // namespace
+}  // namespace chaintrue

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The attacks on the command, drawn one after the other by a seed, and what is counted.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/torture/mutation.hpp"
+#include "tests/torture/run.hpp"
+
+namespace chaintrue::torture {
+
+struct Tally {
+  std::uint64_t runs = 0;
+  std::uint64_t answered = 0;  ///< exit codes 0 and 1
+  std::uint64_t refused = 0;   ///< 2, 3 and 4
+  std::uint64_t stopped = 0;   ///< by a signal of ours
+  std::uint64_t failures = 0;
+  double slowest_s = 0.0;
+};
+
+class Campaign {
+ public:
+  /// \param failures where the inputs of a run that went wrong are kept
+  Campaign(Command command,
+           std::filesystem::path fixtures,
+           std::filesystem::path failures,
+           std::uint64_t seed);
+
+  /// One attack of a kind that the seed chooses.
+  void attack();
+  [[nodiscard]] const std::map<std::string, Tally>& tallies() const { return tallies_; }
+
+ private:
+  struct Case {
+    std::string kind;
+    std::vector<std::string> arguments;
+    std::vector<std::string> inputs;   ///< must be as they were afterwards
+    std::vector<std::string> outputs;  ///< may be there afterwards
+    bool must_be_refused = false;
+  };
+
+  void prepare(const std::filesystem::path& fixtures);
+  [[nodiscard]] Case damaged_input();
+  [[nodiscard]] Case tampered_map();
+  [[nodiscard]] Case odd_option();
+  void kill_while_writing();
+  void kill_a_sweep();
+  void script_in_a_page();
+
+  [[nodiscard]] std::filesystem::path at(const std::string& name) const {
+    return command_.folder() / name;
+  }
+  void write(const std::string& name, const std::string& text) const;
+  void judge(const Case& what);
+  void fail(const Case& what, const std::string& why, const Ended& ended);
+  void count(const std::string& kind, const Ended& ended);
+  /// Everything in the folder that is none of the permanent files.
+  [[nodiscard]] std::vector<std::string> strays() const;
+  void clean() const;
+
+  Command command_;
+  std::filesystem::path failures_;
+  std::uint64_t seed_;
+  std::uint64_t number_ = 0;
+  Mutator mutate_;
+  std::map<std::string, std::string> permanent_;  ///< name and content
+  std::string sweep_results_;
+  std::map<std::string, Tally> tallies_;
+};
+
+}  // namespace chaintrue::torture

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/map_input.hpp"
+
+#include <vector>
+
+#include "grid/files/map_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "grid/printing.hpp"
+
+namespace chaintrue::cli {
+
+namespace files = grid::files;
+
+namespace {
+
+std::string& trusted() {
+  static std::string name;
+  return name;
+}
+
+}  // namespace
+
+const std::string& map_on_trust() { return trusted(); }
+
+grid::CompensationMap parse_map_input(const std::string& text, const std::string& file) {
+  std::vector<files::Warning> warnings;
+  grid::CompensationMap map = files::parse_map(text, file, &warnings);
+  for (const files::Warning& warning : warnings) fmt::print(stderr, "{}\n", warning.message());
+  if (!warnings.empty()) trusted() = file;
+  return map;
+}
+
+grid::CompensationMap read_map_input(const std::string& path) {
+  return parse_map_input(files::read_whole_file(path), files::name_in_messages(path));
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "grid/files/problems.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+
+/// Of the command line; one a process.
+files::Problems& problems() {
+  static files::Problems all("command line");
+  return all;
+}
+
+std::string expected(const files::Range& range, bool is_whole) {
+  const std::string text = range.expected();
+  constexpr std::string_view kNumber = "a number";
+  return is_whole ? "a whole number" + text.substr(kNumber.size()) : text;
+}
+
+}  // namespace
+
+namespace detail {
+
+CLI::Option* add_number(CLI::App& verb,
+                        const std::string& names,
+                        const files::Range& range,
+                        bool is_whole,
+                        const std::string& help,
+                        std::function<void(double)> take) {
+  const auto read =
+      [name = names, range, is_whole, take = std::move(take)](const std::string& text) {
+        const auto number = files::number_of(text);
+        if (number && range.holds(*number) && (!is_whole || *number == std::floor(*number)))
+          return take(*number);
+        problems().add(name,
+                       text.empty() ? "nothing" : text,
+                       expected(range, is_whole) +
+                           (files::looks_like_decimal_comma(text) ? ", with a decimal point" : ""));
+      };
+  return verb.add_option_function<std::string>(names, read, help)
+      ->type_name(is_whole ? "INT" : "FLOAT");
+}
+
+std::string shown_default(double value) { return fmt::format("{}", value); }
+
+}  // namespace detail
+
+void check_numbers() { problems().throw_if_any(); }
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Options that are numbers, held to the rules of numbers in files (grid/files/number_text.hpp):
+/// the same ranges, the same sentences, all that is wrong at once, exit code 3. NaN and infinity
+/// are no numbers.
+///
+/// \code
+///   add_number(*verb, "--noise-dof", input.noise_dof, files::kNoiseDof, "How well known");
+/// \endcode
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "grid/files/number_text.hpp"
+
+namespace chaintrue::cli {
+
+namespace detail {
+/// `take` gets a number of the range.
+CLI::Option* add_number(CLI::App& verb,
+                        const std::string& names,
+                        const grid::files::Range& range,
+                        bool is_whole,
+                        const std::string& help,
+                        std::function<void(double)> take);
+[[nodiscard]] std::string shown_default(double value);
+}  // namespace detail
+
+/// `value` is double, a whole number, or optional of either; its default is shown where it has one.
+template <class T>
+CLI::Option* add_number(CLI::App& verb,
+                        const std::string& names,
+                        T& value,
+                        const grid::files::Range& range,
+                        const std::string& help) {
+  return detail::add_number(verb,
+                            names,
+                            range,
+                            std::is_integral_v<T>,
+                            help,
+                            [&value](double number) { value = static_cast<T>(number); })
+      ->default_str(detail::shown_default(static_cast<double>(value)));
+}
+template <class T>
+CLI::Option* add_number(CLI::App& verb,
+                        const std::string& names,
+                        std::optional<T>& value,
+                        const grid::files::Range& range,
+                        const std::string& help) {
+  return detail::add_number(
+      verb, names, range, std::is_integral_v<T>, help, [&value](double number) {
+        value = static_cast<T>(number);
+      });
+}
+
+/// After parsing. \throws files::InputError with every number that was none or out of its range.
+void check_numbers();
+
+}  // namespace chaintrue::cli

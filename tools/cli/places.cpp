@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/places.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "grid/files/file_identity.hpp"
+#include "grid/files/input_error.hpp"
+#include "tools/cli/progress.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+namespace fs = std::filesystem;
+
+/// An option that names files; what it names is known once the command line is parsed.
+struct Place {
+  const CLI::App* verb = nullptr;
+  const std::string* one = nullptr;
+  const std::vector<std::string>* many = nullptr;
+  std::vector<Origin> kinds;  ///< of an output; none for an input
+
+  [[nodiscard]] std::vector<std::string> paths() const {
+    if (many != nullptr) return *many;
+    return one->empty() ? std::vector<std::string>{} : std::vector{*one};
+  }
+};
+
+/// The verb that an option stands under, groups of options left out.
+const CLI::App& verb_of(const CLI::App& app) {
+  const CLI::App* verb = &app;
+  while (verb->get_name().empty() && verb->get_parent() != nullptr) verb = verb->get_parent();
+  return *verb;
+}
+
+/// Of all verbs; one command line a process.
+std::vector<Place>& places() {
+  static std::vector<Place> all;
+  return all;
+}
+
+bool is_forced(const CLI::App& verb) {
+  const CLI::Option* force = verb.get_option_no_throw("--force");
+  return force != nullptr && force->count() > 0;
+}
+
+bool is_standard_output(const fs::path& path) {
+  return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
+}
+
+std::optional<files::FileIdentity> identity_of_output(const fs::path& path) {
+  return is_standard_output(path) ? files::identity_of_descriptor(STDOUT_FILENO)
+                                  : files::identity_of(path);
+}
+
+std::optional<files::FileIdentity> identity_of_input(const fs::path& path) {
+  return path == "-" ? files::identity_of_descriptor(STDIN_FILENO) : files::identity_of(path);
+}
+
+/// What two outputs must not have in common: the file, or the name that it will have.
+std::string place_of(const fs::path& path) {
+  if (is_standard_output(path)) return "-";
+  std::error_code error;
+  if (fs::is_character_file(path, error)) return "";
+  if (const auto identity = files::identity_of(path))
+    return fmt::format("{}:{}", identity->device, identity->number);
+  return fs::weakly_canonical(fs::absolute(path, error), error).string();
+}
+
+std::string beginning_of(const fs::path& path) {
+  // No file of ours that is recognised by more than its beginning is longer.
+  constexpr std::size_t kMost = std::size_t{64} << 20U;
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  char buffer[1 << 16];
+  while (text.size() < kMost && (file.read(buffer, sizeof buffer) || file.gcount() > 0))
+    text.append(buffer, static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+class PlaceCheck {
+ public:
+  explicit PlaceCheck(const std::vector<Place>& chosen) {
+    for (const Place& place : chosen) {
+      if (!place.kinds.empty()) continue;
+      for (const std::string& path : place.paths()) {
+        if (const auto identity = identity_of_input(path)) inputs_.push_back(*identity);
+      }
+    }
+    const auto read = files::files_read();
+    inputs_.insert(inputs_.end(), read.begin(), read.end());
+  }
+
+  void look_at(const std::string& path, const Place& place) {
+    const std::string taken = place_of(path);
+    if (!taken.empty() && std::find(taken_.begin(), taken_.end(), taken) != taken_.end())
+      return add(path, "a name given twice", "a file of its own for each output");
+    taken_.push_back(taken);
+    const auto identity = identity_of_output(path);
+    if (identity && std::find(inputs_.begin(), inputs_.end(), *identity) != inputs_.end())
+      return add(path, "a file that is read here", "another name: what is read is never replaced");
+    if (is_standard_output(path)) return;
+    look_at_folder(path);
+    if (!identity || is_forced(*place.verb)) return;
+    const std::string old = beginning_of(path);
+    if (old.empty()) return;
+    const Origin origin = files::origin_of(old);
+    if (std::find(place.kinds.begin(), place.kinds.end(), origin) != place.kinds.end()) return;
+    add(path,
+        origin == Origin::foreign   ? "a file that chaintrue did not make"
+        : origin == Origin::changed ? "a file that somebody wrote or changed"
+                                    : "a file of another kind",
+        "another name, or --force to replace it");
+  }
+
+  void throw_if_any() const {
+    if (!problems_.empty()) throw files::InputError(problems_);
+  }
+
+ private:
+  void look_at_folder(const fs::path& path) {
+    std::error_code error;
+    if (fs::is_directory(path, error))
+      return add(path.string(), "a directory", "the name of a file");
+    if (fs::exists(path, error) || fs::is_symlink(path, error)) return;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, error)) {
+      add(path.string(), "a folder that does not exist", "a folder that does, or none");
+    } else if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+      add(path.string(), "a folder that may not be written to", "another folder");
+    }
+  }
+
+  void add(std::string path, std::string found, std::string expected) {
+    problems_.push_back({std::move(path), "", std::move(found), std::move(expected)});
+  }
+
+  std::vector<files::FileIdentity> inputs_;
+  std::vector<std::string> taken_;
+  std::vector<files::InputProblem> problems_;
+};
+
+std::vector<Place> chosen_places() {
+  std::vector<Place> chosen;
+  for (const Place& place : places()) {
+    if (place.verb->parsed()) chosen.push_back(place);
+  }
+  return chosen;
+}
+
+const Place* output_named(const std::vector<Place>& chosen, const std::string& path) {
+  for (const Place& place : chosen) {
+    if (!place.kinds.empty() && place.one != nullptr && *place.one == path) return &place;
+  }
+  return nullptr;
+}
+
+/// The outputs as they go into their files.
+std::vector<files::OutputFile> looked_at(const std::vector<files::OutputFile>& outputs) {
+  end_progress();
+  const std::vector<Place> chosen = chosen_places();
+  PlaceCheck check(chosen);
+  std::vector<files::OutputFile> result;
+  for (const files::OutputFile& output : outputs) {
+    if (output.path.empty()) continue;
+    // Standard output needs no option to be written to.
+    static const Place kAnswers;
+    const Place* place =
+        is_standard_output(output.path) ? &kAnswers : output_named(chosen, output.path.string());
+    if (place == nullptr)
+      throw std::logic_error("an output that no option named: " + output.path.string());
+    std::string text = output.text;
+    for (const Origin kind : place->kinds) text = files::signed_text(text, kind);
+    check.look_at(output.path.string(), *place);
+    result.push_back({output.path, std::move(text)});
+  }
+  check.throw_if_any();
+  return result;
+}
+
+}  // namespace
+
+CLI::Option* add_input(CLI::App& verb,
+                       const std::string& names,
+                       std::string& path,
+                       const std::string& help) {
+  places().push_back({&verb_of(verb), &path, nullptr, {}});
+  return verb.add_option(names, path, help);
+}
+
+CLI::Option* add_input(CLI::App& verb,
+                       const std::string& names,
+                       std::vector<std::string>& paths,
+                       const std::string& help) {
+  places().push_back({&verb_of(verb), nullptr, &paths, {}});
+  return verb.add_option(names, paths, help);
+}
+
+CLI::Option* add_output(CLI::App& verb,
+                        const std::string& names,
+                        std::string& path,
+                        std::vector<Origin> kinds,
+                        const std::string& help) {
+  places().push_back({&verb_of(verb), &path, nullptr, std::move(kinds)});
+  CLI::Option* option = verb.add_option(names, path, help);
+  option->check(CLI::Validator(
+      [](std::string& text) {
+        return text.empty() ? std::string("an empty name, expected the name of a file")
+                            : std::string();
+      },
+      ""));
+  if (verb.get_option_no_throw("--force") == nullptr) {
+    verb.add_flag("--force")->description(
+        "Replace files that chaintrue did not make, or that were changed since");
+  }
+  return option;
+}
+
+void check_places() {
+  const std::vector<Place> chosen = chosen_places();
+  PlaceCheck check(chosen);
+  for (const Place& place : chosen) {
+    if (place.kinds.empty()) continue;
+    for (const std::string& path : place.paths()) check.look_at(path, place);
+  }
+  check.throw_if_any();
+}
+
+void write_output(const std::string& path, const std::string& text) {
+  write_outputs({{path, text}});
+}
+
+void write_outputs(const std::vector<files::OutputFile>& outputs) {
+  files::write_whole_files(looked_at(outputs));
+}
+
+void take_place(files::PendingFile& pending,
+                const std::string& path,
+                const std::vector<files::OutputFile>& others) {
+  std::vector<files::OutputFile> all = {{path, ""}};
+  all.insert(all.end(), others.begin(), others.end());
+  all = looked_at(all);
+  std::vector<std::unique_ptr<files::PendingFile>> beside;
+  std::vector<files::PendingFile*> together = {&pending};
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    together.push_back(
+        beside.emplace_back(std::make_unique<files::PendingFile>(all[i].path)).get());
+    together.back()->write(all[i].text);
+  }
+  take_places(together);
+}
+
+}  // namespace chaintrue::cli

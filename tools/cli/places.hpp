@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a verb reads and where it writes: said once, when its options are made, and held to by one
+/// rule for all verbs.
+///
+/// Before any work (check_places): an output is none of the inputs, whatever it is called; no two
+/// outputs share a place; each lies in a folder that exists; and a file that stands there already
+/// is replaced only where this program made it and nobody has changed it since
+/// (grid/files/origin.hpp), or with --force. When the outputs are written all of it is looked at
+/// again, with what other files named as their machine among the inputs.
+///
+/// \code
+///   add_input(*verb, "map", command->map, "A chaintrue_map file")->required();
+///   add_output(*verb, "-o,--output", command->output, {Origin::table}, "- is standard output");
+///   ...
+///   write_output(command->output, text);
+/// \endcode
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "grid/files/origin.hpp"
+#include "grid/files/pending_file.hpp"
+#include "grid/files/whole_file.hpp"
+
+namespace chaintrue::cli {
+
+using grid::files::Origin;
+
+/// An option or argument that names a file to read.
+CLI::Option* add_input(CLI::App& verb,
+                       const std::string& names,
+                       std::string& path,
+                       const std::string& help);
+CLI::Option* add_input(CLI::App& verb,
+                       const std::string& names,
+                       std::vector<std::string>& paths,
+                       const std::string& help);
+/// An option that names a file to write; adds --force to the verb. \param kinds what is written
+/// there: a file of these kinds that this program made is replaced without being asked
+CLI::Option* add_output(CLI::App& verb,
+                        const std::string& names,
+                        std::string& path,
+                        std::vector<Origin> kinds,
+                        const std::string& help);
+
+/// For the verb that was chosen, before its work. \throws files::InputError with all that is wrong.
+void check_places();
+
+/// One output, or several: all or none. \throws as files::write_whole_files.
+void write_output(const std::string& path, const std::string& text);
+void write_outputs(const std::vector<grid::files::OutputFile>& outputs);
+/// For what was written piece by piece, beside texts that are whole. A path that is empty is left
+/// out.
+void take_place(grid::files::PendingFile& pending,
+                const std::string& path,
+                const std::vector<grid::files::OutputFile>& others);
+
+}  // namespace chaintrue::cli
