@@ -85,8 +85,8 @@ int assemble(const sweep::SweepSpec& spec,
     return kDone;
   }
   const auto errors = write_results(spec, store, options.directory);
-  write_output(fs::path(options.directory) / "report.html",
-               report::render(sweep_page(spec, errors)));
+  files::write_whole_file(fs::path(options.directory) / "report.html",
+                          report::render(sweep_page(spec, errors)));
   fmt::print(stderr,
              "{} cells: {}/results.csv, summary.json, report.html\n",
              store.cells(),
