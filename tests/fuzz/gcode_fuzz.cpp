@@ -9,6 +9,7 @@
 #include "tests/gcode/formula_target.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/moves.hpp"
+#include "tools/gcode/verifier.hpp"
 
 namespace chaintrue::gcode::fuzz {
 namespace {
@@ -158,6 +159,12 @@ std::string run(const std::string& program) {
       if (!(std::fabs(value) < 1e9)) return "the output goes to no sensible place";
     }
   }
+  // What was accepted is cut as it was meant.
+  auto original = LineSource::from_text(program);
+  auto written = LineSource::from_text(output);
+  const auto proof = verify(original, written, corrector, dialect, {});
+  if (!proof) return "verify has no answer: " + proof.error().problem.message();
+  if (!proof->holds()) return "the output does not hold: " + proof->fault;
   return {};
 }
 
