@@ -62,24 +62,31 @@ TEST_F(GcodeCommand, BadProgramsLeaveNothing) {
 
 TEST_F(GcodeCommand, CheckSaysWhatTheControllerCannotFollow) {
   write("part.nc",
-        "G21 G90\nF1500 G0 X0 Y0\nG64 P0.1\nG1 X0.1\nG1 X0.2\nG2 X20 Y0.5 R400\nG18 G2 X30 I5 K0\nM2\n");
+        "G21 G90\nF1500 G0 X0 Y0\nG64 P0.1\nG1 X0.1\nG1 X0.2\nG2 X20 Y0.5 R400\nG18 G2 X30 I5 "
+        "K0\nM2\n");
   const Outcome classic = run("gcode check part.nc --controller maslow_classic");
   EXPECT_EQ(classic.code, 0) << classic.err;
   EXPECT_THAT(classic.err, HasSubstr("line 3: note: maslow_classic passes over, in silence, G64"));
-  EXPECT_THAT(classic.err, HasSubstr("line 4: note: maslow_classic takes at least 10 ms for a move"));
-  EXPECT_THAT(classic.err, HasSubstr("line 6: note: maslow_classic cuts an arc of less than 0.08 rad"));
+  EXPECT_THAT(classic.err,
+              HasSubstr("line 4: note: maslow_classic takes at least 10 ms for a move"));
+  EXPECT_THAT(classic.err,
+              HasSubstr("line 6: note: maslow_classic cuts an arc of less than 0.08 rad"));
   EXPECT_THAT(classic.err, HasSubstr("line 7: note: maslow_classic knows arcs in X and Y only"));
   const Outcome fluidnc = run("gcode check part.nc --controller fluidnc_wallplotter");
-  EXPECT_THAT(fluidnc.err, HasSubstr("line 3: note: fluidnc_wallplotter stops with an error at G64"));
+  EXPECT_THAT(fluidnc.err,
+              HasSubstr("line 3: note: fluidnc_wallplotter stops with an error at G64"));
   EXPECT_THAT(fluidnc.err, HasSubstr("line 4: note: fluidnc_wallplotter plans 16 moves ahead"));
   EXPECT_THAT(run("gcode check part.nc").err, testing::Not(HasSubstr("maslow_classic")));
 }
 
 TEST_F(GcodeCommand, TheReportSaysWhetherTheFileIsSafe) {
-  ASSERT_EQ(run("gcode compensate " + part() + " --map map.json -o out.nc --report r.html").code, 0);
+  ASSERT_EQ(run("gcode compensate " + part() + " --map map.json -o out.nc --report r.html").code,
+            0);
   EXPECT_THAT(content_of(folder_ / "r.html"), HasSubstr("The file is safe to run: on a simulated"));
-  ASSERT_EQ(run("gcode compensate " + part() +
-                " --map map.json -o out.nc --report r.html --no-verify").code, 0);
+  ASSERT_EQ(
+      run("gcode compensate " + part() + " --map map.json -o out.nc --report r.html --no-verify")
+          .code,
+      0);
   EXPECT_THAT(content_of(folder_ / "r.html"), HasSubstr("is not known"));
 }
 

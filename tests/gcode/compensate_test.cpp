@@ -112,10 +112,10 @@ TEST_P(RealFile, IsCutWithinTheToleranceAndNotWithoutCompensation) {
     const FormulaMap map(named.displacement);
     // Only the ideal controller knows tool lengths.
     const bool lengths = original.find("G43") != std::string::npos;
-    const Corrector corrector(map,
-                              kinematics_,
-                              firmware(lengths ? model::ControllerKind::ideal
-                                               : model::ControllerKind::maslow_classic));
+    const Corrector corrector(
+        map,
+        kinematics_,
+        firmware(lengths ? model::ControllerKind::ideal : model::ControllerKind::maslow_classic));
     const auto output = compensate(original, corrector, {}, dialect_);
     ASSERT_TRUE(output) << output.error().message();
     ASSERT_EQ(output->findings.problem_count, 0U) << output->findings.problems.front().message();

@@ -77,7 +77,8 @@ TEST(PathMatcher, DecidesTheFrechetDistance) {
     Curve path{{0.0, 0.0, 0.0}};
     const int corners = 3 + round % 9;
     for (int i = 0; i < corners; ++i) {
-      path.push_back({path.back().x_mm + uniform(2.0), path.back().y_mm + uniform(2.0),
+      path.push_back({path.back().x_mm + uniform(2.0),
+                      path.back().y_mm + uniform(2.0),
                       path.back().z_mm + uniform(0.5)});
     }
     Curve track;

@@ -73,8 +73,7 @@ class Writer {
     const bool clockwise = below(2) == 0;
     const bool full = below(4) == 0;
     const double sweep = full ? 2.0 * std::numbers::pi : uniform(0.05, 6.2);
-    const double angle =
-        std::atan2(-j, -i) + (clockwise ? -sweep : sweep);
+    const double angle = std::atan2(-j, -i) + (clockwise ? -sweep : sweep);
     const double r = std::hypot(i, j);
     const double x = to_grid(x_ + i + r * std::cos(angle), 5);
     const double y = to_grid(y_ + j + r * std::sin(angle), 5);
@@ -127,8 +126,15 @@ class Writer {
   }
 
   void word() {
-    static constexpr const char* kWords[] = {
-        "M8\n", "M9\n", "G4 P0.25\n", "S9000\n", "M0\n", "T3 M6\n", "G64 P0.05\n", "G61\n", "M62 P1\n"};
+    static constexpr const char* kWords[] = {"M8\n",
+                                             "M9\n",
+                                             "G4 P0.25\n",
+                                             "S9000\n",
+                                             "M0\n",
+                                             "T3 M6\n",
+                                             "G64 P0.05\n",
+                                             "G61\n",
+                                             "M62 P1\n"};
     text_ += kWords[below(std::size(kWords))];
   }
 
@@ -230,8 +236,8 @@ std::vector<Command> commands_of(const std::vector<std::string>& lines) {
   std::vector<Command> commands;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (!lines[i].starts_with("G0 X") && !lines[i].starts_with("G1 X")) continue;
-    commands.push_back({i, std::stod(lines[i].substr(4)),
-                        std::stod(lines[i].substr(lines[i].find('Y') + 1))});
+    commands.push_back(
+        {i, std::stod(lines[i].substr(4)), std::stod(lines[i].substr(lines[i].find('Y') + 1))});
   }
   return commands;
 }

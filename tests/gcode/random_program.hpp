@@ -13,9 +13,9 @@
 
 namespace chaintrue::gcode::testing_support {
 
-/// Lines, arcs of every form, plane and size from 0.01 mm to half a metre, helices, rapids, heights,
-/// drilling cycles, inches, steps, inverse time, moves of a few micrometres, words.
-/// The path stays within 1000 mm of the middle in X and 480 mm in Y.
+/// Lines, arcs of every form, plane and size from 0.01 mm to half a metre, helices, rapids,
+/// heights, drilling cycles, inches, steps, inverse time, moves of a few micrometres, words. The
+/// path stays within 1000 mm of the middle in X and 480 mm in Y.
 [[nodiscard]] std::string random_program(std::mt19937_64& random);
 
 /// The machine as it is, as the target of G-code.

@@ -27,7 +27,9 @@ using testing_support::TrueMachine;
 /// A machine that differs from what its controller believes by some millimetres.
 struct Bench {
   explicit Bench(model::ControllerKind kind = model::ControllerKind::maslow_classic)
-      : map(truth()), believed(stated(kind)), kinematics(make_controller_kinematics(believed)),
+      : map(truth()),
+        believed(stated(kind)),
+        kinematics(make_controller_kinematics(believed)),
         corrector(map, *kinematics, firmware(kind)) {}
 
   static model::Machine truth() {
@@ -73,7 +75,8 @@ struct Bench {
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   bool any = false;
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size())) {
     text.replace(at, from.size(), to);
     any = true;
   }
@@ -81,7 +84,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// The first line that begins so, taken out and put in front of the first one that begins otherwise.
+/// The first line that begins so, taken out and put in front of the first one that begins
+/// otherwise.
 std::string moved_line(std::string text, const std::string& line, const std::string& before) {
   const std::size_t at = text.find("\n" + line) + 1;
   const std::size_t end = text.find('\n', at) + 1;
@@ -135,9 +139,10 @@ INSTANTIATE_TEST_SUITE_P(
                     return text.replace(text.find("\nG1 X"), 4, "\nG0 ");
                   },
                   "moves at a rapid where"},
-        Tampering{"every_rapid_a_cut",
-                  [](const std::string& good) { return replaced(good, "\nG0 Z5\nT2", "\nG1 Z5\nT2"); },
-                  "another motion or feed"},
+        Tampering{
+            "every_rapid_a_cut",
+            [](const std::string& good) { return replaced(good, "\nG0 Z5\nT2", "\nG1 Z5\nT2"); },
+            "another motion or feed"},
         Tampering{"feeds_times_100",
                   [](const std::string& good) {
                     return replaced(replaced(good, " F1000", " F100000"), " F400", " F40000");
@@ -183,7 +188,8 @@ INSTANTIATE_TEST_SUITE_P(
                     const std::size_t other = good.rfind("\nG1 ", line - 1);
                     // On, half back, and on again: every place lies on the path.
                     std::string text = good;
-                    return text.insert(at, good.substr(other, line - other) + good.substr(line, at - line));
+                    return text.insert(
+                        at, good.substr(other, line - other) + good.substr(line, at - line));
                   },
                   "M9 of line 14 of the original does not come at its place"},
         Tampering{"cut_short",
@@ -201,7 +207,8 @@ TEST(VerifyFaults, SmallCirclesAndShortMovesAreNoFaults) {
   for (const char* program :
        {"F900\nG3 I0.334009898 J-0.372071751\nG1X87.490 Y 59.138 Z0.00000\n",
         "F900 G0 X10 Y10\nG2 I0.25 J0\nG1 X60 Y40\nG3 I0.01 J0 P7\nG1 X60.002\nG1 X60\n",
-        "F900 G0 X10 Y10\nG1 X10.001\nG1 X10\nG1 X10.001\nG1 X10\nG1 X10.001\nM3\nG1 X10\nG0 Z1\n"}) {
+        "F900 G0 X10 Y10\nG1 X10.001\nG1 X10\nG1 X10.001\nG1 X10\nG1 X10.001\nM3\nG1 X10\nG0 "
+        "Z1\n"}) {
     for (const auto kind : {model::ControllerKind::ideal,
                             model::ControllerKind::maslow_classic,
                             model::ControllerKind::holey,
@@ -226,7 +233,8 @@ TEST(VerifyFaults, AnEndlessTrembleIsNoFault) {
   EXPECT_EQ(bench.verified(program, bench.compensated(program, 0.05), 0.05).fault, "");
 }
 
-/// A wave of the correction that is narrower than what compensate looks at: written wrong, and seen.
+/// A wave of the correction that is narrower than what compensate looks at: written wrong, and
+/// seen.
 TEST(VerifyFaults, WhatCompensateMissedIsSeen) {
   const FormulaMap map([](model::BedPoint p) {
     const double x = (p.x_mm - 112.0) / 10.0, y = p.y_mm / 10.0;

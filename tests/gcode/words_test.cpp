@@ -211,9 +211,8 @@ TEST(Words, AreWrittenAsEveryControllerReadsThem) {
           if (letter != one.letter) continue;
           // F is rounded to six digits, or to three decimals; all else comes back as it was, to
           // the rounding of this reader's own sum of digits.
-          const double tolerance = one.letter == 'F'
-                                       ? std::min(5.01e-4, 5e-6 * one.value)
-                                       : 1e-12 * std::fabs(one.value);
+          const double tolerance = one.letter == 'F' ? std::min(5.01e-4, 5e-6 * one.value)
+                                                     : 1e-12 * std::fabs(one.value);
           found = found || std::fabs(read - one.value) <= tolerance;
         }
       }

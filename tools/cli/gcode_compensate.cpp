@@ -25,12 +25,18 @@ Proof prove(const GcodeOptions& options,
             const GcodeText& text,
             grid::files::PendingFile& output) {
   auto original = text.open();
+<<<<<<< HEAD
   auto written = written_so_far(output);
   const auto outcome = gcode::verify(original,
                                      written,
                                      machine.corrector(),
                                      options.dialect(),
                                      verify_options(options, machine));
+=======
+  auto written = output.written();
+  const auto outcome = gcode::verify(
+      original, written, machine.corrector(), options.dialect(), verify_options(options, machine));
+>>>>>>> de16c8fd77b7327a8be003378533b9c70703613c
   if (!outcome) return {outcome.error().problem.message(), 0.0};
   return {outcome->fault, outcome->largest_mm()};
 }
@@ -43,12 +49,13 @@ std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, co
            "on the simulated machine (--no-verify). Run gcode verify before cutting.";
   }
   if (!proof.fault.empty()) {
-    return fmt::format("Not safe to run, and not written: on a simulated {}, {}.",
+    return fmt::format("Not safe to run, and not written: on a simulated {} controller, {}.",
                        controller,
                        proof.fault);
   }
   return fmt::format(
-      "The file is safe to run: on a simulated {} the tool stays within {:.3f} mm of the path "
+      "The file is safe to run: on a simulated {} controller the tool stays within {:.3f} mm of "
+      "the path "
       "(tolerance {:g} mm), at the intended feeds, with every word at its place.",
       controller,
       proof.largest_mm,
@@ -65,21 +72,22 @@ int run_gcode_compensate(const GcodeOptions& options) {
   settings.input_hash = text.hash();
   report::PathReport picture;
   if (!options.report.empty()) {
-    settings.on_command =
-        [&picture](const gcode::Move& move, const gcode::PathSample& from, const gcode::PathSample& to) {
-          const auto correction = [](const gcode::PathSample& sample) {
-            return report::ToolVector{sample.command.x_mm - sample.target.x_mm,
-                                      sample.command.y_mm - sample.target.y_mm};
-          };
-          picture.add({move.line,
-                       move.kind == gcode::MoveKind::rapid,
-                       from.target.x_mm,
-                       from.target.y_mm,
-                       to.target.x_mm,
-                       to.target.y_mm,
-                       correction(from),
-                       correction(to)});
-        };
+    settings.on_command = [&picture](const gcode::Move& move,
+                                     const gcode::PathSample& from,
+                                     const gcode::PathSample& to) {
+      const auto correction = [](const gcode::PathSample& sample) {
+        return report::ToolVector{sample.command.x_mm - sample.target.x_mm,
+                                  sample.command.y_mm - sample.target.y_mm};
+      };
+      picture.add({move.line,
+                   move.kind == gcode::MoveKind::rapid,
+                   from.target.x_mm,
+                   from.target.y_mm,
+                   to.target.x_mm,
+                   to.target.y_mm,
+                   correction(from),
+                   correction(to)});
+    };
   }
   grid::files::PendingFile output(options.output);
   gcode::Compensator compensator(
@@ -132,17 +140,19 @@ int run_gcode_compensate(const GcodeOptions& options) {
   }
   fmt::print(stderr, "{}\n", words);
   if (!holds) {
-    fmt::print(stderr,
-               "{}: run on a simulated {}, the compensated program does not hold {} mm: {}\n"
-               "the program is not written; try another --tolerance-mm, or --no-verify for a look "
-               "at that line\n",
-               grid::files::name_in_messages(options.program),
-               machine.corrector().firmware().name,
-               options.tolerance_mm,
-               proof.fault);
+    fmt::print(
+        stderr,
+        "{}: run on a simulated {} controller, the compensated program does not hold {} mm: {}\n"
+        "the program is not written; try another --tolerance-mm, or --no-verify for a look "
+        "at that line\n",
+        grid::files::name_in_messages(options.program),
+        machine.corrector().firmware().name,
+        options.tolerance_mm,
+        proof.fault);
   } else if (!options.no_verify) {
     fmt::print(stderr,
-               "run on a simulated {}: the tool stays within {:.4f} mm of the path, tolerance {} "
+               "run on a simulated {} controller: the tool stays within {:.4f} mm of the path, "
+               "tolerance {} "
                "mm\n",
                machine.corrector().firmware().name,
                proof.largest_mm,

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "grid/files/pending_file.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/gcode/compensation_target.hpp"

@@ -2,11 +2,11 @@
 /// \file
 /// The commanded curve of an arc, cheap enough to be looked at often.
 ///
-/// The correction along a stretch of the arc is interpolated at seven Chebyshev points (L. N. Trefethen,
-/// "Approximation Theory and Approximation Practice", SIAM 2013, chapter 5: the barycentric
-/// formula); the arc itself is exact. A stretch is used where the interpolation misses the exact
-/// command by less than the bound at two places between the points; elsewhere every answer is
-/// computed.
+/// The correction along a stretch of the arc is interpolated at seven Chebyshev points (L. N.
+/// Trefethen, "Approximation Theory and Approximation Practice", SIAM 2013, chapter 5: the
+/// barycentric formula); the arc itself is exact. A stretch is used where the interpolation misses
+/// the exact command by less than the bound at two places between the points; elsewhere every
+/// answer is computed.
 #pragma once
 
 #include <array>

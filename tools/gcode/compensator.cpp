@@ -65,14 +65,13 @@ Compensator::Compensator(const Corrector& corrector, CompensateOptions options, 
     : corrector_(corrector),
       options_(std::move(options)),
       emitter_(std::move(out), options_.decimals),
-      segmenter_(corrector,
-                 chord_tolerance(options_, corrector.firmware().single_precision)) {
+      segmenter_(corrector, chord_tolerance(options_, corrector.firmware().single_precision)) {
   const double curvature = kCurvatureSafety * corrector.sampled_curvature_per_mm();
   const bool straight = corrector.firmware().chain_linear_piece_mm == 0.0;
   if (straight) {
-    unchecked_length_mm_ =
-        std::sqrt(8.0 * kUncheckedShare *
-                  chord_tolerance(options_, corrector.firmware().single_precision) / std::max(curvature, 1e-9));
+    unchecked_length_mm_ = std::sqrt(
+        8.0 * kUncheckedShare * chord_tolerance(options_, corrector.firmware().single_precision) /
+        std::max(curvature, 1e-9));
   }
 }
 

@@ -118,9 +118,8 @@ void Compensator::note_unknown(const PassedWord& word) {
   std::from_chars(code.data() + 1, code.data() + code.size(), number);
   const int tenths = static_cast<int>(std::lround(10.0 * number));
   if (knows_code(firmware, letter, tenths) || !unknown_words_.insert(code).second) return;
-  findings_.add(Note{word.line,
-                     "code_not_known",
-                     fmt::format("{} {} {}", firmware.name, firmware.unknown, code)});
+  findings_.add(Note{
+      word.line, "code_not_known", fmt::format("{} {} {}", firmware.name, firmware.unknown, code)});
 }
 
 }  // namespace chaintrue::gcode

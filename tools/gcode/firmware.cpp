@@ -42,11 +42,10 @@ constexpr Firmware kFirmwares[] = {
 
 constexpr int kMaslowG[] = {0, 10, 20, 30, 40, 100, 200, 210, 382, 400, 900, 910};
 constexpr int kMaslowM[] = {0, 10, 20, 30, 40, 50, 60, 300};
-constexpr int kGrblG[] = {0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 210, 280, 281, 300,
-                          301, 382, 383, 384, 385, 400, 431, 490, 530, 540, 550, 560, 570, 580,
-                          590, 610, 800, 900, 910, 911, 920, 921, 930, 940};
-constexpr int kGrblM[] = {0,  10, 20, 30,  40,  50,  60,  70,  80,
-                          90, 300, 620, 630, 640, 650, 670, 680};
+constexpr int kGrblG[] = {0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 210, 280, 281,
+                          300, 301, 382, 383, 384, 385, 400, 431, 490, 530, 540, 550, 560,
+                          570, 580, 590, 610, 800, 900, 910, 911, 920, 921, 930, 940};
+constexpr int kGrblM[] = {0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 300, 620, 630, 640, 650, 670, 680};
 
 template <std::size_t size>
 bool one_of(const int (&list)[size], int value) {
@@ -87,8 +86,8 @@ CommandWay::CommandWay(const Firmware& firmware,
     : firmware_(firmware), kinematics_(kinematics), from_(from), to_(to) {
   if (firmware.chain_linear_piece_mm == 0.0) return;
   const double length = std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm) - doubt_mm;
-  pieces_ = static_cast<int>(
-      std::clamp(std::floor(length / firmware.chain_linear_piece_mm), 1.0, 1e6));
+  pieces_ =
+      static_cast<int>(std::clamp(std::floor(length / firmware.chain_linear_piece_mm), 1.0, 1e6));
 }
 
 std::optional<model::BedPoint> CommandWay::at(double t) {

@@ -72,8 +72,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
                   "after probing only the machine knows where a cycle starts");
   }
   const bool again = modes_.motion == motion;
-  const bool within = is_cycle(modes_.motion) &&
-                      sticky_.plane == modes_.plane;
+  const bool within = is_cycle(modes_.motion) && sticky_.plane == modes_.plane;
   // G98 goes back to where the row of cycles in this plane began.
   if (!within) sticky_.start = cycle.program[cycle.normal];
   sticky_.plane = modes_.plane;

@@ -38,10 +38,14 @@ bool m98(const Block& b) { return number(b.code(MGroup::flow)) == 98; }
 
 constexpr WordUse kWordUses[] = {
     {'d',
-     [](const Block& b, int) { return one_of(tenths(b.code(GGroup::cutter)), {410, 420}) ? 1 : 0; },
+     [](const Block& b, int) {
+       return one_of(tenths(b.code(GGroup::cutter)), {410, 420}) ? 1 : 0;
+     },
      "G41 or G42"},
     {'e',
-     [](const Block& b, int) { return one_of(number(b.code(MGroup::output)), {67, 68}) ? 1 : 0; },
+     [](const Block& b, int) {
+       return one_of(number(b.code(MGroup::output)), {67, 68}) ? 1 : 0;
+     },
      "M67 or M68"},
     {'h', [](const Block& b, int) { return b.is(GGroup::tool_length, 430) ? 1 : 0; }, "G43"},
     {'i', [](const Block&, int m) { return is_arc(m) || m == 870 ? 1 : 0; }, "G2, G3 or G87"},
@@ -90,10 +94,14 @@ constexpr WholeWord kWholeWords[] = {
     {'l', [](const Block&) { return true; }, "L, a count or a kind, is"},
     {'p', [](const Block& b) { return m98(b); }, "P, the number of the program that M98 calls, is"},
     {'p',
-     [](const Block& b) { return one_of(number(b.code(MGroup::output)), {62, 63, 64, 65}); },
+     [](const Block& b) {
+       return one_of(number(b.code(MGroup::output)), {62, 63, 64, 65});
+     },
      "P, the number of an output, is"},
     {'e',
-     [](const Block& b) { return one_of(number(b.code(MGroup::output)), {67, 68}); },
+     [](const Block& b) {
+       return one_of(number(b.code(MGroup::output)), {67, 68});
+     },
      "E, the number of an output, is"},
     {'q',
      [](const Block& b) { return number(b.code(MGroup::tool)) == 61; },
@@ -105,11 +113,11 @@ Result<void> check_whole(const Block& block) {
     if (!block.has(word.letter) || !word.counts(block)) continue;
     const double value = block.value(word.letter);
     if (value >= 0.0 && std::fabs(value - std::round(value)) <= kWhole) continue;
-    return refuse(ProblemName::bad_word_value,
-                  block.place(word.letter),
-                  fmt::format("{} a whole number, not below zero; here it is {}",
-                              word.what,
-                              with_value("", value)));
+    return refuse(
+        ProblemName::bad_word_value,
+        block.place(word.letter),
+        fmt::format(
+            "{} a whole number, not below zero; here it is {}", word.what, with_value("", value)));
   }
   return {};
 }

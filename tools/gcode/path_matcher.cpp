@@ -208,8 +208,8 @@ bool PathMatcher::column(const PathPiece& piece, bool pinned, double distance_mm
     any = any || !right.empty();
     bottom = top;
     if (top.empty()) continue;
-    const double nearest = std::clamp(
-        nearest_on_line(tool_, piece.to, open.piece.to), top.low, top.high);
+    const double nearest =
+        std::clamp(nearest_on_line(tool_, piece.to, open.piece.to), top.low, top.high);
     note_corner(open, between(tool_, piece.to, nearest), piece.line);
     if (i + 1 == open_.size()) read();
   }
@@ -279,8 +279,8 @@ PathMatcher::Outcome PathMatcher::finish() {
   while (exhausted_ == false && open_[reached_].left.high >= 1.0 && reached_ + 1 == open_.size()) {
     if (!read()) break;
   }
-  if (!at_end()) return exhausted_ && reached_ + 1 == open_.size() ? Outcome::strays
-                                                                    : Outcome::past_end;
+  if (!at_end())
+    return exhausted_ && reached_ + 1 == open_.size() ? Outcome::strays : Outcome::past_end;
   for (; first_ < open_.size(); ++first_) {
     note_corner(open_[first_], tool_, tool_line_);
     note(open_[first_].piece.rapid, open_[first_].corner);

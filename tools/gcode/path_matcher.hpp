@@ -105,8 +105,8 @@ class PathMatcher {
     Point from;
     PathPiece piece;
     bool pinned = false;
-    Span left;   // reachable with the tool at the start of its piece
-    Span right;  // and at its end
+    Span left;    // reachable with the tool at the start of its piece
+    Span right;   // and at its end
     Pair corner;  // the nearest that the tool came to the piece's end
   };
 
@@ -114,7 +114,12 @@ class PathMatcher {
   bool pin(Run& run, Point from, const PathPiece& piece) const;
   [[nodiscard]] bool agree(const PathPiece& a, const PathPiece& b) const;
   bool column(const PathPiece& piece, bool pinned, double distance_mm, bool labels);
-  void cell(Open& open, Span bottom, const PathPiece& piece, bool pinned, bool labels, Span& right,
+  void cell(Open& open,
+            Span bottom,
+            const PathPiece& piece,
+            bool pinned,
+            bool labels,
+            Span& right,
             Span& top) const;
   void commit(const PathPiece& piece);
   void close_up();

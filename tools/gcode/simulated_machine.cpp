@@ -22,12 +22,11 @@ double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm
 
 tl::unexpected<Problem> no_place(CorrectionFailure failure, Point command, std::size_t line) {
   const bool controller = failure == CorrectionFailure::controller;
-  return refuse(controller ? ProblemName::outside_controller : ProblemName::outside_map,
-                {line, 0},
-                fmt::format("X{:.3f} Y{:.3f}: the tool's place {}",
-                            command.x_mm,
-                            command.y_mm,
-                            explain(failure)));
+  return refuse(
+      controller ? ProblemName::outside_controller : ProblemName::outside_map,
+      {line, 0},
+      fmt::format(
+          "X{:.3f} Y{:.3f}: the tool's place {}", command.x_mm, command.y_mm, explain(failure)));
 }
 
 }  // namespace
@@ -132,8 +131,13 @@ Result<bool> SimulatedMachine::chain_linear(Point from,
   const Point step{(to.x_mm - from.x_mm) / pieces,
                    (to.y_mm - from.y_mm) / pieces,
                    (to.z_mm - from.z_mm) / pieces};
+<<<<<<< HEAD
   const double looks = std::ceil(
       length / pieces / std::sqrt(8.0 * options_.flatness_mm * kShortestChainMm));
+=======
+  const double looks =
+      std::ceil(length / pieces / std::sqrt(8.0 * options_.flatness_mm * kShortestChain_mm));
+>>>>>>> de16c8fd77b7327a8be003378533b9c70703613c
   Point here = from;
   auto paid = corrector_.paid_out({here.x_mm, here.y_mm});
   for (double piece = 1.0; paid && piece <= pieces; piece += 1.0) {
@@ -143,9 +147,8 @@ Result<bool> SimulatedMachine::chain_linear(Point from,
     if (!arrived) return no_place(arrived.error(), next, line);
     for (double look = 1.0; look <= looks; look += 1.0) {
       const double share = look / looks;
-      model::ChainLengths lengths{
-          paid->left_mm + share * (arrived->left_mm - paid->left_mm),
-          paid->right_mm + share * (arrived->right_mm - paid->right_mm)};
+      model::ChainLengths lengths{paid->left_mm + share * (arrived->left_mm - paid->left_mm),
+                                  paid->right_mm + share * (arrived->right_mm - paid->right_mm)};
       if (play_) {
         const auto follow = [](std::optional<double>& chain, double motor, double half) {
           chain = chain ? std::clamp(*chain, motor - half, motor + half) : motor - half;

@@ -77,7 +77,9 @@ void ToolField::fill(Cell& cell, std::int64_t column, std::int64_t row) {
     }
   }
   if (!known) return;
-  const auto at = [&](std::size_t i, std::size_t k) -> const Node& { return cell.nodes[4 * k + i]; };
+  const auto at = [&](std::size_t i, std::size_t k) -> const Node& {
+    return cell.nodes[4 * k + i];
+  };
   const auto second = [](const Node& a, const Node& b, const Node& c) {
     return std::hypot(a.dx_mm - 2.0 * b.dx_mm + c.dx_mm, a.dy_mm - 2.0 * b.dy_mm + c.dy_mm);
   };
@@ -89,10 +91,10 @@ void ToolField::fill(Cell& cell, std::int64_t column, std::int64_t row) {
       if (i >= 1 && i <= 2) along = std::max(along, second(at(i - 1, k), at(i, k), at(i + 1, k)));
       if (k >= 1 && k <= 2) up = std::max(up, second(at(i, k - 1), at(i, k), at(i, k + 1)));
       if (i >= 3 || k >= 3) continue;
-      const double dx = at(i + 1, k + 1).dx_mm - at(i, k + 1).dx_mm - at(i + 1, k).dx_mm +
-                        at(i, k).dx_mm;
-      const double dy = at(i + 1, k + 1).dy_mm - at(i, k + 1).dy_mm - at(i + 1, k).dy_mm +
-                        at(i, k).dy_mm;
+      const double dx =
+          at(i + 1, k + 1).dx_mm - at(i, k + 1).dx_mm - at(i + 1, k).dx_mm + at(i, k).dx_mm;
+      const double dy =
+          at(i + 1, k + 1).dy_mm - at(i, k + 1).dy_mm - at(i + 1, k).dy_mm + at(i, k).dy_mm;
       mixed = std::max(mixed, std::hypot(dx, dy));
     }
   }

@@ -93,8 +93,7 @@ class Verification {
 
  private:
   static void take(Deviation& deviation, const PathMatcher::Pair& pair) {
-    deviation = {
-        pair.distance_mm, pair.intended, pair.tool, pair.intended_line, pair.tool_line};
+    deviation = {pair.distance_mm, pair.intended, pair.tool, pair.intended_line, pair.tool_line};
   }
 
   void fail(bool in_original, const Problem& problem) {
@@ -186,8 +185,8 @@ class Verification {
     if (!started_) {
       if (begins(command)) return start(command);
       if (command.from.z_mm != command.to.z_mm) {
-        advance({height_of(command.to), command.kind == MoveKind::rapid, speed(command),
-                 command.line});
+        advance(
+            {height_of(command.to), command.kind == MoveKind::rapid, speed(command), command.line});
       }
       return;
     }
@@ -197,8 +196,12 @@ class Verification {
     last_command_ = command.from;
     const auto done = machine_.run(command, [&](Point tool, Point commanded) {
       const double way = distance_mm(last_command_, commanded);
+<<<<<<< HEAD
       const double stretch =
           way >= kLeastStretchedMm ? distance_mm(last_tool_, tool) / way : 1.0;
+=======
+      const double stretch = way >= kLeastStretched_mm ? distance_mm(last_tool_, tool) / way : 1.0;
+>>>>>>> de16c8fd77b7327a8be003378533b9c70703613c
       last_command_ = commanded;
       last_tool_ = tool;
       ++summary_.places;
@@ -213,13 +216,13 @@ class Verification {
     if (problem_ || outcome == PathMatcher::Outcome::follows) return;
     if (outcome == PathMatcher::Outcome::wrong_speed) {
       const PathMatcher::Pair front = matcher_.front();
-      summary_.motion_differs =
-          fmt::format("line {} of the file run moves at {} where line {} of the original has "
-                      "another motion or feed, near {}",
-                      piece.line,
-                      words(piece),
-                      front.intended_line,
-                      words(front.intended));
+      summary_.motion_differs = fmt::format(
+          "line {} of the file run moves at {} where line {} of the original has "
+          "another motion or feed, near {}",
+          piece.line,
+          words(piece),
+          front.intended_line,
+          words(front.intended));
       first_fault(summary_.motion_differs);
       matcher_.ignore_speed();
       outcome = matcher_.advance(piece);
@@ -239,12 +242,13 @@ class Verification {
     }
     if (outcome == PathMatcher::Outcome::follows) return;
     const PathMatcher::Pair front = matcher_.front();
-    stray(fmt::format("line {} of the file run moves the tool to {}, away from line {} of the "
-                      "original at {}",
-                      piece.line,
-                      words(piece.to),
-                      front.intended_line,
-                      words(front.intended)));
+    stray(
+        fmt::format("line {} of the file run moves the tool to {}, away from line {} of the "
+                    "original at {}",
+                    piece.line,
+                    words(piece.to),
+                    front.intended_line,
+                    words(front.intended)));
     matcher_.advance_anyhow(piece);
   }
 
@@ -276,7 +280,7 @@ class Verification {
     if (event->kind != found.kind || event->text != found.text) {
       const bool ended = event->kind == ProgramEvent::Kind::end;
       const std::string wanted = ended && event->text.empty() ? "the end" : event->text;
-      const std::string difference = is_end   ? fmt::format("missing: {}", wanted)
+      const std::string difference = is_end  ? fmt::format("missing: {}", wanted)
                                      : ended ? fmt::format("too many: {}", name)
                                              : fmt::format("{} instead of {}", name, wanted);
       return differ(difference,
@@ -295,13 +299,14 @@ class Verification {
 
   [[nodiscard]] std::string place_fault() const {
     const PathMatcher::Pair front = matcher_.front();
-    return fmt::format("on line {} of the file run the tool stands at {}, {:.4f} mm from its place "
-                       "{} on line {} of the original",
-                       front.tool_line,
-                       words(front.tool),
-                       front.distance_mm,
-                       words(front.intended),
-                       front.intended_line);
+    return fmt::format(
+        "on line {} of the file run the tool stands at {}, {:.4f} mm from its place "
+        "{} on line {} of the original",
+        front.tool_line,
+        words(front.tool),
+        front.distance_mm,
+        words(front.intended),
+        front.intended_line);
   }
 
   void first_fault(const std::string& sentence) {

@@ -99,9 +99,15 @@ Outline view_of(const PathReport& report, double magnification) {
                     report.sheet.y_max_mm));
   }
   Outline view = part_of(report, magnification);
+<<<<<<< HEAD
   const double margin = kMargin * std::max({view.x_max_mm - view.x_min_mm,
                                             view.y_max_mm - view.y_min_mm,
                                             kLeastViewMm});
+=======
+  const double margin =
+      kMargin *
+      std::max({view.x_max_mm - view.x_min_mm, view.y_max_mm - view.y_min_mm, kLeastView_mm});
+>>>>>>> de16c8fd77b7327a8be003378533b9c70703613c
   view = {view.x_min_mm - margin,
           view.x_max_mm + margin,
           view.y_min_mm - margin,
@@ -141,7 +147,8 @@ Page page_of(const PathReport& report) {
   chart.caption = fmt::format(
       "Grey: where the tool shall go, which is what the program commanded before. Coloured: what "
       "is commanded now, its "
-      "distance from the grey path drawn {:g} times as large. Dashed: rapids. The picture shows the "
+      "distance from the grey path drawn {:g} times as large. Dashed: rapids. The picture shows "
+      "the "
       "cuts, X {:.0f} to {:.0f} and Y {:.0f} to {:.0f} mm of the sheet; the sheet is tinted.{}",
       magnification,
       view.x_min_mm,
