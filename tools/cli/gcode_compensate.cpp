@@ -25,18 +25,12 @@ Proof prove(const GcodeOptions& options,
             const GcodeText& text,
             grid::files::PendingFile& output) {
   auto original = text.open();
-<<<<<<< HEAD
   auto written = written_so_far(output);
   const auto outcome = gcode::verify(original,
                                      written,
                                      machine.corrector(),
                                      options.dialect(),
                                      verify_options(options, machine));
-=======
-  auto written = output.written();
-  const auto outcome = gcode::verify(
-      original, written, machine.corrector(), options.dialect(), verify_options(options, machine));
->>>>>>> de16c8fd77b7327a8be003378533b9c70703613c
   if (!outcome) return {outcome.error().problem.message(), 0.0};
   return {outcome->fault, outcome->largest_mm()};
 }

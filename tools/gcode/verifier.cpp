@@ -196,12 +196,8 @@ class Verification {
     last_command_ = command.from;
     const auto done = machine_.run(command, [&](Point tool, Point commanded) {
       const double way = distance_mm(last_command_, commanded);
-<<<<<<< HEAD
       const double stretch =
           way >= kLeastStretchedMm ? distance_mm(last_tool_, tool) / way : 1.0;
-=======
-      const double stretch = way >= kLeastStretched_mm ? distance_mm(last_tool_, tool) / way : 1.0;
->>>>>>> de16c8fd77b7327a8be003378533b9c70703613c
       last_command_ = commanded;
       last_tool_ = tool;
       ++summary_.places;

@@ -99,15 +99,9 @@ Outline view_of(const PathReport& report, double magnification) {
                     report.sheet.y_max_mm));
   }
   Outline view = part_of(report, magnification);
-<<<<<<< HEAD
   const double margin = kMargin * std::max({view.x_max_mm - view.x_min_mm,
                                             view.y_max_mm - view.y_min_mm,
                                             kLeastViewMm});
-=======
-  const double margin =
-      kMargin *
-      std::max({view.x_max_mm - view.x_min_mm, view.y_max_mm - view.y_min_mm, kLeastView_mm});
->>>>>>> de16c8fd77b7327a8be003378533b9c70703613c
   view = {view.x_min_mm - margin,
           view.x_max_mm + margin,
           view.y_min_mm - margin,
