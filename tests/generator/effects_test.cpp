@@ -184,7 +184,7 @@ TEST(Strength, IsTheProductsDelta) {
         }
         return model::effects::EffectSide::none;
       }();
-      const double delta = table.strength(effect, side).delta;
+      const double delta = table.strength(effect, side).signal_to_noise;
       // Differences over 1 mm against exact derivatives, and a weight rounded in its fourth digit.
       EXPECT_NEAR(ours->norm(), delta, 1e-3 * delta + 1e-4);
     }
