@@ -67,8 +67,8 @@ struct ClampBox {
 class CommandWay {
  public:
   /// Keeps references.
-  /// \param doubt_mm by how much the command's length may still change (its numbers will be
-  /// rounded): where that decides how many pieces the controller makes, it is taken to make fewer.
+  /// \param doubt_mm taken off the command's length (its numbers will be rounded) before the
+  /// controller's pieces are counted.
   CommandWay(const Firmware& firmware,
              const model::ControllerKinematics& kinematics,
              model::BedPoint from,

@@ -32,13 +32,30 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
                                                                 const PathSample& a,
                                                                 const PathSample& b,
                                                                 double length_mm) const {
+  const auto way = [&](double doubt_mm) {
+    return CommandWay(corrector_.firmware(),
+                      corrector_.kinematics(),
+                      {a.command.x_mm, a.command.y_mm},
+                      {b.command.x_mm, b.command.y_mm},
+                      doubt_mm);
+  };
+  // Where rounding decides how many pieces the controller makes, either number must do: a piece's
+  // bow may lie on the curve's own side or against it.
+  CommandWay fewer = way(kRoundingMm);
+  CommandWay more = way(-kRoundingMm);
+  const auto first = deviation_mm(curve, a, b, length_mm, fewer);
+  if (!first || more.pieces() == fewer.pieces()) return first;
+  const auto second = deviation_mm(curve, a, b, length_mm, more);
+  return second ? std::max(*first, *second) : second;
+}
+
+tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& curve,
+                                                                const PathSample& a,
+                                                                const PathSample& b,
+                                                                double length_mm,
+                                                                CommandWay& way) const {
   int checks = std::max(kFewestChecks,
-                        static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEveryMm))));
-  CommandWay way(corrector_.firmware(),
-                 corrector_.kinematics(),
-                 {a.command.x_mm, a.command.y_mm},
-                 {b.command.x_mm, b.command.y_mm},
-                 kRoundingMm);
+                       static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEveryMm))));
   const bool own_way = corrector_.firmware().chain_linear_piece_mm > 0.0;
   // Each of the controller's pieces bows: the worst is in the middle of one, or where two meet.
   if (own_way) checks = 2 * way.pieces() * ((checks + 2 * way.pieces() - 1) / (2 * way.pieces()));

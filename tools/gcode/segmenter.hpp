@@ -55,6 +55,12 @@ class Segmenter {
                                                                      double length_mm) const;
 
  private:
+  [[nodiscard]] tl::expected<double, CorrectionFailure> deviation_mm(const Curve& curve,
+                                                                     const PathSample& a,
+                                                                     const PathSample& b,
+                                                                     double length_mm,
+                                                                     CommandWay& way) const;
+
   const Corrector& corrector_;
   double tolerance_mm_;
   double last_step_mm_ = 50.0;  // a typical one, only a first guess
