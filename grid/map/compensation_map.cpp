@@ -2,6 +2,7 @@
 #include "grid/map/compensation_map.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -167,6 +168,10 @@ tl::expected<BedPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted,
     mark.x_mm = std::clamp(mark.x_mm + move.x(), domain.x_min - 50.0, domain.x_max + 50.0);
     mark.y_mm = std::clamp(mark.y_mm + move.y(), domain.y_min - 50.0, domain.y_max + 50.0);
     if (move.norm() < kSettledMm) {
+      // On the domain's edge the last step may end beside it by what it may miss.
+      const BedPoint within{std::clamp(mark.x_mm, domain.x_min, domain.x_max),
+                            std::clamp(mark.y_mm, domain.y_min, domain.y_max)};
+      if (std::hypot(within.x_mm - mark.x_mm, within.y_mm - mark.y_mm) < kSettledMm) mark = within;
       if (!answers_at(mark)) return tl::unexpected(MapFailure::outside_map);
       return frame == Frame::bed ? field_->to_bed(mark) : mark;
     }

@@ -282,7 +282,7 @@ TEST_F(PlanAfter, SpeaksCsvToACsv) {
 }
 
 TEST_F(PlanAfter, RefusesADiagnosisOfOtherPoints) {
-  simulate("");
+  simulate("", "--force");
   const Outcome told = run("plan grid.json --after d.json -o lines.txt");
   EXPECT_EQ(told.code, 3);
   EXPECT_THAT(told.err, HasSubstr("d.json was made from other points than those of grid.json"));

@@ -48,7 +48,7 @@ TEST_F(Limits, ADiagnosisOfAThousandPointsIsRefusedAtOnce) {
   const Outcome outcome = timed("diagnose many.json", kBeforeWork);
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.err,
-              HasSubstr("many.json: 1000 points are more than a diagnosis takes (400): leave some "
+              HasSubstr("many.json: 1000 points are more than a diagnosis takes (600): leave some "
                         "out"));
 }
 

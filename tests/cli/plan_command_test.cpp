@@ -54,19 +54,23 @@ TEST_F(PlanCommand, ItsListIsMeasuredBySimulate) {
 }
 
 TEST_F(PlanCommand, ValuesOutOfRangeExitWithThreeAllAtOnceAndWriteNothing) {
-  const Outcome outcome = run("plan --machine " + machine_ +
-                              " --points 5 --margin-mm 900 --length-noise-mm 0 -o p.csv");
-  EXPECT_EQ(outcome.code, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("--points"));
-  EXPECT_THAT(outcome.err, HasSubstr("--margin-mm"));
-  EXPECT_THAT(outcome.err, HasSubstr("--length-noise-mm"));
-  EXPECT_FALSE(exists("p.csv"));
+  // Outside what the option takes at all, and outside what this bed allows.
+  for (const char* values :
+       {" --points 0 --margin-mm -1 --length-noise-mm 0", " --points 5 --margin-mm 900"}) {
+    const Outcome outcome = run("plan --machine " + machine_ + values + " -o p.csv");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("--points"));
+    EXPECT_THAT(outcome.err, HasSubstr("--margin-mm"));
+    EXPECT_EQ(outcome.err.find("--length-noise-mm") != std::string::npos,
+              std::string(values).ends_with(" 0"));
+    EXPECT_FALSE(exists("p.csv"));
+  }
 }
 
-TEST_F(PlanCommand, AMissingMachineExitsWithThreeAndMissingOptionsWithTwo) {
+TEST_F(PlanCommand, AMissingMachineAndABadNumberExitWithThreeMissingOptionsWithTwo) {
   EXPECT_EQ(run("plan --machine nowhere.json").code, 3);
   EXPECT_EQ(run("plan").code, 2);
-  EXPECT_EQ(run("plan --machine " + machine_ + " --points many").code, 2);
+  EXPECT_EQ(run("plan --machine " + machine_ + " --points many").code, 3);
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ TEST(HolesFile, AForgottenHookOffsetIsSuspected) {
   ASSERT_EQ(read.warnings.size(), 1u);
   EXPECT_THAT(
       read.warnings[0].message(),
-      AllOf(HasSubstr("about 40.2 mm longer than commanded, the short ones like the long ones"),
+      AllOf(HasSubstr("about 40.1 mm longer than commanded, the short ones like the long ones"),
             HasSubstr("hook offset left out"),
             HasSubstr("state 40 mm")));
   HolesOptions options;

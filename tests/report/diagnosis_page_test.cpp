@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "tests/grid_files/sample_diagnosis.hpp"
 #include "tests/holes/hole_sets.hpp"

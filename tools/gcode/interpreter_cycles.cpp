@@ -6,6 +6,7 @@
 /// block of the same cycle leaves out keep their values.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -73,7 +74,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   }
   const bool again = modes_.motion == motion;
   const bool within = is_cycle(modes_.motion) && sticky_.plane == modes_.plane;
-  // G98 goes back to where the row of cycles in this plane began.
+  // G98 goes back to where the row of cycles in this plane began, and G91 counts R from there.
   if (!within) sticky_.start = cycle.program[cycle.normal];
   sticky_.plane = modes_.plane;
   const auto sticky = [&](char letter, double& kept, bool is_length) -> bool {
@@ -111,7 +112,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
                   "a cycle is repeated a whole number of times, at least once");
   }
 
-  double height = modes_.retract_to_r ? cycle.program[cycle.normal] : sticky_.start;
+  double height = cycle.program[cycle.normal];
   double first = cycle.program[cycle.first];
   double second = cycle.program[cycle.second];
   const double here_first = first;
@@ -124,7 +125,7 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   if (modes_.incremental) {
     step_first = word(cycle.first, 0.0);
     step_second = word(cycle.second, 0.0);
-    cycle.retract = sticky_.r + height;
+    cycle.retract = sticky_.r + sticky_.start;
     cycle.bottom = sticky_.depth + cycle.retract;
   } else {
     first = word(cycle.first, first);
@@ -139,28 +140,27 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
   cycle.dwell_s = sticky_.p;
   cycle.peck = sticky_.q;
   modes_.motion = motion;
-  if (height < cycle.retract) {
+  // From below the R plane first straight to it; a row that began below it goes to it even from a
+  // higher retract.
+  if (sticky_.start < cycle.retract && height != cycle.retract) {
     CHAINTRUE_GCODE_TRY(
         cycle_move(block, cycle, MoveKind::rapid, {here_first, here_second, cycle.retract}));
     height = cycle.retract;
   }
-  cycle.clear = modes_.retract_to_r ? cycle.retract : height;
+  cycle.clear = modes_.retract_to_r ? cycle.retract : std::max(sticky_.start, cycle.retract);
   for (double count = repeats; count > 0.0; count -= 1.0) {
     first += step_first;
     second += step_second;
     CHAINTRUE_GCODE_TRY(cycle_move(block, cycle, MoveKind::rapid, {first, second, height}));
-    if (motion == 870) {
-      CHAINTRUE_GCODE_TRY(back_bore(block, cycle, first, second));
-    } else {
-      if (height != cycle.retract) {
-        CHAINTRUE_GCODE_TRY(
-            cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.retract}));
-      }
-      CHAINTRUE_GCODE_TRY(pecks ? peck(block, cycle, first, second)
-                                : (motion == 810 || motion == 820
-                                       ? drill(block, cycle, first, second)
-                                       : tap_or_bore(block, cycle, first, second)));
+    if (height != cycle.retract) {
+      CHAINTRUE_GCODE_TRY(
+          cycle_move(block, cycle, MoveKind::rapid, {first, second, cycle.retract}));
     }
+    CHAINTRUE_GCODE_TRY(motion == 870 ? back_bore(block, cycle, first, second)
+                        : pecks       ? peck(block, cycle, first, second)
+                        : motion == 810 || motion == 820
+                            ? drill(block, cycle, first, second)
+                            : tap_or_bore(block, cycle, first, second));
     height = cycle.clear;
   }
   return {};
@@ -263,7 +263,7 @@ Result<void> Interpreter::back_bore(const Block& block,
                                            : length(block, words[cycle.normal]);
   const std::string start = fmt::format("M{}", modes_.spindle);
   CHAINTRUE_GCODE_TRY(
-      cycle_move(block, cycle, MoveKind::rapid, {aside_first, aside_second, cycle.clear}));
+      cycle_move(block, cycle, MoveKind::rapid, {aside_first, aside_second, cycle.retract}));
   for (const char* word : {"M5", "M19"}) CHAINTRUE_GCODE_TRY(pass(block, word));
   CHAINTRUE_GCODE_TRY(
       cycle_move(block, cycle, MoveKind::rapid, {aside_first, aside_second, cycle.bottom}));

@@ -108,6 +108,11 @@ Result<Axes> Interpreter::machine_target(const Block& block) const {
 
 /// @ is the distance from the program's zero in XY, ^ the angle in degrees.
 Result<void> Interpreter::polar(const Block& block, Axes& program) const {
+  if (modes_.plane != 170) {
+    return refuse(ProblemName::bad_word_value,
+                  block.start(),
+                  "polar coordinates (@, ^) are for the XY plane (G17)");
+  }
   if (block.has('x') || block.has('y')) {
     return refuse(ProblemName::modal_conflict,
                   block.start(),
@@ -156,7 +161,7 @@ Result<void> Interpreter::probe(const Block& block) {
   if (std::fabs((*machine)[2] - machine_[2]) < 0.254) {
     return refuse(ProblemName::bad_word_value,
                   block.start(),
-                  "the probe starts too close to its end (LinuxCNC asks for 0.254 mm)");
+                  "the probe starts closer than 0.254 mm (0.01 inch) to its end");
   }
   CHAINTRUE_GCODE_TRY(straight(block, MoveKind::probe, *machine));
   z_unknown_ = true;

@@ -230,12 +230,17 @@ Result<void> Interpreter::go_home(const Block& block, int first) {
   const auto through = target(block);
   if (!through) return tl::unexpected(through.error());
   CHAINTRUE_GCODE_TRY(straight(block, MoveKind::rapid, *through));
-  Axes home = machine_;
-  for (std::size_t i = 0; i < home.size(); ++i) {
-    if (block.has_axes() && !block.has(kLetters[i])) continue;
+  Axes home{};
+  for (std::size_t i = 0; i < home.size(); ++i)
     home[i] = parameters_.stored(first + static_cast<int>(i));
+  if (!block.has_axes()) return straight(block, MoveKind::rapid, home);
+  // The words name axes of the program, which a rotated frame does not share with the machine.
+  const Axes home_program = to_program(home);
+  Axes program = to_program(machine_);
+  for (std::size_t i = 0; i < program.size(); ++i) {
+    if (block.has(kLetters[i])) program[i] = home_program[i];
   }
-  return straight(block, MoveKind::rapid, home);
+  return straight(block, MoveKind::rapid, to_machine(program));
 }
 
 }  // namespace chaintrue::gcode

@@ -55,7 +55,7 @@ tl::expected<double, CorrectionFailure> Segmenter::deviation_mm(const Curve& cur
                                                                 double length_mm,
                                                                 CommandWay& way) const {
   int checks = std::max(kFewestChecks,
-                       static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEveryMm))));
+                        static_cast<int>(std::min(1e4, std::ceil(length_mm / kCheckEveryMm))));
   const bool own_way = corrector_.firmware().chain_linear_piece_mm > 0.0;
   // Each of the controller's pieces bows: the worst is in the middle of one, or where two meet.
   if (own_way) checks = 2 * way.pieces() * ((checks + 2 * way.pieces() - 1) / (2 * way.pieces()));
