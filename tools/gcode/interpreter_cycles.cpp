@@ -147,6 +147,8 @@ Result<void> Interpreter::cycle(const Block& block, int motion) {
         cycle_move(block, cycle, MoveKind::rapid, {here_first, here_second, cycle.retract}));
     height = cycle.retract;
   }
+  // G98 crosses no lower than the row began.
+  if (!modes_.retract_to_r) height = std::max(height, sticky_.start);
   cycle.clear = modes_.retract_to_r ? cycle.retract : std::max(sticky_.start, cycle.retract);
   for (double count = repeats; count > 0.0; count -= 1.0) {
     first += step_first;

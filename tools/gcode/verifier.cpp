@@ -121,8 +121,9 @@ class Verification {
         if (begins(move) && (move.kind != MoveKind::rapid || heights_done_)) return false;
         heights_done_ = begins(move);
         piece = {height_of(move.to), move.kind == MoveKind::rapid, speed(move), move.line};
-        if (!heights_done_) intended_.pop();
-        if (move.from.z_mm != move.to.z_mm) return true;
+        const bool changes_height = move.from.z_mm != move.to.z_mm;
+        if (!heights_done_) intended_.pop();  // which ends the life of move
+        if (changes_height) return true;
         continue;
       }
       if (move.arc) {
