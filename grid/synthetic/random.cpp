@@ -121,7 +121,8 @@ double Random::heavy_tailed() {
 
 double normal_quantile(double probability) {
   if (!(probability > 0.0 && probability < 1.0)) {
-    throw std::invalid_argument(fmt::format("normal_quantile: probability {}", probability));
+    // Past the gate of printed numbers: that it is none may be what is wrong.
+    throw std::invalid_argument(::fmt::format("normal_quantile: probability {}", probability));
   }
   const double q = probability - 0.5;
   if (std::abs(q) <= 0.425) {

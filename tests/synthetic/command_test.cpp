@@ -71,19 +71,22 @@ TEST_F(Command, SimulateWritesAGridThatReadsBack) {
 
 TEST_F(Command, SimulateReportsAllSlipsAndWritesNothing) {
   const Outcome outcome =
-      say(simulate("--grid 7q4 --jitter-mm -3 --effect drift:x:rate_mm_per_visit=0.1 --effect rust "
+      say(simulate("--grid 7q4 --effect drift:x:rate_mm_per_visit=0.1 --effect rust "
                    "--offset motor=1 --order zigzag"));
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(
       outcome.said,
       AllOf(
           HasSubstr("--grid: found 7q4, expected columns x rows"),
-          HasSubstr("--jitter-mm: found -3"),
           HasSubstr(
               "found x in drift:x:rate_mm_per_visit=0.1, expected \"left\", \"right\" or \"both\""),
           HasSubstr("found rust, expected id:side:key=value"),
           HasSubstr("--offset: found motor=1"),
           HasSubstr("--order: found zigzag, expected rows")));
+  const Outcome numbers = say(simulate("--grid 7x4 --jitter-mm -3 --length-noise-mm x"));
+  EXPECT_EQ(numbers.code, 3);
+  EXPECT_THAT(numbers.said,
+              AllOf(HasSubstr("--jitter-mm: found -3"), HasSubstr("--length-noise-mm: found x")));
   EXPECT_FALSE(std::filesystem::exists(out_));
 }
 

@@ -255,10 +255,15 @@ std::string at_known_periods(const Diagnosis& found, const Series& series, int c
 Section stability_section(const Diagnosis& found) {
   Section section{.title = "Does the name hang on a few points?"};
   section.blocks.emplace_back(removals_table(found));
-  section.blocks.emplace_back(support_chart(found));
-  section.is_folded = std::all_of(found.stability->removals.begin(),
-                                  found.stability->removals.end(),
-                                  [](const Removal& removal) { return removal.stands; });
+  const auto& removals = found.stability->removals;
+  // Distances have no place on the bed.
+  if (std::any_of(removals.begin(), removals.end(), [](const Removal& removal) {
+        return removal.what == Removal::What::point;
+      })) {
+    section.blocks.emplace_back(support_chart(found));
+  }
+  section.is_folded = std::all_of(
+      removals.begin(), removals.end(), [](const Removal& removal) { return removal.stands; });
   return section;
 }
 

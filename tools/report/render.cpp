@@ -100,7 +100,7 @@ Json json_of(const Value& value, std::string_view where) {
         if constexpr (std::is_same_v<std::decay_t<decltype(held)>, double>) {
           if (!std::isfinite(held)) {
             throw std::invalid_argument(
-                fmt::format("{} is {}, which no chart can draw", where, held));
+                ::fmt::format("{} is {}, which no chart can draw", where, held));
           }
         }
         return held;
