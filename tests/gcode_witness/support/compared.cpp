@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "tests/gcode_witness/support/program_generator.hpp"
 #include "tests/gcode_witness/support/shrink.hpp"
 
@@ -38,6 +41,11 @@ Answer limited(const std::string& program) {
   return ours(program, dialect);
 }
 
+/// Programs on which LinuxCNC 2.9 itself errs, by seed: a break in a while loop that is not entered
+/// ends a later loop (reduced: o100 while [0] / o100 break / o100 endwhile / o102 do / o102 while
+/// [1] comes to its end there, though its last loop is endless).
+constexpr std::array<std::uint64_t, 1> kLinuxCncErrs = {1180};
+
 LanguageRun compare_language(std::uint64_t first_seed,
                              std::uint64_t count,
                              std::size_t most_reduced) {
@@ -50,6 +58,10 @@ LanguageRun compare_language(std::uint64_t first_seed,
     const auto found = differences(programs, &run.accepted);
     for (std::size_t i = 0; i < programs.size(); ++i) {
       if (!found[i]) continue;
+      if (std::find(kLinuxCncErrs.begin(), kLinuxCncErrs.end(), first_seed + from + i) !=
+          kLinuxCncErrs.end()) {
+        continue;
+      }
       ++run.different;
       if (run.failures.size() >= most_reduced) continue;
       const std::string small = shrink(programs[i], differ);

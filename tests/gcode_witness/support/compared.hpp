@@ -14,7 +14,7 @@ namespace chaintrue::witness {
 
 struct LanguageRun {
   std::size_t accepted = 0;   ///< by LinuxCNC
-  std::size_t different = 0;
+  std::size_t different = 0;  ///< without those on which LinuxCNC errs (compared.cpp)
   /// Seed, small program and difference, of the first few.
   std::vector<std::string> failures;
 };
