@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
+#include "tools/gcode/firmware_arc.hpp"
 #include "tools/gcode/path.hpp"
 
 namespace chaintrue::gcode {
@@ -18,27 +20,36 @@ void ControllerCheck::Seen::see(std::size_t where, double size) {
 }
 
 void ControllerCheck::code(std::size_t line, char letter, int tenths) {
-  if (knows_code(firmware_, letter, tenths)) return;
-  unknown_[letter == 'G' ? g_name(tenths) : fmt::format("M{}", tenths / 10)].see(line);
+  const std::string code = letter == 'G' ? g_name(tenths) : fmt::format("M{}", tenths / 10);
+  if (!knows_code(firmware_, letter, tenths)) {
+    unknown_[code].see(line);
+  } else if (const int other = taken_for(firmware_, letter, tenths); other != tenths) {
+    misread_[fmt::format("{} as {}", code, g_name(other))].see(line);
+  }
+}
+
+void ControllerCheck::arc(const Move& move) {
+  const Arc& arc = *move.arc;
+  const double sweep = std::fabs(arc.sweep_rad);
+  if (cuts_straight(firmware_, arc.start_radius_mm, sweep)) {
+    straight_arcs_.see(move.line, arc.start_radius_mm * (1.0 - std::cos(0.5 * sweep)));
+  }
+  const bool upright = arc.first.z_mm != 0.0 || arc.second.z_mm != 0.0;
+  if (upright && !knows_code(firmware_, 'G', 180)) upright_arcs_.see(move.line);
+  if (std::abs(arc.turns) > 1 && firmware_.arcs != ArcRule::exact) arc_turns_.see(move.line);
 }
 
 Result<void> ControllerCheck::move(const Move& move) {
-  if (move.kind == MoveKind::rapid) return {};
   const double length = length_mm(move);
+  if (length == 0.0 && firmware_.phantom_moves) no_length_.see(move.line);
+  if (move.kind == MoveKind::rapid || length == 0.0) return {};
   if (move.arc) {
-    const Arc& arc = *move.arc;
-    const double sweep = std::fabs(arc.sweep_rad);
-    if (sweep < firmware_.straight_arc_rad) {
-      straight_arcs_.see(move.line, arc.start_radius_mm * (1.0 - std::cos(0.5 * sweep)));
-    }
-    const bool upright = arc.first.z_mm != 0.0 || arc.second.z_mm != 0.0;
-    if (upright && !knows_code(firmware_, 'G', 180)) upright_arcs_.see(move.line);
+    arc(move);
     return {};
   }
   const double feed =
       move.feed.mode == FeedMode::inverse_time ? length * move.feed.value : move.feed.value;
   const double speed_mm_per_s = feed / 60.0;
-  if (length == 0.0) return {};
   if (firmware_.tick_s > 0.0 && length < speed_mm_per_s * firmware_.tick_s) {
     short_ticks_.see(move.line);
   }
@@ -60,17 +71,31 @@ Result<void> ControllerCheck::end(std::size_t /*line*/, std::string_view /*word*
   for (const auto& [code, seen] : unknown_) {
     add(seen, "code_not_known", fmt::format("{} {} {}", firmware_.name, firmware_.unknown, code));
   }
+  for (const auto& [codes, seen] : misread_) {
+    add(seen,
+        "code_misread",
+        fmt::format("{} reads {}; the compensated file has no such code", firmware_.name, codes));
+  }
   add(straight_arcs_,
       "arc_cut_straight",
-      fmt::format("{} cuts an arc of less than {} rad as a straight line, here up to {:.3f} mm "
+      fmt::format("{} cuts so short or so wide an arc as a straight line, here up to {:.3f} mm "
                   "beside it; the compensated file holds no arcs",
                   firmware_.name,
-                  firmware_.straight_arc_rad,
                   straight_arcs_.worst));
   add(upright_arcs_,
       "arc_plane_not_known",
       fmt::format("{} knows arcs in X and Y only and would cut this one there; the compensated "
                   "file holds no arcs",
+                  firmware_.name));
+  add(arc_turns_,
+      "arc_turns_not_known",
+      fmt::format("{} {} the P of an arc, its number of turns; the compensated file holds no arcs",
+                  firmware_.name,
+                  firmware_.unknown));
+  add(no_length_,
+      "move_of_no_length",
+      fmt::format("{} takes a move to where the tool is already for one to somewhere else; the "
+                  "compensated file holds no such move",
                   firmware_.name));
   add(short_ticks_,
       "shorter_than_a_tick",

@@ -24,6 +24,8 @@ class ControllerCheck final : public Sink {
   Result<void> end(std::size_t line, std::string_view word) override;
 
  private:
+  void arc(const Move& move);
+
   struct Seen {
     std::size_t line = 0;
     std::size_t count = 0;
@@ -34,8 +36,11 @@ class ControllerCheck final : public Sink {
   const Firmware& firmware_;
   Findings& findings_;
   std::map<std::string, Seen> unknown_;
+  std::map<std::string, Seen> misread_;
   Seen straight_arcs_;
   Seen upright_arcs_;
+  Seen arc_turns_;
+  Seen no_length_;
   Seen short_ticks_;
   Seen short_plans_;
 };

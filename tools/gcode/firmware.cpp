@@ -9,27 +9,24 @@
 namespace chaintrue::gcode {
 namespace {
 
-constexpr const char* kPassesOver = "passes over, in silence,";
+constexpr const char* kIgnores = "ignores";
 constexpr const char* kStops = "stops with an error at";
+
+constexpr Firmware maslow(model::ControllerKind kind, const char* name) {
+  return {.kind = kind,
+          .name = name,
+          .single_precision = true,
+          .tick_s = 0.01,
+          .clamps_to_bed = true,
+          .planned_moves = 1,
+          .unknown = kIgnores,
+          .arcs = ArcRule::maslow};
+}
 
 constexpr Firmware kFirmwares[] = {
     {.kind = model::ControllerKind::ideal, .name = "ideal", .tool_lengths = true},
-    {.kind = model::ControllerKind::maslow_classic,
-     .name = "maslow_classic",
-     .single_precision = true,
-     .tick_s = 0.01,
-     .clamps_to_bed = true,
-     .planned_moves = 1,
-     .unknown = kPassesOver,
-     .straight_arc_rad = 0.08},
-    {.kind = model::ControllerKind::holey,
-     .name = "holey",
-     .single_precision = true,
-     .tick_s = 0.01,
-     .clamps_to_bed = true,
-     .planned_moves = 1,
-     .unknown = kPassesOver,
-     .straight_arc_rad = 0.08},
+    maslow(model::ControllerKind::maslow_classic, "maslow_classic"),
+    maslow(model::ControllerKind::holey, "holey"),
     {.kind = model::ControllerKind::fluidnc_wallplotter,
      .name = "fluidnc_wallplotter",
      .single_precision = true,
@@ -37,15 +34,18 @@ constexpr Firmware kFirmwares[] = {
      .planned_moves = 16,
      .acceleration_mm_per_s2 = 25.0,
      .unknown = kStops,
-     .arc_chord_mm = 0.002},
+     .arcs = ArcRule::grbl,
+     .phantom_moves = true},
 };
 
-constexpr int kMaslowG[] = {0, 10, 20, 30, 40, 100, 200, 210, 382, 400, 900, 910};
-constexpr int kMaslowM[] = {0, 10, 20, 30, 40, 50, 60, 300};
-constexpr int kGrblG[] = {0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 210, 280, 281,
-                          300, 301, 382, 383, 384, 385, 400, 431, 490, 530, 540, 550, 560,
-                          570, 580, 590, 610, 800, 900, 910, 911, 920, 921, 930, 940};
-constexpr int kGrblM[] = {0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 300, 620, 630, 640, 650, 670, 680};
+constexpr int kMaslowG[] = {0, 10, 20, 30, 40, 100, 200, 210, 380, 400, 900, 910};
+constexpr int kMaslowM[] = {0, 10, 20, 30, 40, 50, 60, 300, 1060, 1070};
+constexpr int kFluidNcG[] = {0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 210,
+                             280, 281, 300, 301, 382, 383, 384, 385, 386, 387, 388,
+                             389, 400, 431, 490, 530, 540, 550, 560, 570, 580, 590,
+                             610, 800, 900, 910, 911, 920, 921, 930, 940};
+constexpr int kFluidNcM[] = {0,  10, 20, 30,  40,  50,  60,  70,  71,
+                             80, 81, 90, 300, 620, 630, 640, 650, 670, 680};
 
 template <std::size_t size>
 bool one_of(const int (&list)[size], int value) {
@@ -60,14 +60,19 @@ const Firmware& firmware(model::ControllerKind kind) {
                        [&](const Firmware& candidate) { return candidate.kind == kind; });
 }
 
+int taken_for(const Firmware& firmware, char letter, int tenths) {
+  return firmware.arcs == ArcRule::maslow && letter == 'G' ? tenths / 10 * 10 : tenths;
+}
+
 bool knows_code(const Firmware& firmware, char letter, int tenths) {
+  const int code = taken_for(firmware, letter, tenths);
   switch (firmware.kind) {
     case model::ControllerKind::ideal:
       return true;
     case model::ControllerKind::fluidnc_wallplotter:
-      return letter == 'G' ? one_of(kGrblG, tenths) : one_of(kGrblM, tenths);
+      return letter == 'G' ? one_of(kFluidNcG, code) : one_of(kFluidNcM, code);
     default:
-      return letter == 'G' ? one_of(kMaslowG, tenths) : one_of(kMaslowM, tenths);
+      return letter == 'G' ? one_of(kMaslowG, code) : one_of(kMaslowM, code);
   }
 }
 

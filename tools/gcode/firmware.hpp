@@ -5,20 +5,22 @@
 /// model/controllers/payout.hpp.)
 ///
 /// Sources, by file of the firmware:
-///   maslow_classic  MaslowCNC/Firmware Motion.cpp (coordinatedMove: a position every LOOPINTERVAL
-///   =
-///                   10000 us, float, one move after the other; arc: a line below 0.08 rad),
-///                   Kinematics.cpp (_verifyValidTarget clamps to half the bed), GCode.cpp
-///                   (executeGcodeLine, executeMcodeLine: what is known, the rest is ignored)
-///   holey           taken to move as maslow_classic does: no source of its own was found
-///   fluidnc_wallplotter  bdring/FluidNC WallPlotter.cpp (cartesian_to_motors: pieces of
-///                   segment_length, 10 mm by default, chain lengths linear within a piece, summed
-///                   up in float), MachineConfig.h (arc_tolerance 0.002 mm, planner_blocks 16),
-///                   Axis.h (acceleration 25 mm/s^2), arcs as in gnea/grbl 1.1 motion_control.c
-///                   (mc_arc: chords by $12, 0.002 mm), planner.h (BLOCK_BUFFER_SIZE 16), codes as
-///                   in gcode.c; N_ARC_CORRECTION bounds the error of a chord's rotation: by
-///                   its formula in float 1.4e-4 mm at a radius of 1 mm, 1.5e-3 mm at 0.1 mm,
-///                   1.6e-4 mm at 500 mm over a full circle; it is not simulated
+///
+///   maslow_classic       MaslowCNC/Firmware, cnc_ctrl_v1. Motion.cpp, coordinatedMove: a position
+///                        every LOOPINTERVAL (10000 us), in float, one move after the other.
+///                        Kinematics.cpp, _verifyValidTarget: clamps to half the bed. GCode.cpp,
+///                        executeGcodeLine, executeMcodeLine: the codes; a code's number is cut to
+///                        an integer, the rest are answered "unsupported and ignored".
+///   holey                madgrizzle/OpticalFirmware (the firmware with stretch and catenary),
+///                        cnc_ctrl_v1, the same files and functions: it moves and reads alike.
+///   fluidnc_wallplotter  bdring/FluidNC, FluidNC/src. Kinematics/WallPlotter.cpp,
+///                        cartesian_to_motors: pieces of segment_length (10 mm by default), chain
+///                        lengths linear within a piece, summed up in float; a move of no length is
+///                        sent to the motors as if x and y were chain lengths. GCode.cpp,
+///                        gc_execute_line: the codes, Error.h: 20. Machine/MachineConfig.h:
+///                        arc_tolerance 0.002 mm, planner_blocks 16. Machine/Axis.h: 25 mm/s^2.
+///
+/// Arcs: firmware_arc.hpp.
 #pragma once
 
 #include <optional>
@@ -27,6 +29,9 @@
 #include "model/machine.hpp"
 
 namespace chaintrue::gcode {
+
+/// How arcs are cut (firmware_arc.hpp).
+enum class ArcRule { exact, maslow, grbl };
 
 struct Firmware {
   model::ControllerKind kind = model::ControllerKind::ideal;
@@ -46,15 +51,16 @@ struct Firmware {
   double acceleration_mm_per_s2 = 0.0;
   /// What it does to a code that it does not know.
   const char* unknown = "";
-  /// Arcs become chords that stay this close (grbl's $12, FluidNC's arc_tolerance_mm); 0: arcs.
-  double arc_chord_mm = 0.0;
-  /// Arcs that turn by less are cut as one straight line.
-  double straight_arc_rad = 0.0;
+  ArcRule arcs = ArcRule::exact;
+  /// A move of no length goes somewhere else.
+  bool phantom_moves = false;
 };
 
 [[nodiscard]] const Firmware& firmware(model::ControllerKind kind);
 
-/// Whether it acts on a code ('G' or 'M', in tenths: G38.2 is 382).
+/// The code that it takes a code for ('G' or 'M', in tenths: G38.2 is 382).
+[[nodiscard]] int taken_for(const Firmware& firmware, char letter, int tenths);
+/// Whether it acts on the code that it takes this one for.
 [[nodiscard]] bool knows_code(const Firmware& firmware, char letter, int tenths);
 
 /// Half the width and height that the controller clamps to; empty where it does not clamp.

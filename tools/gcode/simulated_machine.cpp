@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/gcode/firmware_arc.hpp"
 #include "tools/gcode/path.hpp"
 
 namespace chaintrue::gcode {
@@ -164,29 +165,16 @@ Result<bool> SimulatedMachine::chain_linear(Point from,
   return true;
 }
 
-/// As the firmware cuts an arc of the program that it is given.
 Result<bool> SimulatedMachine::arc(const Move& move, const Visit& visit) {
-  const Firmware& firmware = corrector_.firmware();
-  const double sweep = std::fabs(move.arc->sweep_rad);
-  const double radius = std::max(move.arc->start_radius_mm, move.arc->end_radius_mm);
-  double chords = 1.0;
-  if (firmware.arc_chord_mm > 0.0) {
-    // grbl and its kin: motion_control.c, mc_arc.
-    const double tolerance = std::min(firmware.arc_chord_mm, radius);
-    chords = std::max(
-        1.0, std::floor(0.5 * sweep * radius / std::sqrt(tolerance * (2.0 * radius - tolerance))));
-  } else if (sweep >= firmware.straight_arc_rad) {
-    const double bow = std::min(options_.flatness_mm, radius);
-    chords = std::max(8.0, std::ceil(sweep / (2.0 * std::acos(1.0 - bow / radius))));
-  }
   Point here = as_read(move.from);
-  for (double i = 1.0; i <= chords; i += 1.0) {
-    const Point next = as_read(at(move, i / chords));
-    const auto done = straight(here, next, move.line, visit);
-    if (!done || !*done) return done;
+  Result<bool> done = true;
+  for_each_chord(corrector_.firmware(), move, options_.flatness_mm, [&](Point end) {
+    const Point next = as_read(end);
+    done = straight(here, next, move.line, visit);
     here = next;
-  }
-  return true;
+    return done && *done;
+  });
+  return done;
 }
 
 }  // namespace chaintrue::gcode

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What controllers as sold make of a program, by the formulas of their firmware.
+#include "tools/gcode/controller_check.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/gcode/program_events.hpp"
+#include "tools/gcode/firmware_arc.hpp"
+#include "tools/gcode/path.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+using model::ControllerKind;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr ControllerKind kAll[] = {ControllerKind::ideal,
+                                   ControllerKind::maslow_classic,
+                                   ControllerKind::holey,
+                                   ControllerKind::fluidnc_wallplotter};
+
+std::vector<std::string> notes(ControllerKind kind, const std::string& program) {
+  Findings findings;
+  ControllerCheck check(firmware(kind), findings);
+  EXPECT_TRUE(run_text(program, check));
+  std::vector<std::string> lines;
+  for (const Note& note : findings.notes) {
+    lines.push_back(std::to_string(note.line) + " " + std::string(note.name) + ": " +
+                    note.sentence);
+  }
+  return lines;
+}
+
+std::vector<Point> chords(ControllerKind kind, const std::string& program) {
+  ProgramEvents events;
+  EXPECT_TRUE(run_text(program, events));
+  std::vector<Point> ends{events.moves.back().from};
+  for_each_chord(firmware(kind), events.moves.back(), 1e-3, [&](Point end) {
+    ends.push_back(end);
+    return true;
+  });
+  return ends;
+}
+
+TEST(ControllerCheck, WhatEveryControllerFollowsGetsNoNote) {
+  for (const ControllerKind kind : kAll) {
+    EXPECT_THAT(notes(kind, "G21 G90\nG0 X10 Y10\nM3\nF600 G1 X40\nG3 X40 Y30 J10\nM5\nM2\n"),
+                IsEmpty());
+  }
+}
+
+TEST(ControllerCheck, CodesAreNamedAsTheFirmwareTakesThem) {
+  EXPECT_THAT(notes(ControllerKind::ideal, "G91.1\nG64 P0.1\nM2\n"), IsEmpty());
+  for (const ControllerKind kind : {ControllerKind::maslow_classic, ControllerKind::holey}) {
+    const std::string name = firmware(kind).name;
+    EXPECT_THAT(notes(kind, "G91.1 G21\nG0 X10 Y10\nG64 P0.1\nF600 G1 X40\nM2\n"),
+                ElementsAre("3 code_not_known: " + name + " ignores G64",
+                            HasSubstr("1 code_misread: " + name + " reads G91.1 as G91")));
+  }
+  EXPECT_THAT(notes(ControllerKind::fluidnc_wallplotter,
+                    "G91.1 G21\nG0 X10 Y10\nG64 P0.1\nF600 G1 X40\nG59.1 G1 X30\nM2\n"),
+              ElementsAre(HasSubstr("5 code_not_known: fluidnc_wallplotter stops with an error at "
+                                    "G59.1"),
+                          HasSubstr("3 code_not_known: fluidnc_wallplotter stops with an error at "
+                                    "G64")));
+}
+
+TEST(ControllerCheck, AMoveOfNoLengthIsAPhantomMoveForWallPlottersAlone) {
+  const std::string program = "G0 X10 Y10\nF600 G1 X40\nG1 X40 Y10\nG1 X50\nM2\n";
+  for (const ControllerKind kind : kAll) {
+    if (kind == ControllerKind::fluidnc_wallplotter) {
+      EXPECT_THAT(notes(kind, program), ElementsAre(HasSubstr("3 move_of_no_length: ")));
+    } else {
+      EXPECT_THAT(notes(kind, program), IsEmpty());
+    }
+  }
+}
+
+TEST(ControllerCheck, TurnsOfAnArcAreKnownToTheIdealAlone) {
+  const std::string program = "G0 X10 Y10\nF600 G3 X10 Y10 I10 P3\nM2\n";
+  EXPECT_THAT(notes(ControllerKind::ideal, program), IsEmpty());
+  EXPECT_THAT(notes(ControllerKind::maslow_classic, program),
+              ElementsAre(HasSubstr("2 arc_turns_not_known: maslow_classic ignores the P")));
+  EXPECT_THAT(
+      notes(ControllerKind::fluidnc_wallplotter, program),
+      ElementsAre(HasSubstr("2 arc_turns_not_known: fluidnc_wallplotter stops with an error at")));
+}
+
+TEST(ControllerCheck, AShortArcIsAnnouncedWithItsErrorOnMaslows) {
+  // 0.06 rad at 1000 mm: 1000 (1 - cos 0.03) = 0.450 mm beside the line.
+  const std::string program = "G0 X1000 Y0\nF600 G3 X998.2005 Y59.9640 I-1000 J0\nM2\n";
+  EXPECT_THAT(notes(ControllerKind::maslow_classic, program),
+              ElementsAre(HasSubstr("2 arc_cut_straight: maslow_classic cuts so short or so wide "
+                                    "an arc as a straight line, here up to 0.450 mm beside it")));
+  EXPECT_THAT(notes(ControllerKind::fluidnc_wallplotter, program), IsEmpty());
+}
+
+TEST(FirmwareArc, MaslowsCutStraightWhereTheirChordHeightSaysSo) {
+  const Firmware& classic = firmware(ControllerKind::maslow_classic);
+  // r - sqrt(r^2 - c/4) < 0.01  <=>  sin(sweep / 2) < 0.04 - 0.0002 / r: 0.0800 rad for a wide arc,
+  // 0.0796 at 1 mm; in float the height of a wide arc is known to one part in 160. Where c > 4 r^2
+  // the root has no value, and the arc stays.
+  EXPECT_TRUE(cuts_straight(classic, 1000.0, 0.079));
+  EXPECT_FALSE(cuts_straight(classic, 1000.0, 0.081));
+  EXPECT_TRUE(cuts_straight(classic, 1.0, 0.0795));
+  EXPECT_FALSE(cuts_straight(classic, 1.0, 0.0797));
+  EXPECT_FALSE(cuts_straight(classic, 0.004, 0.02));
+  EXPECT_TRUE(cuts_straight(classic, 25401.0, 1.0));
+  EXPECT_FALSE(cuts_straight(classic, 25399.0, 1.0));
+  EXPECT_FALSE(cuts_straight(firmware(ControllerKind::fluidnc_wallplotter), 1000.0, 0.01));
+  EXPECT_FALSE(cuts_straight(firmware(ControllerKind::ideal), 1000.0, 0.01));
+}
+
+TEST(FirmwareArc, GrblsChordsKeepToTheCircleAndEndWhereTheyShould) {
+  // radius, most that a chord's end may be beside the circle: twelve turns by the small-angle formula,
+  // each too long by b^4/8 - b^4/24 or so, b = 2 sqrt(2 h / r) the angle of a chord; and 13 roundings
+  // of single precision.
+  for (const double radius : {0.1, 0.5, 1.0, 5.0, 50.0, 500.0}) {
+    const double step = 2.0 * std::sqrt(2.0 * 0.002 / radius);
+    const double bound =
+        radius * (12.0 * std::pow(step, 4) / 8.0 + 13.0 * std::pow(2.0, -23)) + 500.0 * 6e-8;
+    const std::string r = std::to_string(radius);
+    const auto ends =
+        chords(ControllerKind::fluidnc_wallplotter, "G0 X0 Y0\nF600 G3 X0 Y0 I" + r + "\nM2\n");
+    // mc_arc: floor(pi r / sqrt(h (2 r - h))) chords in a whole turn.
+    EXPECT_EQ(ends.size() - 1,
+              std::floor(std::numbers::pi * radius / std::sqrt(0.002 * (2.0 * radius - 0.002))));
+    double worst = 0.0;
+    for (const Point& end : ends) {
+      worst = std::max(worst, std::fabs(std::hypot(end.x_mm - radius, end.y_mm) - radius));
+    }
+    EXPECT_LE(worst, bound) << "radius " << radius;
+    if (radius <= 1.0) {
+      EXPECT_GT(worst, 1e-5) << "the small-angle formula at radius " << radius;
+    }
+    EXPECT_EQ(ends.back(), (Point{0.0, 0.0, 0.0}));
+  }
+}
+
+TEST(FirmwareArc, EveryRuleGoesTheSameWayRoundInEveryPlane) {
+  for (const ControllerKind kind : kAll) {
+    for (const std::string program : {"G0 X10 Y0 Z0\nF60 G3 X0 Y10 I-10\nM2\n",
+                                      "G0 X10 Y0 Z0\nF60 G2 X0 Y10 I-10\nM2\n",
+                                      "G0 X10 Y0 Z0\nF60 G3 X10 Y0 Z4 I-10\nM2\n",
+                                      "G0 X10 Y0 Z0\nG18 F60 G2 X0 Z10 I-10\nM2\n",
+                                      "G0 X0 Y10 Z0\nG19 F60 G3 Y0 Z10 J-10\nM2\n"}) {
+      ProgramEvents events;
+      ASSERT_TRUE(run_text(program, events));
+      const auto ends = chords(kind, program);
+      ASSERT_GT(ends.size(), 8U);
+      double way = 0.0;
+      for (std::size_t i = 1; i < ends.size(); ++i) way += distance_mm(ends[i - 1], ends[i]);
+      // Chords that bow by 0.002 mm at 10 mm are shorter than the arc by b^2/24 = 0.007 %; Maslow's
+      // whole turn lacks 0.0002 rad, which the last line makes up for.
+      EXPECT_NEAR(way, length_mm(events.moves.back()), 2e-4 * way) << program;
+      EXPECT_EQ(ends.back(), events.moves.back().to);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue::gcode

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Arcs by the formulas of the firmwares, in their number format.
+#include "tools/gcode/firmware_arc.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tools/gcode/path.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+using Visit = std::function<bool(Point)>;
+
+constexpr float kMaslowPi = 3.1415F;
+constexpr float kGrblArcToleranceMm = 0.002F;
+constexpr int kGrblArcCorrection = 12;
+constexpr float kGrblAngleEpsilon = 5e-7F;
+
+/// In the arc's plane, from its centre, with the height along its axis as a share of the whole.
+class PlaneOfArc {
+ public:
+  explicit PlaneOfArc(const Move& move) : arc_(*move.arc) {}
+
+  [[nodiscard]] Point at(double u, double v, double share) const {
+    const Point& a = arc_.first;
+    const Point& b = arc_.second;
+    const double h = arc_.start_height_mm + share * (arc_.end_height_mm - arc_.start_height_mm);
+    return {arc_.centre.x_mm + u * a.x_mm + v * b.x_mm + h * (a.y_mm * b.z_mm - a.z_mm * b.y_mm),
+            arc_.centre.y_mm + u * a.y_mm + v * b.y_mm + h * (a.z_mm * b.x_mm - a.x_mm * b.z_mm),
+            arc_.centre.z_mm + u * a.z_mm + v * b.z_mm + h * (a.x_mm * b.y_mm - a.y_mm * b.x_mm)};
+  }
+  [[nodiscard]] double start_angle() const { return arc_.start_angle_rad; }
+  [[nodiscard]] double radius() const { return arc_.start_radius_mm; }
+  /// Of the last turn, with the arc's sign; 0 for whole turns.
+  [[nodiscard]] double last_turn() const {
+    return std::fmod(arc_.sweep_rad, 2.0 * std::numbers::pi);
+  }
+  [[nodiscard]] bool clockwise() const { return arc_.sweep_rad < 0.0; }
+
+ private:
+  const Arc& arc_;
+};
+
+/// The angle from start to end in the arc's direction, with this firmware's idea of a whole turn.
+float turned(const PlaneOfArc& plane, float whole_turn, float epsilon) {
+  const auto angle = static_cast<float>(plane.last_turn());
+  if (plane.clockwise()) return angle >= -epsilon ? angle - whole_turn : angle;
+  return angle <= epsilon ? angle + whole_turn : angle;
+}
+
+double chords_within(double radius, double sweep, double bow_mm) {
+  const double bow = std::min(bow_mm, radius);
+  return std::max(8.0, std::ceil(sweep / (2.0 * std::acos(1.0 - bow / radius))));
+}
+
+void exact(const Move& move, double bow_mm, const Visit& visit) {
+  const double radius = std::max(move.arc->start_radius_mm, move.arc->end_radius_mm);
+  const double chords = chords_within(radius, std::fabs(move.arc->sweep_rad), bow_mm);
+  for (double i = 1.0; i <= chords; i += 1.0) {
+    if (!visit(at(move, i / chords))) return;
+  }
+}
+
+void as_maslow(const Move& move, double bow_mm, const Visit& visit) {
+  const PlaneOfArc plane(move);
+  const float theta = turned(plane, 2.0F * kMaslowPi, 0.0F);
+  const double chords = chords_within(plane.radius(), std::fabs(theta), bow_mm);
+  for (double i = 1.0; i <= chords; i += 1.0) {
+    const double share = i / chords;
+    const double angle = plane.start_angle() + share * theta;
+    if (!visit(plane.at(
+            plane.radius() * std::cos(angle), plane.radius() * std::sin(angle), share)))
+      return;
+  }
+  visit(move.to);
+}
+
+void as_grbl(const Move& move, const Visit& visit) {
+  const PlaneOfArc plane(move);
+  const auto start = static_cast<float>(plane.start_angle());
+  const auto radius = static_cast<float>(plane.radius());
+  const float sweep =
+      turned(plane, 2.0F * std::numbers::pi_v<float>, kGrblAngleEpsilon);
+  // Below half the tolerance the firmware's root has no value: the arc is its end.
+  const float root = kGrblArcToleranceMm * (2.0F * radius - kGrblArcToleranceMm);
+  const float chords = root > 0.0F ? std::floor(std::fabs(0.5F * sweep * radius) / std::sqrt(root))
+                                   : 0.0F;
+  const float step = sweep / std::max(1.0F, chords);
+  const float twice = 2.0F - step * step;
+  const float sine = step * 0.16666667F * (twice + 4.0F);
+  const float cosine = 0.5F * twice;
+  const float start_u = radius * std::cos(start);
+  const float start_v = radius * std::sin(start);
+  float u = start_u;
+  float v = start_v;
+  int since_exact = 0;
+  for (float i = 1.0F; i < chords; i += 1.0F) {
+    const bool by_small_angle = since_exact < kGrblArcCorrection;
+    const float c = by_small_angle ? cosine : std::cos(i * step);
+    const float s = by_small_angle ? sine : std::sin(i * step);
+    const float from_u = by_small_angle ? u : start_u;
+    const float from_v = by_small_angle ? v : start_v;
+    u = from_u * c - from_v * s;
+    v = from_u * s + from_v * c;
+    since_exact = by_small_angle ? since_exact + 1 : 0;
+    if (!visit(plane.at(u, v, i / chords))) return;
+  }
+  visit(move.to);
+}
+
+}  // namespace
+
+bool cuts_straight(const Firmware& firmware, double radius_mm, double sweep_rad) {
+  if (firmware.arcs != ArcRule::maslow) return false;
+  const auto radius = static_cast<float>(radius_mm);
+  const auto chord = static_cast<float>(2.0 * radius_mm * std::sin(0.5 * sweep_rad));
+  const float height = radius - std::sqrt(radius * radius - 0.25F * chord);
+  return (std::fabs(height) < 0.01F && sweep_rad < 0.5) || radius > 25400.0F;
+}
+
+void for_each_chord(const Firmware& firmware,
+                    const Move& arc,
+                    double bow_mm,
+                    const std::function<bool(Point)>& visit) {
+  const double sweep = std::fabs(turned(PlaneOfArc(arc), 2.0F * kMaslowPi, 0.0F));
+  if (cuts_straight(firmware, arc.arc->start_radius_mm, sweep)) {
+    visit(arc.to);
+    return;
+  }
+  switch (firmware.arcs) {
+    case ArcRule::exact:
+      return exact(arc, bow_mm, visit);
+    case ArcRule::maslow:
+      return as_maslow(arc, bow_mm, visit);
+    case ArcRule::grbl:
+      return as_grbl(arc, visit);
+  }
+}
+
+}  // namespace chaintrue::gcode
