@@ -10,8 +10,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "tools/gcode/arc_curve.hpp"
-
 namespace chaintrue::gcode {
 namespace {
 
@@ -28,8 +26,8 @@ constexpr double kCurvatureSafety = 2.0;
 constexpr double kSpare = 0.045;
 /// Half a unit of single precision below 2048 mm, in X and Y.
 constexpr double kSinglePrecisionMm = 0.5 * 1.25e-4 * 1.5;
-/// Share of the tolerance that interpolating an arc's correction may cost.
-constexpr double kArcShare = 0.005;
+/// Share of the tolerance that tabulating the commands may cost; it lies within kSpare.
+constexpr double kTableShare = 0.005;
 /// A circle keeps its shape even where the tolerance would let it become a point.
 constexpr double kMostTurnRad = 0.25 * std::numbers::pi;
 
@@ -65,7 +63,8 @@ Compensator::Compensator(const Corrector& corrector, CompensateOptions options, 
     : corrector_(corrector),
       options_(std::move(options)),
       emitter_(std::move(out), options_.decimals),
-      segmenter_(corrector, chord_tolerance(options_, corrector.firmware().single_precision)) {
+      segmenter_(corrector, chord_tolerance(options_, corrector.firmware().single_precision)),
+      field_(corrector, kTableShare * options_.tolerance_mm) {
   const double curvature = kCurvatureSafety * corrector.sampled_curvature_per_mm();
   const bool straight = corrector.firmware().chain_linear_piece_mm == 0.0;
   if (straight) {
@@ -101,11 +100,13 @@ Move Compensator::placed(const Move& move) const {
   return result;
 }
 
-Curve Compensator::curve(const Move& move, ChainDirections directions) const {
+Curve Compensator::curve(const Move& move, ChainDirections directions) {
   return [this, &move, directions](double t) -> tl::expected<PathSample, CorrectionFailure> {
     const Point target = at(move, t);
-    const auto command =
-        corrector_.command({target.x_mm, target.y_mm}, options_.half_play_mm, directions);
+    const model::BedPoint place{target.x_mm, target.y_mm};
+    const auto command = has_play()
+                             ? corrector_.command(place, options_.half_play_mm, directions)
+                             : field_.command(place);
     if (!command) return tl::unexpected(command.error());
     return PathSample{t, target, {command->x_mm, command->y_mm, target.z_mm}};
   };
@@ -174,38 +175,12 @@ Result<void> Compensator::piece(
   }
   const double turn = move.arc ? std::fabs(move.arc->sweep_rad) * (to - from) : 0.0;
   const double longest = turn > kMostTurnRad ? length * kMostTurnRad / turn : length;
-  const auto done = move.arc && !has_play()
-                        ? along_arc(move, feed, commands, *start, {length, longest}, outcome)
-                        : segmenter_.run(commands, *start, to, {length, longest}, visit);
+  const auto done = segmenter_.run(commands, *start, to, {length, longest}, visit);
   if (!done) {
     const Point place = here_ ? here_->target : at(move, from);
     object(move, done.error(), place.x_mm, place.y_mm);
   }
   return outcome;
-}
-
-/// The places of the commands are found on the interpolated curve; what is written is exact.
-tl::expected<void, CorrectionFailure> Compensator::along_arc(const Move& move,
-                                                             double feed,
-                                                             const Curve& exact,
-                                                             const PathSample& start,
-                                                             Segmenter::Extent extent,
-                                                             Result<void>& outcome) {
-  ArcCurve arc(move, exact, kArcShare * options_.tolerance_mm);
-  double behind = start.t;
-  std::optional<CorrectionFailure> failure;
-  const auto done = segmenter_.run([&](double t) { return arc.at(t, behind); },
-                                   start,
-                                   1.0,
-                                   extent,
-                                   [&](const PathSample& sample) {
-                                     behind = sample.t;
-                                     const auto command = exact(sample.t);
-                                     if (!command) failure = command.error();
-                                     if (command && outcome) outcome = emit(move, feed, *command);
-                                   });
-  if (failure) return tl::unexpected(*failure);
-  return done;
 }
 
 /// In pieces between the places where a chain turns around, if that matters.

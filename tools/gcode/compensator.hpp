@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/gcode/command_field.hpp"
 #include "tools/gcode/emitter.hpp"
 #include "tools/gcode/program.hpp"
 #include "tools/gcode/segmenter.hpp"
@@ -101,17 +102,11 @@ class Compensator final : private Sink {
   void note(const Note& note) override;
   Result<void> end(std::size_t line, std::string_view word) override;
 
-  [[nodiscard]] Curve curve(const Move& move, ChainDirections directions) const;
+  [[nodiscard]] Curve curve(const Move& move, ChainDirections directions);
   Result<void> go_to_assumed_start(const Move& move);
   Result<void> along(const Move& move, double feed);
   Result<void> piece(
       const Move& move, double feed, double from, double to, ChainDirections directions);
-  tl::expected<void, CorrectionFailure> along_arc(const Move& move,
-                                                  double feed,
-                                                  const Curve& exact,
-                                                  const PathSample& start,
-                                                  Segmenter::Extent extent,
-                                                  Result<void>& outcome);
   Result<void> emit(const Move& move, double feed, const PathSample& sample);
   void examine(const Move& move, const PathSample& sample);
   void object(const Move& move, CorrectionFailure failure, double x_mm, double y_mm);
@@ -127,6 +122,7 @@ class Compensator final : private Sink {
   CompensateOptions options_;
   Emitter emitter_;
   Segmenter segmenter_;
+  CommandField field_;
   double unchecked_length_mm_ = 0.0;
   Findings findings_;
   CompensateSummary summary_;

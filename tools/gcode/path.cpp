@@ -15,7 +15,11 @@ Point between(Point a, Point b, double t) {
 }
 
 double distance_mm(Point a, Point b) {
-  return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm, a.z_mm - b.z_mm);
+  // Millimetres neither overflow nor vanish when squared; std::hypot is four times slower.
+  const double dx = a.x_mm - b.x_mm;
+  const double dy = a.y_mm - b.y_mm;
+  const double dz = a.z_mm - b.z_mm;
+  return std::sqrt(dx * dx + dy * dy + dz * dz);
 }
 
 double nearest_on_line(Point a, Point b, Point p) {
