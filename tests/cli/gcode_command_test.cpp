@@ -92,7 +92,8 @@ TEST_F(GcodeCommand, OutputThatDoesNotHoldIsNotWritten) {
   EXPECT_THAT(outcome.err, HasSubstr("the compensated program does not hold 0.05 mm: line "));
   EXPECT_THAT(outcome.err, HasSubstr("the program is not written; try another --tolerance-mm"));
   EXPECT_FALSE(exists("out.nc"));
-  EXPECT_THAT(content_of(folder_ / "r.html"), HasSubstr("Not safe to run, and not written: on a simulated ideal"));
+  EXPECT_THAT(content_of(folder_ / "r.html"),
+              HasSubstr("Not safe to run, and not written: on a simulated ideal"));
   // Without the wave it holds.
   EXPECT_EQ(run("gcode compensate part.nc --map map.json -o out.nc").code, 0);
 }

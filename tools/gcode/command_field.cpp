@@ -17,7 +17,9 @@ constexpr int kMostCells = 32;
 /// Nodes, and the five looks into every cell.
 int cost(int cells) { return (cells + 1) * (cells + 1) + 5 * cells * cells; }
 
-int tiles(double length_mm) { return std::max(1, static_cast<int>(std::ceil(length_mm / kTileMm))); }
+int tiles(double length_mm) {
+  return std::max(1, static_cast<int>(std::ceil(length_mm / kTileMm)));
+}
 
 }  // namespace
 

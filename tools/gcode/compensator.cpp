@@ -104,9 +104,8 @@ Curve Compensator::curve(const Move& move, ChainDirections directions) {
   return [this, &move, directions](double t) -> tl::expected<PathSample, CorrectionFailure> {
     const Point target = at(move, t);
     const model::BedPoint place{target.x_mm, target.y_mm};
-    const auto command = has_play()
-                             ? corrector_.command(place, options_.half_play_mm, directions)
-                             : field_.command(place);
+    const auto command = has_play() ? corrector_.command(place, options_.half_play_mm, directions)
+                                    : field_.command(place);
     if (!command) return tl::unexpected(command.error());
     return PathSample{t, target, {command->x_mm, command->y_mm, target.z_mm}};
   };

@@ -71,8 +71,7 @@ void as_maslow(const Move& move, double bow_mm, const Visit& visit) {
   for (double i = 1.0; i <= chords; i += 1.0) {
     const double share = i / chords;
     const double angle = plane.start_angle() + share * theta;
-    if (!visit(plane.at(
-            plane.radius() * std::cos(angle), plane.radius() * std::sin(angle), share)))
+    if (!visit(plane.at(plane.radius() * std::cos(angle), plane.radius() * std::sin(angle), share)))
       return;
   }
   visit(move.to);
@@ -82,12 +81,11 @@ void as_grbl(const Move& move, const Visit& visit) {
   const PlaneOfArc plane(move);
   const auto start = static_cast<float>(plane.start_angle());
   const auto radius = static_cast<float>(plane.radius());
-  const float sweep =
-      turned(plane, 2.0F * std::numbers::pi_v<float>, kGrblAngleEpsilon);
+  const float sweep = turned(plane, 2.0F * std::numbers::pi_v<float>, kGrblAngleEpsilon);
   // Below half the tolerance the firmware's root has no value: the arc is its end.
   const float root = kGrblArcToleranceMm * (2.0F * radius - kGrblArcToleranceMm);
-  const float chords = root > 0.0F ? std::floor(std::fabs(0.5F * sweep * radius) / std::sqrt(root))
-                                   : 0.0F;
+  const float chords =
+      root > 0.0F ? std::floor(std::fabs(0.5F * sweep * radius) / std::sqrt(root)) : 0.0F;
   const float step = sweep / std::max(1.0F, chords);
   const float twice = 2.0F - step * step;
   const float sine = step * 0.16666667F * (twice + 4.0F);

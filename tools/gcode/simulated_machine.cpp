@@ -132,8 +132,8 @@ Result<bool> SimulatedMachine::chain_linear(Point from,
   const Point step{(to.x_mm - from.x_mm) / pieces,
                    (to.y_mm - from.y_mm) / pieces,
                    (to.z_mm - from.z_mm) / pieces};
-  const double looks = std::ceil(
-      length / pieces / std::sqrt(8.0 * options_.flatness_mm * kShortestChainMm));
+  const double looks =
+      std::ceil(length / pieces / std::sqrt(8.0 * options_.flatness_mm * kShortestChainMm));
   Point here = from;
   auto paid = corrector_.paid_out({here.x_mm, here.y_mm});
   for (double piece = 1.0; paid && piece <= pieces; piece += 1.0) {

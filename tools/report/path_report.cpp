@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -99,9 +100,9 @@ Outline view_of(const PathReport& report, double magnification) {
                     report.sheet.y_max_mm));
   }
   Outline view = part_of(report, magnification);
-  const double margin = kMargin * std::max({view.x_max_mm - view.x_min_mm,
-                                            view.y_max_mm - view.y_min_mm,
-                                            kLeastViewMm});
+  const double margin =
+      kMargin *
+      std::max({view.x_max_mm - view.x_min_mm, view.y_max_mm - view.y_min_mm, kLeastViewMm});
   view = {view.x_min_mm - margin,
           view.x_max_mm + margin,
           view.y_min_mm - margin,
@@ -109,6 +110,35 @@ Outline view_of(const PathReport& report, double magnification) {
   stretch(view.x_min_mm, view.x_max_mm, (view.y_max_mm - view.y_min_mm) / kTallest);
   stretch(view.y_min_mm, view.y_max_mm, (view.x_max_mm - view.x_min_mm) * kFlattest);
   return view;
+}
+
+/// A cut is drawn in parts of this share of the view, so that its colour follows the correction
+/// along it.
+constexpr double kColouredShare = 1.0 / 60.0;
+
+int parts_of(const PathPiece& piece, const Outline& view, std::size_t pieces) {
+  // Where there are many pieces they are short, or as many as a page can hold.
+  if (piece.is_rapid || pieces > PathReport::kMostPieces / 60) return 1;
+  const double length = std::hypot(piece.x1_mm - piece.x0_mm, piece.y1_mm - piece.y0_mm);
+  return std::clamp(
+      static_cast<int>(length / (kColouredShare * (view.x_max_mm - view.x_min_mm))), 1, 60);
+}
+
+void add_rows(DataTable& table, const PathPiece& piece, int parts) {
+  const auto row = [&](int i) {
+    const double t = static_cast<double>(i) / parts;
+    return std::array{
+        piece.x0_mm + t * (piece.x1_mm - piece.x0_mm),
+        piece.y0_mm + t * (piece.y1_mm - piece.y0_mm),
+        piece.correction0.x_mm + t * (piece.correction1.x_mm - piece.correction0.x_mm),
+        piece.correction0.y_mm + t * (piece.correction1.y_mm - piece.correction0.y_mm)};
+  };
+  for (int i = 0; i < parts; ++i) {
+    const auto [x0, y0, dx0, dy0] = row(i);
+    const auto [x1, y1, dx1, dy1] = row(i + 1);
+    table.rows.push_back(
+        {static_cast<double>(piece.line), piece.is_rapid, x0, y0, x1, y1, dx0, dy0, dx1, dy1});
+  }
 }
 
 double magnification_of(const PathReport& report) {
@@ -164,16 +194,7 @@ Page page_of(const PathReport& report) {
                    "dy1_mm"},
                   {}};
   for (const PathPiece& piece : report.pieces()) {
-    table.rows.push_back({static_cast<double>(piece.line),
-                          piece.is_rapid,
-                          piece.x0_mm,
-                          piece.y0_mm,
-                          piece.x1_mm,
-                          piece.y1_mm,
-                          piece.correction0.x_mm,
-                          piece.correction0.y_mm,
-                          piece.correction1.x_mm,
-                          piece.correction1.y_mm});
+    add_rows(table, piece, parts_of(piece, view, report.pieces().size()));
   }
   chart.data.push_back(std::move(table));
   chart.signals = {{"x_min_mm", view.x_min_mm},
