@@ -2,6 +2,7 @@
 /// \file
 /// chaintrue check: a few new points tell whether a map still holds.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <iterator>
@@ -79,8 +80,9 @@ void add_check(CLI::App& app, Run& run) {
   add_input(*verb, "map", command->map, "A chaintrue_map file")->required();
   add_grid_options(*verb, command->input);
   add_tape_options(*verb, command->tape);
-  verb->add_option(
-      "--with", command->with, "More new points, or holes and distances: all are held against the map");
+  verb->add_option("--with",
+                   command->with,
+                   "More new points, or holes and distances: all are held against the map");
   verb->add_flag("--json", command->json, "All numbers, for scripts");
   add_output(
       *verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")

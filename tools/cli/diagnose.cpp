@@ -3,6 +3,7 @@
 /// chaintrue diagnose: what the simulation gets wrong on these points, why, what naming the cause
 /// gains, and what to measure next.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -218,8 +219,7 @@ Outcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
 }
 
 int run_diagnose(const DiagnoseCommand& command) {
-  grid::Measured input =
-      read_measured(command.input, command.tape, command.with, MeasuredUse::fit);
+  grid::Measured input = read_measured(command.input, command.tape, command.with, MeasuredUse::fit);
   const auto found = diagnosed(command, input);
   if (!found) {
     fmt::print(stderr, "{}\n", found.error());
@@ -235,8 +235,7 @@ int run_diagnose(const DiagnoseCommand& command) {
   add(command.report, [&] { return report::render(diagnosis_page(*found, source)); });
   add(command.extended_machine, [&] { return extended_machine_text(*found, source); });
   add(command.corrected_grid, [&] {
-    return corrected_grid_text(
-        *found, input.grids.front(), !command.assume_order.empty());
+    return corrected_grid_text(*found, input.grids.front(), !command.assume_order.empty());
   });
   const bool is_stdout_taken = std::any_of(
       outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });

@@ -2,6 +2,7 @@
 /// \file
 /// chaintrue effects: the catalogue for a person, and what one effect does to a machine.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <cstdio>

@@ -2,6 +2,7 @@
 /// \file
 /// chaintrue export: a machine as the numbers that another program wants typed in.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <memory>

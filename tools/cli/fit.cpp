@@ -2,6 +2,7 @@
 /// \file
 /// chaintrue fit: measured points become a compensation map, and the fit is told in words.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <memory>
@@ -83,7 +84,8 @@ int fit_the_holes(const FitCommand& command, const grid::MeasuredHoles& set) {
 }
 
 /// The file and those of --with in one estimate.
-int fit_all(const FitCommand& command, std::variant<grid::MeasuredGrid, grid::MeasuredHoles> first) {
+int fit_all(const FitCommand& command,
+            std::variant<grid::MeasuredGrid, grid::MeasuredHoles> first) {
   if (command.surface == "direct") {
     fmt::print(stderr,
                "chaintrue fit: a direct surface is of one grid alone: leave --surface or --with "
@@ -160,7 +162,8 @@ void add_fit(CLI::App& app, Run& run) {
       "The fit is told on standard error.\n\nExample:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue fit fixtures/holes/nine_holes.json -o map.json\n"
-      "  build/chaintrue fit fixtures/grids/seven_by_four.json --with fixtures/holes/nine_holes.json "
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json --with "
+      "fixtures/holes/nine_holes.json "
       "-o map.json");
   verb->callback([command, &run] {
     if (command->surface == "direct" && command->outside.way == "fade") {

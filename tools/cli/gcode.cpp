@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode: the verbs check, lengths, compensate, verify, explain and their options.
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 

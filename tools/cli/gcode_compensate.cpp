@@ -26,11 +26,8 @@ Proof prove(const GcodeOptions& options,
             grid::files::PendingFile& output) {
   auto original = text.open();
   auto written = written_so_far(output);
-  const auto outcome = gcode::verify(original,
-                                     written,
-                                     machine.corrector(),
-                                     options.dialect(),
-                                     verify_options(options, machine));
+  const auto outcome = gcode::verify(
+      original, written, machine.corrector(), options.dialect(), verify_options(options, machine));
   if (!outcome) return {outcome.error().problem.message(), 0.0};
   return {outcome->fault, outcome->largest_mm()};
 }

@@ -2,6 +2,7 @@
 #include "tools/cli/grid_input.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 
@@ -138,9 +139,8 @@ namespace {
 
 const std::optional<model::Machine>& machine_of(
     const std::variant<grid::MeasuredGrid, grid::MeasuredHoles>& file) {
-  return std::visit([](const auto& own) -> const std::optional<model::Machine>& {
-    return own.machine;
-  }, file);
+  return std::visit(
+      [](const auto& own) -> const std::optional<model::Machine>& { return own.machine; }, file);
 }
 
 }  // namespace
@@ -164,9 +164,8 @@ grid::Measured read_measured(const GridInput& input,
     if (machine && measured.machine) {
       const std::string difference = grid::difference_of_settings(*measured.machine, *machine);
       if (!difference.empty()) {
-        problems.add("--with",
-                     path,
-                     fmt::format("a file of the same machine as the first: {}", difference));
+        problems.add(
+            "--with", path, fmt::format("a file of the same machine as the first: {}", difference));
       }
     }
     add(std::move(file));

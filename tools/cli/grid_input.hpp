@@ -4,13 +4,13 @@
 /// it.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "grid/measured.hpp"
+#include "tools/cli/cli_fwd.hpp"
 
 namespace chaintrue::cli {
 

@@ -2,6 +2,7 @@
 /// \file
 /// chaintrue import: what other programs wrote becomes a machine or a grid.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <memory>

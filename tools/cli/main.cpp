@@ -3,6 +3,7 @@
 /// The command's entrance: parses, runs the chosen verb, turns outcomes into exit codes.
 #include <fcntl.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <cerrno>
 #include <csignal>

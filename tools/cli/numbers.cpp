@@ -2,6 +2,7 @@
 #include "tools/cli/numbers.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <utility>
@@ -34,7 +35,8 @@ CLI::Option* add_number(CLI::App& verb,
                         const files::Range& range,
                         bool is_whole,
                         const std::string& help,
-                        std::function<void(double)> take) {
+                        std::function<void(double)> take,
+                        std::optional<double> shown_default) {
   const auto read =
       [name = names, range, is_whole, take = std::move(take)](const std::string& text) {
         const auto number = files::number_of(text);
@@ -45,11 +47,11 @@ CLI::Option* add_number(CLI::App& verb,
                        expected(range, is_whole) +
                            (files::looks_like_decimal_comma(text) ? ", with a decimal point" : ""));
       };
-  return verb.add_option_function<std::string>(names, read, help)
-      ->type_name(is_whole ? "INT" : "FLOAT");
+  CLI::Option* option = verb.add_option_function<std::string>(names, read, help)
+                            ->type_name(is_whole ? "INT" : "FLOAT");
+  if (shown_default) option->default_str(fmt::format("{}", *shown_default));
+  return option;
 }
-
-std::string shown_default(double value) { return fmt::format("{}", value); }
 
 }  // namespace detail
 

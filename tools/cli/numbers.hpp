@@ -9,13 +9,13 @@
 /// \endcode
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
 #include <type_traits>
 
 #include "grid/files/number_text.hpp"
+#include "tools/cli/cli_fwd.hpp"
 
 namespace chaintrue::cli {
 
@@ -26,8 +26,8 @@ CLI::Option* add_number(CLI::App& verb,
                         const grid::files::Range& range,
                         bool is_whole,
                         const std::string& help,
-                        std::function<void(double)> take);
-[[nodiscard]] std::string shown_default(double value);
+                        std::function<void(double)> take,
+                        std::optional<double> shown_default = {});
 }  // namespace detail
 
 /// `value` is double, a whole number, or optional of either; its default is shown where it has one.
@@ -37,13 +37,14 @@ CLI::Option* add_number(CLI::App& verb,
                         T& value,
                         const grid::files::Range& range,
                         const std::string& help) {
-  return detail::add_number(verb,
-                            names,
-                            range,
-                            std::is_integral_v<T>,
-                            help,
-                            [&value](double number) { value = static_cast<T>(number); })
-      ->default_str(detail::shown_default(static_cast<double>(value)));
+  return detail::add_number(
+      verb,
+      names,
+      range,
+      std::is_integral_v<T>,
+      help,
+      [&value](double number) { value = static_cast<T>(number); },
+      static_cast<double>(value));
 }
 template <class T>
 CLI::Option* add_number(CLI::App& verb,

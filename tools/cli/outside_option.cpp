@@ -4,6 +4,7 @@
 #include "tools/cli/numbers.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <map>
 

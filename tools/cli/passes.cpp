@@ -2,6 +2,7 @@
 /// \file
 /// chaintrue passes: cut, measure, correct, and again, until the next pass would not pay.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <iterator>

@@ -17,13 +17,13 @@
 /// \endcode
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "grid/files/origin.hpp"
 #include "grid/files/pending_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/cli_fwd.hpp"
 
 namespace chaintrue::cli {
 

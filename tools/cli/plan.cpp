@@ -3,6 +3,7 @@
 /// chaintrue plan: where to measure, as a list for the workshop, and how good the map will be; and
 /// after a diagnosis, what to measure next.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>

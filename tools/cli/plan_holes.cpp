@@ -2,6 +2,7 @@
 #include "tools/cli/plan_holes.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>

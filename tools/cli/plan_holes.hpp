@@ -3,10 +3,10 @@
 /// The part of chaintrue plan that sets holes and tape distances.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "grid/holes/holes_plan.hpp"
+#include "tools/cli/cli_fwd.hpp"
 #include "tools/cli/effect_argument.hpp"
 
 namespace chaintrue::cli {

@@ -2,6 +2,7 @@
 /// \file
 /// chaintrue query: chain lengths for points, and the point for chain lengths.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 /// \file
 /// chaintrue report: a map or a diagnosis as one HTML page that needs no network.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <array>
 #include <cstdio>

@@ -3,6 +3,7 @@
 /// chaintrue simulate: a grid as a person would measure it on a machine with hidden effects, or the
 /// bare readings at given places.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <memory>

@@ -105,8 +105,7 @@ void check_ranges(const SimulateOptions& options,
   problems.require("--length-noise-mm", options.noise.length_mm, 0.0, kMostNoiseMm);
   problems.require("--position-noise-mm", options.noise.position_mm, 0.0, kMostNoiseMm);
   problems.require("--length-rounding-mm", options.noise.length_rounding_mm, 0.0, kMostNoiseMm);
-  problems.require(
-      "--position-rounding-mm", options.noise.position_rounding_mm, 0.0, kMostNoiseMm);
+  problems.require("--position-rounding-mm", options.noise.position_rounding_mm, 0.0, kMostNoiseMm);
   problems.require("--repeats", options.repeats, 0.0, kMostRepeats);
   problems.require("--bad-points", options.bad.count, 0.0, kMostRepeats);
   problems.require("--bad-size-mm", options.bad.size_mm, 0.0, 10000.0);

@@ -3,6 +3,7 @@
 /// chaintrue square: the square that a person would cut and measure, predicted, when the controller
 /// believes one machine and the machine is another.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <array>
 #include <cmath>

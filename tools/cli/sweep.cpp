@@ -3,6 +3,7 @@
 /// chaintrue sweep: accuracy against the simulator over any product of factors; stopped, resumed,
 /// split and merged at will.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <exception>

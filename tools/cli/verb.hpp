@@ -13,8 +13,9 @@
 /// \endcode
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+#include "tools/cli/cli_fwd.hpp"
 
 namespace chaintrue::cli {
 
