@@ -94,8 +94,10 @@ TEST_F(RealScans, NamesStandWithoutAnyLine) {
       return line(columns ? p.mark.x_mm : p.mark.y_mm);
     };
     for (const MeasuredPoint& p : whole.points) lines.insert(of(p));
+    int lines_seen = 0;
     for (const int left_out : lines) {
-      if (columns && left_out % 10 != 0 && std::getenv("CHAINTRUE_LONG") == nullptr) continue;
+      // A diagnosis takes seconds: every third line, all of them where CHAINTRUE_LONG is set.
+      if (lines_seen++ % 3 != 0 && std::getenv("CHAINTRUE_LONG") == nullptr) continue;
       MeasuredGrid grid = whole;
       std::erase_if(grid.points, [&](const MeasuredPoint& p) { return of(p) == left_out; });
       const Diagnosis d = diagnosed(grid);
