@@ -9,14 +9,17 @@
 ///     y = X b + e,   e ~ N(0, sigma2 I)                                                        (1)
 ///     b ~ N(b0, (S0 + sum_k lambda_k S_k)^-)                                                   (2)
 ///
-///   y        n responses                     X    n x q design
-///   b        q coefficients                  b0   prior mean (enters through S0 only)
+///   y        n responses
+///   X        n x q design
+///   b        q coefficients
+///   b0       prior mean (enters through S0 only)
 ///   S0       fixed prior precision, singular where nothing is known beforehand
-///   S_k      penalty k, positive semidefinite; lambda_k >= 0 its unknown precision
+///   S_k      penalty k, positive semidefinite
+///   lambda_k its unknown precision, >= 0
 ///   A        X'X / sigma2 + S0 + sum lambda_k S_k, the posterior precision of b
 ///   V        minus twice the restricted log likelihood, up to a constant:
 ///
-///     V = n log sigma2 + |y - X b|^2 / sigma2 + (b - b0)' S (b - b0) + log|A| - log|S|_+ (3)
+///     V = n log sigma2 + |y - X b|^2 / sigma2 + (b - b0)' S (b - b0) + log|A| - log|S|_+    (3)
 ///
 /// with b = A^-1 (X'y / sigma2 + S0 b0) and |S|_+ the product of the non-zero eigenvalues. A noise
 /// scale known from d degrees of freedom adds d log sigma2 + d / sigma2. With few points V often

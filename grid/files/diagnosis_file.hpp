@@ -21,12 +21,13 @@
 ///
 /// Of holes ("observations": "distances"; without the key: points) there are no points but
 ///
-///     "holes":     [ {"name", "x_mm", "y_mm", "commanded_mm": [x, y]} ], where the machine puts
-///     them "distances": [ {"index", "from", "to", "bad", "read_mm", "before_mm", "after_mm", ...}
-///     ], "stated_tape": {"tape_sigma_mm", "hole_sigma_mm", "dof"}
+///     "holes":       [ {"name", "x_mm", "y_mm", "commanded_mm": [x, y]} ],
+///     "distances":   [ {"index", "from", "to", "bad", "read_mm", "before_mm", "after_mm", ...} ],
+///     "stated_tape": {"tape_sigma_mm", "hole_sigma_mm", "dof"}
 ///
-/// bad_points are then indices into the holes file's distances, their shifts {"off_mm", "sigmas"}:
-/// read less what all the others make of it. The gain's errors are of distances.
+/// Holes lie where the machine puts them. bad_points are then indices into the holes file's
+/// distances, their shifts {"off_mm", "sigmas"}: read less what all the others make of it. The
+/// gain's errors are of distances.
 ///
 /// A side, a follow-up's place and what a left-over follows are null where there is none.
 ///

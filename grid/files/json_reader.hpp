@@ -6,8 +6,15 @@
 /// pointer; and the same bytes for the same object.
 ///
 /// \code
-///   struct Hole { std::string name; double x_mm = 0; double y_mm = 0; std::optional<double>
-///   sigma_mm; }; struct Holes { std::string name; std::vector<Hole> holes; };
+///   struct Hole {
+///     std::string name;
+///     double x_mm = 0, y_mm = 0;
+///     std::optional<double> sigma_mm;
+///   };
+///   struct Holes {
+///     std::string name;
+///     std::vector<Hole> holes;
+///   };
 ///
 ///   const Record<Hole>& hole_record() {
 ///     static const auto record = Record<Hole>("a hole")
@@ -21,24 +28,24 @@
 ///     static const auto record = Record<Holes>("a chaintrue_holes file", "chaintrue_holes")
 ///         .sparse("name", &Holes::name, text())
 ///         .required("holes", &Holes::holes, list(object(hole_record()), 2))
-///         .check([](const Cursor& at, Holes& holes) {       // across fields; runs even where
-///         fields were wrong
+///         .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
 ///           if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
 ///         });
 ///     return record;
 ///   }
-///   Holes parse_holes(const std::string& text, const std::string& file) { return
-///   read_document(holes_record(), text, file); } std::string write_holes(const Holes& holes) {
-///   return write_document(holes_record(), holes); }
+///   Holes parse_holes(const std::string& text, const std::string& file) {
+///     return read_document(holes_record(), text, file);
+///   }
+///   std::string write_holes(const Holes& holes) { return write_document(holes_record(), holes); }
 /// \endcode
 ///
 /// How a field stands in the file:
 ///   required   must be there; always written
 ///   optional   may be absent or null. A plain member keeps its default and is always written; a
-///   std::optional member is
-///              empty, and written only when it holds a value
+///              std::optional member is empty, and written only when it holds a value
 ///   sparse     may be absent or null; written only when it is not empty (texts, lists,
-///   dictionaries)
+///              dictionaries)
+///
 /// Values: number, integer, boolean, text, choice (an enum by its names), one_of (a text from a
 /// list), object, list, dictionary. `Record::custom` takes a pair of functions for whatever does
 /// not fit (a variant, a path to another file). Keys are written in the order they are declared.

@@ -5,8 +5,8 @@
 ///
 /// Each hypothesis predicts the residuals r (measured less map) as a Gaussian,
 ///
-///   r ~ N(X m, K + X P X'),   K = noise of the new points + what the map does not know of itself
-///   (1)
+///   r ~ N(X m, K + X P X')                                                                  (1)
+///   K  noise of the new readings, and what the map does not know of itself
 ///
 /// where X is what the changed quantities do to r, m and P their size beforehand; the probabilities
 /// follow by Bayes' theorem from the priors stated in kCheckPriors. A pitch only grows: half of its

@@ -8,9 +8,9 @@
 /// skips and hysteresis.
 ///
 /// \code
-///   const CompensationMap map(contents);                       // from fit() or files::read_map()
-///   if (const auto answer = map.query({100.0, -200.0})) use(answer->lengths, answer->sigma,
-///   answer->status); if (const auto mark = map.inverse({1702.1, 1821.4})) use(*mark);
+///   const CompensationMap map(contents);        // from fit() or files::read_map()
+///   if (const auto answer = map.query({100.0, -200.0})) use(answer->lengths, answer->sigma);
+///   if (const auto mark = map.inverse({1702.1, 1821.4})) use(*mark);
 /// \endcode
 #pragma once
 
@@ -105,8 +105,8 @@ struct MirrorTest {
   std::string sentence;
 };
 
-/// What a map made from holes and a tape stands on (grid/holes): its points are the holes, where the
-/// distances say they are, and its held-out errors those of distances, along the tape.
+/// What a map made from holes and a tape stands on (grid/holes): its points are the holes, where
+/// the distances say they are, and its held-out errors those of distances, along the tape.
 struct DistancesUsed {
   int used = 0;
   int set_aside = 0;

@@ -2,10 +2,12 @@
 /// \file
 /// What the calibrated model leaves: one smooth correction for each chain.
 ///
-///   correction_i(q) = e_i f_i(q) + s_i(q) (1)
+///   correction_i(q) = e_i f_i(q) + s_i(q)                                                   (1)
 ///
-///   q    a mark                                f_i   the model's length of chain i there
-///   e_i  a length scale of the chain           s_i   cubic B-splines with a thin-plate penalty
+///   q    a mark
+///   f_i  the model's length of chain i there
+///   e_i  a length scale of the chain
+///   s_i  cubic B-splines with a thin-plate penalty
 ///
 /// The scale is there because a chain's pitch is never quite nominal, and because a correction that
 /// follows the chain's length is a far better guess between and beyond the points than one that

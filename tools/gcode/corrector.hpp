@@ -2,8 +2,8 @@
 /// \file
 /// From where the tool shall be to what the controller must be told, and back.
 ///
-///   command(p) = controller.command( map.lengths(p) + play )        tool(c) = map.tool(
-///   controller.lengths(c) )
+///   command(p) = controller.command(map.lengths(p) + play)
+///   tool(c)    = map.tool(controller.lengths(c))
 ///
 /// play is zero unless a direction_hysteresis was named: half its width, with the sign of the
 /// direction in which each chain runs.

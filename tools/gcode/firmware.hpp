@@ -5,8 +5,7 @@
 /// model/controllers/payout.hpp.)
 ///
 /// Sources, by file of the firmware:
-///   maslow_classic  MaslowCNC/Firmware Motion.cpp (coordinatedMove: a position every LOOPINTERVAL
-///   =
+///   maslow_classic  MaslowCNC/Firmware Motion.cpp (coordinatedMove: a position every LOOPINTERVAL,
 ///                   10000 us, float, one move after the other; arc: a line below 0.08 rad),
 ///                   Kinematics.cpp (_verifyValidTarget clamps to half the bed), GCode.cpp
 ///                   (executeGcodeLine, executeMcodeLine: what is known, the rest is ignored)
