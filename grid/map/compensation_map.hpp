@@ -203,9 +203,9 @@ class MapField;
 
 /// Why there is no answer.
 enum class MapFailure {
-  outside_map,    ///< off the domain, or refused
-  unreachable,    ///< no pose of the machine there
-  not_converged,  ///< the inverse did not settle
+  outside_map,       ///< off the domain, or refused
+  unreachable,       ///< no pose of the machine there
+  not_converged,     ///< the inverse did not settle
   wave_along_chain,  ///< an eccentric sprocket's wave, shorter than any table's cells
 };
 [[nodiscard]] std::string_view explain(MapFailure failure);
