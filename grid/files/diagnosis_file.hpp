@@ -39,16 +39,21 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
+#include "grid/files/input_error.hpp"
 
 namespace chaintrue::grid::files {
 
-/// "-" reads standard input. \throws InputError with every problem of the file.
-[[nodiscard]] diagnosis::Diagnosis read_diagnosis(const std::filesystem::path& path);
+/// "-" reads standard input; what was assumed is added to `warnings` where they are wanted.
+/// \throws InputError with every problem of the file.
+[[nodiscard]] diagnosis::Diagnosis read_diagnosis(const std::filesystem::path& path,
+                                                  std::vector<Warning>* warnings = nullptr);
 /// Parses text; `file` is the name used in messages.
 [[nodiscard]] diagnosis::Diagnosis parse_diagnosis(const std::string& text,
-                                                   const std::string& file);
+                                                   const std::string& file,
+                                                   std::vector<Warning>* warnings = nullptr);
 /// \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_diagnosis(const diagnosis::Diagnosis& diagnosis);
 

@@ -25,7 +25,7 @@
 ///     return record;
 ///   }
 ///   const Record<Holes>& holes_record() {
-///     static const auto record = Record<Holes>("a chaintrue_holes file", "chaintrue_holes")
+///     static const auto record = Record<Holes>("a chaintrue_holes file", kHolesFormat)
 ///         .sparse("name", &Holes::name, text())
 ///         .required("holes", &Holes::holes, list(object(hole_record()), 2))
 ///         .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
@@ -63,6 +63,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/files/formats.hpp"
 #include "grid/files/json_text.hpp"
 #include "grid/files/number_text.hpp"
 
@@ -204,36 +205,33 @@ template <class V>
 /// The part of a record that does not depend on its type: which keys there are.
 class KnownKeys {
  public:
-  KnownKeys(std::string noun, std::string file_type, std::vector<std::string> versions)
-      : noun_(std::move(noun)), file_type_(std::move(file_type)), versions_(std::move(versions)) {}
+  KnownKeys(std::string noun, const Format* format) : noun_(std::move(noun)), format_(format) {}
   [[nodiscard]] std::string expected() const { return noun_; }
 
  protected:
   void add_key(std::string key) { keys_.push_back(std::move(key)); }
-  /// False, and reported, where this is no object or a file of another type.
+  /// False, and reported, where this is no object or a file of another type or version. Warns of
+  /// what is assumed of an older version.
   [[nodiscard]] bool open(const Cursor& at, bool is_root) const;
   /// Reports keys that nobody knows; gives those known keys that one of them was probably meant to
   /// be.
   [[nodiscard]] std::vector<std::string> report_unknown_keys(const Cursor& at) const;
-  void write_head(Json& object) const;
+  [[nodiscard]] Json head() const { return format_ != nullptr ? headed(*format_) : Json::object(); }
 
  private:
   std::string noun_;
-  std::string file_type_;
-  std::vector<std::string> versions_;
+  const Format* format_;
   std::vector<std::string> keys_;
 };
 
 template <class T>
 class Record : public KnownKeys {
  public:
-  /// `noun` with its article, as in "expected a sprocket". Records with a file type begin with it
-  /// and the version; as part of another file both may be left out. `versions` are those that are
-  /// read, the one that is written last.
-  explicit Record(std::string noun,
-                  std::string file_type = {},
-                  std::vector<std::string> versions = {"1.0"})
-      : KnownKeys(std::move(noun), std::move(file_type), std::move(versions)) {}
+  /// `noun` with its article, as in "expected a sprocket".
+  explicit Record(std::string noun) : KnownKeys(std::move(noun), nullptr) {}
+  /// A file's record begins with its type and version; as part of another file both may be left
+  /// out. The format must outlive the record.
+  Record(std::string noun, const Format& format) : KnownKeys(std::move(noun), &format) {}
 
   template <class V>
   Record& required(const std::string& key, V T::*member, Value<V> value) {
@@ -321,8 +319,7 @@ class Record : public KnownKeys {
   }
 
   [[nodiscard]] Json write(const T& object) const {
-    Json json = Json::object();
-    write_head(json);
+    Json json = head();
     for (const Field& field : fields_) {
       if (auto value = field.write(object)) json[field.key] = std::move(*value);
     }

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/files/input_error.hpp"
 #include "grid/sweep/sweep_spec.hpp"
 
 namespace chaintrue::grid::files {
@@ -30,6 +31,7 @@ struct ReadSweep {
   sweep::SweepSpec spec;
   /// Of everything that the results depend on, machines included.
   std::uint64_t hash = 0;
+  std::vector<Warning> warnings;
 };
 
 /// \throws InputError with every problem of the file.

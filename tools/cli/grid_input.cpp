@@ -14,6 +14,7 @@
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 
@@ -45,10 +46,6 @@ void add_grid_options(CLI::App& verb, GridInput& input) {
 namespace {
 
 namespace files = grid::files;
-
-void print_warnings(const std::vector<files::Warning>& warnings) {
-  for (const files::Warning& warning : warnings) fmt::print(stderr, "{}\n", warning.message());
-}
 
 grid::MeasuredGrid grid_of(const std::string& text,
                            const GridInput& input,
