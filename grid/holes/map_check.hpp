@@ -27,8 +27,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/holes/measured_file.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "grid/measured.hpp"
 
 namespace chaintrue::grid {
 
@@ -100,12 +100,18 @@ struct MapCheck {
 };
 inline constexpr double kDecided = 0.8;
 
-/// Any mix of files. Fails in words: a point off the map, commands without a controller, a tape without a machine.
-[[nodiscard]] tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
-                                                            const std::vector<MeasuredFile>& files);
-[[nodiscard]] tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
-                                                            const MeasuredGrid& grid);
-[[nodiscard]] tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
-                                                            const MeasuredHoles& set);
+struct CheckFailure {
+  enum class Reason {
+    too_many_readings,
+    no_machine,   ///< commands without a controller
+    no_lengths,   ///< a command that its controller cannot reach, or points without lengths
+    unreachable,  ///< a place off the map, or where its machine cannot hold the sled
+  } reason;
+  std::string sentence;
+};
+
+/// Any mix of files.
+[[nodiscard]] tl::expected<MapCheck, CheckFailure> check_map(const CompensationMap& map,
+                                                             const Measured& measured);
 
 }  // namespace chaintrue::grid

@@ -202,13 +202,22 @@ struct MapLengths {
 class MapField;
 
 /// Why there is no answer.
-enum class MapFailure {
-  outside_map,       ///< off the domain, or refused
-  unreachable,       ///< no pose of the machine there
-  not_converged,     ///< the inverse did not settle
-  wave_along_chain,  ///< an eccentric sprocket's wave, shorter than any table's cells
+struct MapFailure {
+  enum class Reason {
+    outside_map,       ///< off the domain, or refused
+    unreachable,       ///< no pose of the machine there
+    not_converged,     ///< the inverse did not settle
+    wave_along_chain,  ///< an eccentric sprocket's wave, shorter than any table's cells
+  };
+  using enum Reason;
+  MapFailure(Reason why) : reason(why) {}  // NOLINT: most reasons are the whole answer
+  explicit MapFailure(model::PoseFailure why) : reason(unreachable), pose(why) {}
+
+  Reason reason;
+  std::optional<model::PoseFailure> pose;  ///< of `unreachable`
+  friend bool operator==(const MapFailure&, const MapFailure&) = default;
 };
-[[nodiscard]] std::string_view explain(MapFailure failure);
+[[nodiscard]] std::string explain(const MapFailure& failure);
 
 /// Immutable, thread safe.
 class CompensationMap {

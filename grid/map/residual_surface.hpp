@@ -18,6 +18,7 @@
 
 #include <Eigen/Core>
 
+#include "grid/chain_rows.hpp"
 #include "interp/bspline_basis.hpp"
 #include "model/calibration/observation.hpp"
 
@@ -27,11 +28,9 @@ namespace chaintrue::grid {
 struct FitColumns {
   Eigen::Index settings = 0;  ///< how many settings there are
   Eigen::Index basis = 0;     ///< coefficients of one spline
-  [[nodiscard]] Eigen::Index scale(model::Side side) const {
-    return settings + (side == model::Side::left ? 0 : 1);
-  }
+  [[nodiscard]] Eigen::Index scale(model::Side side) const { return settings + row_of(side); }
   [[nodiscard]] Eigen::Index spline(model::Side side) const {
-    return settings + 2 + (side == model::Side::left ? 0 : basis);
+    return settings + 2 + row_of(side) * basis;
   }
   [[nodiscard]] Eigen::Index total() const { return settings + 2 + 2 * basis; }
 };

@@ -73,7 +73,7 @@ int simulate(const PassesCommand& command) {
   print_warnings(read.warnings);
   const auto result = grid::simulate_passes(read.machine, command.request);
   if (!result) {
-    fmt::print(stderr, "chaintrue passes: {}\n", result.error());
+    fmt::print(stderr, "chaintrue passes: {}\n", result.error().sentence);
     return kNotSupportedOrOutside;
   }
   std::string text =

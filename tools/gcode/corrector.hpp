@@ -17,9 +17,6 @@
 
 namespace chaintrue::gcode {
 
-enum class CorrectionFailure { outside_map, unreachable, not_converged, controller };
-[[nodiscard]] std::string_view explain(CorrectionFailure failure);
-
 /// Signs of the chains' running directions: +1 paying out, -1 reeling in.
 struct ChainDirections {
   int left = 1;
