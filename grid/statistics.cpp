@@ -29,6 +29,13 @@ double rms(const std::vector<Eigen::Vector2d>& values) {
   return std::sqrt(squares / (2.0 * static_cast<double>(values.size())));
 }
 
+double rms_length(const std::vector<Eigen::Vector2d>& values) {
+  if (values.empty()) return 0.0;
+  double squares = 0.0;
+  for (const Eigen::Vector2d& value : values) squares += value.squaredNorm();
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
 double log_sum(double a, double b) {
   const double high = std::max(a, b);
   if (high == -std::numeric_limits<double>::infinity()) return high;

@@ -17,6 +17,9 @@ namespace chaintrue::grid {
 /// Of all components alike; of nothing 0.
 [[nodiscard]] double rms(const std::vector<Eigen::Vector2d>& values);
 
+/// Of the vectors' lengths; of nothing 0.
+[[nodiscard]] double rms_length(const std::vector<Eigen::Vector2d>& values);
+
 /// log(exp(a) + exp(b)), without overflow; minus infinity stands for nothing.
 [[nodiscard]] double log_sum(double a, double b);
 /// log(sum exp(t)); of nothing minus infinity.

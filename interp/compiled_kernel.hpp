@@ -145,7 +145,7 @@ CHAINTRUE_INLINE InverseResult invert(const CompiledPair::Grid& g,
   // Newton's error follows step' = C step^2. Before two steps have shown C, the curvature of
   // lengths that reach across the domain is a safe guess.
   const double curvature = 8.0 / diagonal;
-  InverseResult result{hint.x, hint.y, InverseStatus::kNotConverged, 0};
+  InverseResult result{hint.x, hint.y, InverseStatus::not_converged, 0};
   double previous = 0.0;
   while (result.evaluations < kMostEvaluations) {
     PairGradient z;
@@ -172,7 +172,7 @@ CHAINTRUE_INLINE InverseResult invert(const CompiledPair::Grid& g,
     const double seen = previous > 0.0 ? step / (previous * previous) : 0.0;
     if ((seen > curvature ? seen : curvature) * square <= 0.5 * tolerance) {
       result.status =
-          domain.contains(result.x, result.y) ? InverseStatus::kConverged : InverseStatus::kOutside;
+          domain.contains(result.x, result.y) ? InverseStatus::converged : InverseStatus::outside;
       return result;
     }
     previous = step;

@@ -246,7 +246,7 @@ void CompiledPair::inverse(std::span<const std::array<double, 2>> targets,
   PlanePoint from = hint;
   for (std::size_t k = 0; k < targets.size(); ++k) {
     results[k] = inverse(targets[k], from, tolerance);
-    if (results[k].status != InverseStatus::kNotConverged) {
+    if (results[k].status != InverseStatus::not_converged) {
       from = {results[k].x, results[k].y};
     }
   }

@@ -36,9 +36,9 @@ struct PlanePoint {
 };
 
 enum class InverseStatus {
-  kConverged,     ///< the point lies in the table's rectangle
-  kOutside,       ///< converged, but outside it
-  kNotConverged,  ///< no point of the table has these values; x and y are meaningless
+  converged,      ///< the point lies in the table's rectangle
+  outside,        ///< converged, but outside it
+  not_converged,  ///< no point of the table has these values; x and y are meaningless
 };
 
 struct InverseResult {

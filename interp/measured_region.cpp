@@ -131,13 +131,13 @@ double ConvexHull::area() const {
 
 std::string_view to_string(PointStatus status) {
   switch (status) {
-    case PointStatus::kInside:
+    case PointStatus::inside:
       return "inside";
-    case PointStatus::kEdge:
+    case PointStatus::edge:
       return "edge";
-    case PointStatus::kExtrapolated:
+    case PointStatus::extrapolated:
       return "extrapolated";
-    case PointStatus::kOutside:
+    case PointStatus::outside:
       return "outside";
   }
   throw std::logic_error("unknown status");
@@ -152,23 +152,23 @@ RegionAnswer evaluate(const Surface& surface,
         fmt::format("an edge of width {} and a fade of {}", policy.edge_width, policy.fade_width));
   }
   if (!std::isfinite(at.x) || !std::isfinite(at.y)) {
-    return {{}, PointStatus::kOutside};
+    return {{}, PointStatus::outside};
   }
   const NearestPoint near = hull.nearest(at.x, at.y);
   if (near.distance == 0.0) {
-    return {surface.at(at.x, at.y), PointStatus::kInside};
+    return {surface.at(at.x, at.y), PointStatus::inside};
   }
   const bool edge = near.distance <= policy.edge_width;
-  const PointStatus status = edge ? PointStatus::kEdge : PointStatus::kExtrapolated;
+  const PointStatus status = edge ? PointStatus::edge : PointStatus::extrapolated;
   switch (policy.outside) {
-    case OutsidePolicy::kRefuse:
+    case OutsidePolicy::refuse:
       return edge ? RegionAnswer{linear(surface, near), status}
-                  : RegionAnswer{{}, PointStatus::kOutside};
-    case OutsidePolicy::kLinear:
+                  : RegionAnswer{{}, PointStatus::outside};
+    case OutsidePolicy::linear:
       return {linear(surface, near), status};
-    case OutsidePolicy::kClamp:
+    case OutsidePolicy::clamp:
       return {clamped(surface, near), status};
-    case OutsidePolicy::kFade: {
+    case OutsidePolicy::fade: {
       ValueGradient z = linear(surface, near);
       const double s =
           std::clamp((near.distance - policy.edge_width) / policy.fade_width, 0.0, 1.0);

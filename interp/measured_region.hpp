@@ -40,35 +40,35 @@ class ConvexHull {
 };
 
 enum class OutsidePolicy {
-  kRefuse,  ///< no answer
-  kFade,    ///< the linear continuation times a weight that falls to zero over fade_width
-  kLinear,  ///< the tangent plane at the nearest measured point
-  kClamp,   ///< the value at the nearest measured point
+  refuse,  ///< no answer
+  fade,    ///< the linear continuation times a weight that falls to zero over fade_width
+  linear,  ///< the tangent plane at the nearest measured point
+  clamp,   ///< the value at the nearest measured point
 };
 
 /// How a value came about.
 enum class PointStatus {
-  kInside,        ///< in the measured region
-  kEdge,          ///< outside it by no more than edge_width: continued linearly, except by kClamp
-  kExtrapolated,  ///< further out, by the policy
-  kOutside,       ///< refused: there is no value
+  inside,        ///< in the measured region
+  edge,          ///< outside it by no more than edge_width: continued linearly, except by `clamp`
+  extrapolated,  ///< further out, by the policy
+  outside,       ///< refused: there is no value
 };
 
 [[nodiscard]] std::string_view to_string(PointStatus status);
 
 struct RegionPolicy {
-  OutsidePolicy outside = OutsidePolicy::kFade;
+  OutsidePolicy outside = OutsidePolicy::fade;
   double edge_width = 0.0;    ///< >= 0
-  double fade_width = 200.0;  ///< > 0; for kFade, counted from edge_width on
+  double fade_width = 200.0;  ///< > 0; for `fade`, counted from edge_width on
 };
 
 struct RegionAnswer {
-  ValueGradient z;  ///< zero where status is kOutside
+  ValueGradient z;  ///< zero where status is `outside`
   PointStatus status;
 };
 
 /// `surface` at (x, y) under the policy. Continuous across the hull and through every policy's
-/// zones (kRefuse ends); kFade and kLinear are C1 across the hull's edges. The gradient beside an
+/// zones (`refuse` ends); `fade` and `linear` are C1 across the hull's edges. The gradient beside an
 /// edge uses a difference of the surface's gradient along the edge (error about 1e-6 of a second
 /// derivative).
 [[nodiscard]] RegionAnswer evaluate(const Surface& surface,

@@ -7,7 +7,7 @@
 /// R f and C f being what the not-a-knot splines along the row and along the column through a hole
 /// say of it (holes at the end of a line: their continuation), the hole is filled with
 ///
-///     R f + C f - R C f (1)
+///     R f + C f - R C f                                                                     (1)
 ///
 /// the blending of W. Gordon (SIAM J. Numer. Anal. 8 (1971) 158-177): its error (1 - R)(1 - C) f is
 /// that of one line predicting the error of the other, none for g(x) + h(y). Where another hole

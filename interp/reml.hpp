@@ -9,14 +9,17 @@
 ///     y = X b + e,   e ~ N(0, sigma2 I)                                                        (1)
 ///     b ~ N(b0, (S0 + sum_k lambda_k S_k)^-)                                                   (2)
 ///
-///   y        n responses                     X    n x q design
-///   b        q coefficients                  b0   prior mean (enters through S0 only)
+///   y        n responses
+///   X        n x q design
+///   b        q coefficients
+///   b0       prior mean (enters through S0 only)
 ///   S0       fixed prior precision, singular where nothing is known beforehand
-///   S_k      penalty k, positive semidefinite; lambda_k >= 0 its unknown precision
+///   S_k      penalty k, positive semidefinite
+///   lambda_k its unknown precision, >= 0
 ///   A        X'X / sigma2 + S0 + sum lambda_k S_k, the posterior precision of b
 ///   V        minus twice the restricted log likelihood, up to a constant:
 ///
-///     V = n log sigma2 + |y - X b|^2 / sigma2 + (b - b0)' S (b - b0) + log|A| - log|S|_+ (3)
+///     V = n log sigma2 + |y - X b|^2 / sigma2 + (b - b0)' S (b - b0) + log|A| - log|S|_+    (3)
 ///
 /// with b = A^-1 (X'y / sigma2 + S0 b0) and |S|_+ the product of the non-zero eigenvalues. A noise
 /// scale known from d degrees of freedom adds d log sigma2 + d / sigma2. With few points V often
@@ -53,14 +56,14 @@ struct Penalty {
 
 /// What is known of the noise scale sigma2 beforehand.
 enum class NoiseKnowledge {
-  kExact,        ///< sigma2 = 1: the whitening is right
-  kFromRepeats,  ///< sigma2 about 1, known from `degrees_of_freedom` (scaled inverse chi-square)
-  kUnknown,      ///< sigma2 free
+  exact,         ///< sigma2 = 1: the whitening is right
+  from_repeats,  ///< sigma2 about 1, known from `degrees_of_freedom` (scaled inverse chi-square)
+  unknown,       ///< sigma2 free
 };
 
 struct NoiseScale {
-  NoiseKnowledge knowledge = NoiseKnowledge::kExact;
-  double degrees_of_freedom = 0.0;  ///< for kFromRepeats
+  NoiseKnowledge knowledge = NoiseKnowledge::exact;
+  double degrees_of_freedom = 0.0;  ///< for `from_repeats`
 };
 
 /// The data of a fit, reduced to what the fit needs: n, X'X, X'y, y'y.
@@ -100,19 +103,17 @@ struct PenalisedProblem {
 
 /// Where the search for one lambda ended.
 enum class SmoothingEnd {
-  kInside,       ///< at a minimum of V
-  kStiff,        ///< lambda at its upper limit: only the penalty's null space is left
-  kInterpolate,  ///< lambda at its lower limit: the penalty does nothing
-};
-
-enum class FitFailure {
-  kRankDeficient,  ///< data, priors and penalties together leave a combination of columns free
-  kNotConverged,   ///< the search for the smoothing did not settle
+  inside,       ///< at a minimum of V
+  stiff,        ///< lambda at its upper limit: only the penalty's null space is left
+  interpolate,  ///< lambda at its lower limit: the penalty does nothing
 };
 
 /// What a fit says about itself when it has no answer.
-struct FitRefusal {
-  FitFailure reason;
+struct FitFailure {
+  enum class Reason {
+    rank_deficient,  ///< data, priors and penalties together leave a combination of columns free
+    not_converged,   ///< the search for the smoothing did not settle
+  } reason;
   std::string sentence;
 };
 
@@ -140,19 +141,19 @@ struct PenalisedFit {
 
   /// Closed-form residuals and their covariance with the rows of `design` left out. Empty when the
   /// rest of the data cannot do without these rows (I - H_gg not positive definite).
-  [[nodiscard]] tl::expected<HeldOut, FitRefusal> held_out(
+  [[nodiscard]] tl::expected<HeldOut, FitFailure> held_out(
       const Eigen::Ref<const Eigen::MatrixXd>& design,
       const Eigen::Ref<const Eigen::VectorXd>& response) const;
 };
 
 /// What is assumed of lambda and, where it is unknown, of sigma2 before the data.
 enum class SmoothingPrior {
-  kNone,            ///< plain REML
-  kAvoidsBoundary,  ///< flat in the standard deviations lambda^(-1/2) and sigma; see above
+  none,             ///< plain REML
+  avoids_boundary,  ///< flat in the standard deviations lambda^(-1/2) and sigma; see above
 };
 
 struct FitOptions {
-  SmoothingPrior prior = SmoothingPrior::kAvoidsBoundary;
+  SmoothingPrior prior = SmoothingPrior::avoids_boundary;
   bool correct_covariance = true;  ///< fill corrected_covariance
   int maximum_iterations = 100;
 };
@@ -162,17 +163,17 @@ struct FitOptions {
 /// Cost: O(q^3) once, and O(q p^2) for each of some 60 evaluations of V while each penalty has
 /// columns of its own that the data couple to the others only through p unpenalised columns; O(q^3)
 /// for each evaluation otherwise.
-[[nodiscard]] tl::expected<PenalisedFit, FitRefusal> fit_penalised(const PenalisedProblem& problem,
+[[nodiscard]] tl::expected<PenalisedFit, FitFailure> fit_penalised(const PenalisedProblem& problem,
                                                                    const FitOptions& options = {});
 
 /// The same with lambda and sigma2 given; log_lambda_sigma is zero. Cost: O(q^3).
-[[nodiscard]] tl::expected<PenalisedFit, FitRefusal> fit_with_smoothing(
+[[nodiscard]] tl::expected<PenalisedFit, FitFailure> fit_with_smoothing(
     const PenalisedProblem& problem,
     const Eigen::Ref<const Eigen::VectorXd>& lambda,
     double sigma2);
 
 /// V of (3) at given lambda and sigma2, from scratch; for tests and plots.
-[[nodiscard]] tl::expected<double, FitRefusal> minus_two_log_reml(
+[[nodiscard]] tl::expected<double, FitFailure> minus_two_log_reml(
     const PenalisedProblem& problem,
     const Eigen::Ref<const Eigen::VectorXd>& lambda,
     double sigma2);

@@ -29,13 +29,13 @@ Marginal::Marginal(const PenalisedProblem& problem,
                    Shape shape)
     : problem_(problem), prior_kind_(prior) {
   structure_ =
-      shape == Shape::kAny && is_bordered(problem) ? make_bordered(problem) : make_dense(problem);
+      shape == Shape::any && is_bordered(problem) ? make_bordered(problem) : make_dense(problem);
   if (problem.prior_mean.size() > 0 && problem.prior_precision.size() > 0) {
     prior_square_ = problem.prior_mean.dot(problem.prior_precision * problem.prior_mean);
   }
   sigma2_fixed_ = fixed_sigma2.value_or(1.0);
-  sigma2_free_ = !fixed_sigma2 && problem.noise.knowledge != NoiseKnowledge::kExact;
-  if (problem.noise.knowledge == NoiseKnowledge::kFromRepeats) {
+  sigma2_free_ = !fixed_sigma2 && problem.noise.knowledge != NoiseKnowledge::exact;
+  if (problem.noise.knowledge == NoiseKnowledge::from_repeats) {
     extra_degrees_ = problem.noise.degrees_of_freedom;
   }
   find_ranks();
@@ -149,7 +149,7 @@ Marginal::LogDeterminant Marginal::log_determinant(const Eigen::VectorXd& theta,
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(total);
   result.value = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-  if (order == Order::kValue) {
+  if (order == Order::value) {
     return result;
   }
   std::vector<Eigen::MatrixXd> solved;
@@ -181,14 +181,14 @@ std::optional<State> Marginal::evaluate(const Eigen::VectorXd& theta, Order orde
   state.deviance = best.deviance;
   const double log_s2 = std::log(s2);
   state.value = static_cast<double>(problem_.rows) * log_s2 + state.deviance +
-                factor->log_determinant() - log_determinant(theta, Order::kValue).value +
+                factor->log_determinant() - log_determinant(theta, Order::value).value +
                 extra_degrees_ * (log_s2 + 1.0 / s2);
-  if (order == Order::kHessian) {
+  if (order == Order::hessian) {
     add_derivatives(state, *factor, theta);
   }
-  for (Eigen::Index i = 0; prior_kind_ == SmoothingPrior::kAvoidsBoundary && i < unknowns(); ++i) {
+  for (Eigen::Index i = 0; prior_kind_ == SmoothingPrior::avoids_boundary && i < unknowns(); ++i) {
     state.value += flat_slope(i) * theta(i);
-    if (order == Order::kHessian) {
+    if (order == Order::hessian) {
       state.gradient(i) += flat_slope(i);
     }
   }
@@ -253,7 +253,7 @@ void Marginal::add_derivatives(State& state,
     // The second derivative of exp(+-theta) adds the first derivative once more, with its sign.
     state.hessian(i, i) += (i < k ? 1.0 : -1.0) * state.gradient(i);
   }
-  const LogDeterminant log_s = log_determinant(theta, Order::kHessian);
+  const LogDeterminant log_s = log_determinant(theta, Order::hessian);
   state.gradient.head(k) -= log_s.gradient;
   state.hessian.topLeftCorner(k, k) -= log_s.hessian;
   if (sigma2_free_) {

@@ -12,16 +12,16 @@
 
 namespace chaintrue::interp::reml {
 
-enum class Order { kValue, kHessian };
+enum class Order { value, hessian };
 /// How A is worked with: whichever is cheaper for many lambda, or as it is.
-enum class Shape { kAny, kDense };
+enum class Shape { any, dense };
 
 /// V and what belongs to it at one theta. Coefficients are in working coordinates.
 struct State {
   double value = 0.0;     ///< V of (3)
   double deviance = 0.0;  ///< |y - X b|^2 / sigma2 + (b - b0)' S (b - b0)
   Eigen::VectorXd coefficients;
-  // Filled for Order::kHessian only.
+  // Filled for Order::hessian only.
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
 };
@@ -32,8 +32,8 @@ class Marginal {
   /// `fixed_sigma2` overrides what the problem says about the noise scale.
   Marginal(const PenalisedProblem& problem,
            std::optional<double> fixed_sigma2,
-           SmoothingPrior prior = SmoothingPrior::kNone,
-           Shape shape = Shape::kAny);
+           SmoothingPrior prior = SmoothingPrior::none,
+           Shape shape = Shape::any);
 
   [[nodiscard]] Eigen::Index penalties() const {
     return static_cast<Eigen::Index>(problem_.penalties.size());

@@ -42,7 +42,7 @@ Limits limits_of(const Marginal& marginal) {
 }
 
 double value_at(const Marginal& marginal, const Eigen::VectorXd& theta) {
-  const auto state = marginal.evaluate(theta, Order::kValue);
+  const auto state = marginal.evaluate(theta, Order::value);
   return state ? state->value : std::numeric_limits<double>::infinity();
 }
 
@@ -115,12 +115,12 @@ SmoothingEnd end_of(double theta, double low, double high, double curvature) {
   constexpr double kFlat = 1e-4;
   const double middle = 0.5 * (low + high);
   if (theta >= high || (curvature < kFlat && theta > middle)) {
-    return SmoothingEnd::kStiff;
+    return SmoothingEnd::stiff;
   }
   if (theta <= low || (curvature < kFlat && theta < middle)) {
-    return SmoothingEnd::kInterpolate;
+    return SmoothingEnd::interpolate;
   }
-  return SmoothingEnd::kInside;
+  return SmoothingEnd::inside;
 }
 
 double largest_free_gradient(const Eigen::VectorXd& gradient, const std::vector<bool>& held) {
@@ -135,7 +135,8 @@ double largest_free_gradient(const Eigen::VectorXd& gradient, const std::vector<
 
 }  // namespace
 
-tl::expected<SearchResult, FitFailure> search(const Marginal& marginal, int maximum_iterations) {
+tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
+                                                      int maximum_iterations) {
   const Limits limits = limits_of(marginal);
   SearchResult result;
   result.low = limits.low;
@@ -144,11 +145,11 @@ tl::expected<SearchResult, FitFailure> search(const Marginal& marginal, int maxi
   if (marginal.sigma2_free()) {
     balance(balance.size() - 1) = 0.0;
   }
-  if (!marginal.evaluate(balance, Order::kValue)) {
-    return tl::unexpected(FitFailure::kRankDeficient);
+  if (!marginal.evaluate(balance, Order::value)) {
+    return tl::unexpected(FitFailure::Reason::rank_deficient);
   }
   result.theta = scan(marginal, balance, limits);
-  auto state = marginal.evaluate(result.theta, Order::kHessian);
+  auto state = marginal.evaluate(result.theta, Order::hessian);
   bool settled = false;
   while (!settled) {
     const std::vector<bool> held = held_at_limit(result.theta, state->gradient, limits);
@@ -156,7 +157,7 @@ tl::expected<SearchResult, FitFailure> search(const Marginal& marginal, int maxi
       break;
     }
     if (result.iterations == maximum_iterations) {
-      return tl::unexpected(FitFailure::kNotConverged);
+      return tl::unexpected(FitFailure::Reason::not_converged);
     }
     ++result.iterations;
     Eigen::VectorXd step = newton_step(*state, held);
@@ -173,7 +174,7 @@ tl::expected<SearchResult, FitFailure> search(const Marginal& marginal, int maxi
     if (!settled) {
       const double before = state->value;
       result.theta = next;
-      state = marginal.evaluate(result.theta, Order::kHessian);
+      state = marginal.evaluate(result.theta, Order::hessian);
       // Nothing of V is worth 1e-10 of one; where its gradient is all rounding it never gets small.
       settled = before - state->value < 1e-10;
     }
@@ -191,7 +192,7 @@ Eigen::MatrixXd covariance_from_hessian(const Eigen::MatrixXd& hessian,
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    if (k >= ends.size() || ends[k] == SmoothingEnd::kInside) {
+    if (k >= ends.size() || ends[k] == SmoothingEnd::inside) {
       free.push_back(i);
     }
   }

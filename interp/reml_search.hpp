@@ -19,8 +19,8 @@ struct SearchResult {
   int iterations = 0;
 };
 
-[[nodiscard]] tl::expected<SearchResult, FitFailure> search(const Marginal& marginal,
-                                                            int maximum_iterations);
+[[nodiscard]] tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
+                                                                    int maximum_iterations);
 
 /// The covariance of theta from the Hessian of V (twice the information). Unknowns that ended at a
 /// limit are left out: their rows and columns are zero.

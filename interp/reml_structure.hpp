@@ -18,6 +18,9 @@
 
 namespace chaintrue::interp::reml {
 
+/// \throws std::invalid_argument where shapes do not fit or a number is not finite.
+void check(const PenalisedProblem& problem);
+
 /// Traces of A^-1 D_i and of A^-1 D_i A^-1 D_j, where D_i = lambda_i S_i and the last is D = S0.
 struct Traces {
   Eigen::VectorXd first;

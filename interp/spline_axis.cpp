@@ -13,9 +13,9 @@ namespace {
 // With too few nodes the not-a-knot condition names no equation of its own; a vanishing third
 // derivative is what remains of it.
 EndCondition effective_end(EndCondition end, const AxisEnds& ends, std::size_t nodes) {
-  const bool both = ends.low == EndCondition::kNotAKnot && ends.high == EndCondition::kNotAKnot;
-  if (end == EndCondition::kNotAKnot && (nodes == 2 || (nodes == 3 && both))) {
-    return EndCondition::kParabolic;
+  const bool both = ends.low == EndCondition::not_a_knot && ends.high == EndCondition::not_a_knot;
+  if (end == EndCondition::not_a_knot && (nodes == 2 || (nodes == 3 && both))) {
+    return EndCondition::parabolic;
   }
   return end;
 }
@@ -28,13 +28,13 @@ struct EndRow {
 
 EndRow end_row(EndCondition end, double outer_step, double inner_step) {
   switch (end) {
-    case EndCondition::kNotAKnot:
+    case EndCondition::not_a_knot:
       return {inner_step, outer_step + inner_step};
-    case EndCondition::kNatural:
+    case EndCondition::natural:
       return {2.0, 1.0};
-    case EndCondition::kParabolic:
+    case EndCondition::parabolic:
       return {1.0, 1.0};
-    case EndCondition::kClamped:
+    case EndCondition::clamped:
       return {1.0, 0.0};
   }
   throw std::logic_error("unknown end condition");
@@ -48,17 +48,17 @@ struct CellSlope {
 
 double end_rhs(EndCondition end, const CellSlope& outer, const CellSlope& inner, double given) {
   switch (end) {
-    case EndCondition::kNotAKnot: {
+    case EndCondition::not_a_knot: {
       const double both = outer.step + inner.step;
       return ((outer.step + 2.0 * both) * inner.step * outer.quotient +
               outer.step * outer.step * inner.quotient) /
              both;
     }
-    case EndCondition::kNatural:
+    case EndCondition::natural:
       return 3.0 * outer.quotient;
-    case EndCondition::kParabolic:
+    case EndCondition::parabolic:
       return 2.0 * outer.quotient;
-    case EndCondition::kClamped:
+    case EndCondition::clamped:
       return given;
   }
   throw std::logic_error("unknown end condition");
@@ -99,7 +99,7 @@ void SplineAxis::factor() {
   const EndCondition low = effective_end(ends_.low, ends_, n);
   const EndCondition high = effective_end(ends_.high, ends_, n);
   // Two nodes, no slope given: both ends say the same, and the straight line is the answer.
-  straight_line_ = n == 2 && low == EndCondition::kParabolic && high == EndCondition::kParabolic;
+  straight_line_ = n == 2 && low == EndCondition::parabolic && high == EndCondition::parabolic;
   if (straight_line_) {
     return;
   }

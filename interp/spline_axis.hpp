@@ -25,16 +25,16 @@ namespace chaintrue::interp {
 
 /// What closes the spline at one end of an axis.
 enum class EndCondition {
-  kNotAKnot,   ///< the first two cells carry one cubic (MATLAB, Octave, FITPACK)
-  kNatural,    ///< second derivative zero (GSL)
-  kParabolic,  ///< third derivative zero in the end cell (ALGLIB)
-  kClamped,    ///< slope given
+  not_a_knot,  ///< the first two cells carry one cubic (MATLAB, Octave, FITPACK)
+  natural,     ///< second derivative zero (GSL)
+  parabolic,   ///< third derivative zero in the end cell (ALGLIB)
+  clamped,     ///< slope given
 };
 
 /// The two ends of one axis.
 struct AxisEnds {
-  EndCondition low = EndCondition::kNotAKnot;
-  EndCondition high = EndCondition::kNotAKnot;
+  EndCondition low = EndCondition::not_a_knot;
+  EndCondition high = EndCondition::not_a_knot;
 };
 
 /// The four cubic Hermite basis functions of one cell, or their derivatives: the spline is

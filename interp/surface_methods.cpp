@@ -18,10 +18,10 @@ std::unique_ptr<Surface> bicubic(const Nodes& x, const Nodes& y, const Eigen::Ma
   return std::make_unique<TensorSpline>(x, y, values, TensorEnds{{kEnd, kEnd}, {kEnd, kEnd}});
 }
 
-constexpr auto build_not_a_knot = bicubic<EndCondition::kNotAKnot>;
-constexpr auto build_natural = bicubic<EndCondition::kNatural>;
-constexpr auto build_parabolic = bicubic<EndCondition::kParabolic>;
-constexpr auto build_clamped = bicubic<EndCondition::kClamped>;
+constexpr auto build_not_a_knot = bicubic<EndCondition::not_a_knot>;
+constexpr auto build_natural = bicubic<EndCondition::natural>;
+constexpr auto build_parabolic = bicubic<EndCondition::parabolic>;
+constexpr auto build_clamped = bicubic<EndCondition::clamped>;
 
 std::unique_ptr<Surface> build_quintic(const Nodes& x,
                                        const Nodes& y,

@@ -33,7 +33,7 @@ Eigen::VectorXd edge_twist(const SplineAxis& x_axis, const Eigen::VectorXd& y_sl
   const AxisEnds ends = x_axis.ends();
   double low = 0.0;
   double high = 0.0;
-  if (ends.low == EndCondition::kClamped || ends.high == EndCondition::kClamped) {
+  if (ends.low == EndCondition::clamped || ends.high == EndCondition::clamped) {
     const SplineAxis free_axis({x_axis.nodes().begin(), x_axis.nodes().end()}, {});
     free_axis.slopes(y_slopes.data(), twist.data(), {});
     low = twist(0);

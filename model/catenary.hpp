@@ -13,9 +13,10 @@
 ///
 /// Irvine's equations (H. M. Irvine, Cable Structures, MIT Press 1981, section 2.6)
 ///   u = H/w (asinh(Vb/H) - asinh(V/H)) + c H S,   y = (Tb - Ta)/w + c (V S + w S^2 / 2)
-/// lose their digits for a light or taut chain. With tanh((b-a)/2) = (sinh b - sinh a)/(cosh b +
-/// cosh a) they become
-///   u = S H (2 f / (Ta + Tb) + c),   y = S (V + w S / 2) (2 / (Ta + Tb) + c) (1)
+/// lose their digits for a light or taut chain. With
+///   tanh((b - a) / 2) = (sinh b - sinh a) / (cosh b + cosh a)
+/// they become
+///   u = S H (2 f / (Ta + Tb) + c),   y = S (V + w S / 2) (2 / (Ta + Tb) + c)                (1)
 /// which holds for every w >= 0, for V < 0 (a chain that hangs below its end) and has the
 /// weightless chain as its limit. Accuracy: a few units in the last place of u and y. Stateless;
 /// nothing allocates or throws.

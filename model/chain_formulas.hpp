@@ -5,11 +5,20 @@
 /// exact pi.
 ///
 /// Notation
-///   U, Y     horizontal and vertical distance from the bit to the sprocket's axis (both positive
-///   below the beam) d        sqrt(U^2 + Y^2);  r sprocket radius;  sg +1 over the top, -1 off the
-///   bottom S        straight part, sqrt(d^2 - r^2);  a its angle below the horizontal;  wrap:
-///   chain past 12 o'clock rho      ring radius; W sled weight; w chain weight per mm; c
-///   compliance; k sag factor, 1e-12 / mm^2 subscript j: the other chain
+///   U, Y  horizontal and vertical distance from the bit to the sprocket's axis (both positive
+///         below the beam)
+///   d     sqrt(U^2 + Y^2)
+///   r     sprocket radius
+///   sg    +1 over the top, -1 off the bottom
+///   S     straight part, sqrt(d^2 - r^2)
+///   a     its angle below the horizontal
+///   wrap  chain past 12 o'clock
+///   rho   ring radius
+///   W     sled weight
+///   w     chain weight per mm
+///   c     compliance
+///   k     sag factor, 1e-12 / mm^2
+///   j     as a subscript: the other chain
 ///
 /// Sources: MaslowCNC/Firmware cnc_ctrl_v1/Kinematics.cpp, triangularInverse (tolerance divides
 /// since pull request 479); WebControlCNC/WebControl Actions/HoleySimulationKinematics.py (one-shot

@@ -6,15 +6,19 @@
 /// Notation, beside catenary.hpp's
 ///   u, y     per chain: horizontal from the sled towards its sprocket, and up
 ///   sg, r    +1 over the top, -1 off the bottom; sprocket radius
-///   phi      slope of the chain where it leaves the sprocket, atan2(Vb, H); wrap = r phi or r (pi
-///   - phi) rho      ring radius;  k beam flexibility;  W sled weight;  f side force, H_left -
-///   H_right psi, a   sled's rotation (brackets), and the attachment points seen from the bit
+///   phi      slope of the chain where it leaves the sprocket, atan2(Vb, H)
+///   wrap     r phi or r (pi - phi)
+///   rho      ring radius
+///   k        beam flexibility
+///   W        sled weight
+///   f        side force, H_left - H_right
+///   psi, a   sled's rotation (brackets), and the attachment points seen from the bit
 ///
 /// Per chain, from the attachment to the motor's axis (U, Y):
 ///   F_u = rho H/Ta + u + sg r Vb/Tb + k H  - U = 0
-///   F_y = rho V/Ta + y - sg r H/Tb  + k Vb - Y = 0 (1)
+///   F_y = rho V/Ta + y - sg r H/Tb  + k Vb - Y = 0                                          (1)
 /// and on the sled V_left + V_right = W, H_left - H_right = f, and for brackets, about the bit,
-///   M = aLx V_L + aLy H_L + aRx V_R - aRy H_R - W cg sin(psi) = 0. (2)
+///   M = aLx V_L + aLy H_L + aRx V_R - aRy H_R - W cg sin(psi) = 0                           (2)
 /// The ring lets both pulls pass through the bit, so that its sled is a point. Unknowns: H_left,
 /// V_left, S of both chains and psi; each chain's S is eliminated by projecting (1) on the normal
 /// of its S column, which leaves a 2 x 2 or 3 x 3 system. The same elimination answers every

@@ -6,8 +6,7 @@
 /// \code
 ///   Machine machine;                      // the classic Maslow on a ten-foot beam
 ///   machine.sled.mass_kg = 10.2;
-///   for (const MachineProblem& p : problems_of(machine)) fmt::print("{} = {}: expected {}\n",
-///   p.parameter, p.value, p.expected);
+///   for (const MachineProblem& p : problems_of(machine)) say(p.parameter, p.value, p.expected);
 /// \endcode
 #pragma once
 

@@ -21,7 +21,7 @@ using effects::acts_on;
 using effects::ChainAddition;
 
 // Steps of the five-point difference
-//   f'(0) = (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / (12 h) (1)
+//   f'(0) = (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / (12 h)                                   (1)
 // At 4 mm its truncation, h^4 f^(5) / 30, is below 1e-9 of the derivative of an angle that varies
 // over the 600 mm or more between sled and sprocket; rounding adds 1e-13.
 constexpr double kStepMm = 4.0;

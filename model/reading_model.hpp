@@ -3,7 +3,7 @@
 /// From a machine with its effects to the lengths that a person would read off it: machine -> chain
 /// -> reading, and the frame in which the marks are written.
 ///
-///   reading = (L0 + chain effects) / (1 + e) + chain_zero + reading effects (1)
+///   reading = (L0 + chain effects) / (1 + e) + chain_zero + reading effects                 (1)
 ///
 /// L0 from the equilibrium with every machine effect on; chain effects in the catalogue's order on
 /// that state; e the sum of the elongations of chain_pitch_error. ReadingModel answers the
@@ -17,8 +17,7 @@
 ///   Machine machine;
 ///   machine.effects = {{"chain_pitch_error", "left", {{"elongation", 0.0012}}}};
 ///   const ReadingModel model(machine);
-///   if (const auto reading = model.at({100.0, -200.0})) fmt::print("{}\n",
-///   reading->lengths.left_mm);
+///   if (const auto reading = model.at({100.0, -200.0})) use(reading->lengths.left_mm);
 /// \endcode
 #pragma once
 

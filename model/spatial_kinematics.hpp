@@ -3,11 +3,14 @@
 /// The equilibrium with three-dimensional sag: on a frame that leans back, gravity's part off the
 /// sheet bends the chains too (up to 10 % of the sag at 15 degrees).
 ///
-/// Notation beside equilibrium.hpp's: per chain the frame (u, y, z), z off the sheet; t the frame's
-/// tilt;
-///   n = (0, cos t, sin t) straight up;  w0 = w / cos t the chain's full weight per mm;  T0 = (H,
-///   V, N) its pull on the sled;  v = T0 . n, h = T0 - v n: the chain hangs in the plane of h and n
-///   as a catenary with (|h|, v) for (H, V).
+/// Notation beside equilibrium.hpp's, per chain in the frame (u, y, z), z off the sheet
+///   t    the frame's tilt
+///   n    straight up, (0, cos t, sin t)
+///   w0   the chain's full weight per mm, w / cos t
+///   T0   its pull on the sled, (H, V, N)
+///   v    T0 . n
+///   h    T0 - v n: the chain hangs in the plane of h and n as a catenary with (|h|, v) for (H, V)
+///
 /// The sled lies on the sheet and carries N; the sprocket's tangent lies in the sheet, at slope
 /// atan2(V + w S, H). Per chain one more unknown, N, and one more equation: the chain leaves and
 /// reaches the sheet's plane at the same height. Sled rotation about the sheet's normal as in the

@@ -8,9 +8,9 @@
 /// (hysteresis, drift) are not modelled.
 ///
 /// \code
-///   const auto square = predict_square(machine, controller_machine, {.size_mm = 100, .corner =
-///   {-1040, -465}}); fmt::print("top: {:.2f} mm, bow {:.2f} mm\n",
-///   square->side(SquareSide::top).length_mm, ...);
+///   const SquareTask task{.size_mm = 100, .corner = {-1040, -465}};
+///   const auto square = predict_square(machine, controller_machine, task);
+///   fmt::print("top: {:.2f} mm\n", square->side(SquareSide::top).length_mm);
 /// \endcode
 #pragma once
 

@@ -18,13 +18,13 @@ struct Analysis {
   Session session;
   DiagnosisOptions options;
   bool settled = true;  ///< calibrating came to rest
-  State state;  ///< settings about which the system is linear; no effect named is in it
+  State state;          ///< settings about which the system is linear; no effect named is in it
   Candidates candidates;
   LinearisedSystem system;
   ModelComparison comparison;
   NullDistribution null;
-  double score = 0.0;  ///< of the strongest single effect
-  double family_wise_p = 1.0;
+  double score = 0.0;          ///< of the strongest single effect, log Bayes factor against nothing
+  double family_wise_p = 1.0;  ///< chance that noise alone scores as high
   Decision decision;
   Estimate estimate;  ///< of the decision's causes
 };
@@ -40,6 +40,7 @@ struct Analysis {
 /// noise does.
 void decide_for(bool seen, Analysis& analysis);
 
+/// Fails in words where the machine cannot be where it was measured.
 [[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(Session session,
                                                                const DiagnosisOptions& options);
 

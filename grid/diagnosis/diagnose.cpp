@@ -54,12 +54,13 @@ Observations observations_of(const Session& session) {
 
 /// What was stated of the noise and of the files.
 void state_input(const Measured& measured, Diagnosis& d) {
-  d.grid_name = measured.name;
-  for (const MeasuredGrid& grid : measured.grids) {
-    if (!d.stated_noise) d.stated_noise = grid.noise;
+  d.grid_name = measured.name();
+  for (const MeasuredGrid* grid : measured.grids()) {
+    if (!d.stated_noise) d.stated_noise = grid->noise;
   }
-  if (measured.holes.empty()) return;
-  const MeasuredHoles& set = measured.holes.front();
+  const auto holes = measured.holes();
+  if (holes.empty()) return;
+  const MeasuredHoles& set = *holes.front();
   if (set.machine && set.machine->controller.kind == model::ControllerKind::ideal) {
     d.notes.emplace_back(
         "The controller is stated as ideal: it believes the machine that its file states. These "

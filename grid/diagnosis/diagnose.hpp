@@ -22,11 +22,13 @@
 
 namespace chaintrue::grid::diagnosis {
 
-/// Of holes, and of points that bear none, the order of visits is unknown.
+/// Of holes, and of points that bear none, the order of visits is unknown. Fails in words where
+/// there is no machine, too little was measured, or a place is out of the machine's reach.
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
     const Measured& measured, const DiagnosisOptions& options = {});
 
-/// How well what was found on one grid predicts another of the same machine.
+/// How well what was found on one grid predicts another of the same machine. Fails in words where
+/// either has no machine or the machine found cannot reach the other's points.
 [[nodiscard]] tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
                                                                 const Diagnosis& diagnosis,
                                                                 const MeasuredGrid& to);

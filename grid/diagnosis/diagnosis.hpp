@@ -217,8 +217,8 @@ struct Transfer {
 /// with all distances that end there.
 struct Removal {
   enum class What { point, column, row, distance, hole } what = What::point;
-  std::size_t index = 0;  ///< of a point, a distance or a hole
-  double at_mm = 0.0;     ///< of a column its x, of a row its y
+  std::size_t index = 0;   ///< of a point, a distance or a hole
+  double at_mm = 0.0;      ///< of a column its x, of a row its y
   std::size_t points = 1;  ///< or distances, that go
   Verdict verdict = Verdict::nothing_found;
   std::vector<CauseId> causes;  ///< that would be named

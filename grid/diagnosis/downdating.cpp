@@ -9,6 +9,7 @@
 #include <set>
 
 #include "grid/diagnosis/leading.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -214,11 +215,9 @@ Downdating::Without Downdating::without(const std::vector<std::size_t>& units) c
       comparison.models.begin(),
       comparison.models.end(),
       [](const CandidateModel& a, const CandidateModel& b) { return a.log_weight > b.log_weight; });
-  double sum = 0.0;
-  for (const CandidateModel& model : comparison.models) {
-    sum += std::exp(model.log_weight - comparison.best().log_weight);
-  }
-  comparison.log_total = comparison.best().log_weight + std::log(sum);
+  std::vector<double> weights;
+  for (const CandidateModel& model : comparison.models) weights.push_back(model.log_weight);
+  comparison.log_total = log_sum(weights);
   for (const auto& [score, marginalised] : strongest) {
     if (marginalised == comparison.best().marginalised) {
       result.seen = result.seen || a_.null.p_value(score) < kFalseAlarm;

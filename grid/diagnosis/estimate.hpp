@@ -13,16 +13,17 @@ namespace chaintrue::grid::diagnosis {
 
 struct Estimate {
   std::vector<int> regressors;
-  Eigen::VectorXd setting_change;  ///< from the state of the system; the nuisances after them
-  Eigen::MatrixXd setting_covariance;
-  Eigen::VectorXd coefficient;  ///< of each regressor
+  /// q, from the state of the system: settings in their units, the nuisances after them.
+  Eigen::VectorXd setting_change;
+  Eigen::MatrixXd setting_covariance;  ///< q x q
+  Eigen::VectorXd coefficient;         ///< of each regressor
   /// 0 where the size is a whole number; at a bound what noise alone makes of it.
   Eigen::VectorXd coefficient_sigma;
   double noise_square = 1.0;                ///< s^2
-  Eigen::VectorXd left;                     ///< whitened, all rows, the discrepancy not taken out
+  Eigen::VectorXd left;                     ///< n whitened rows, the discrepancy not taken out
   Eigen::VectorXd left_beside_discrepancy;  ///< the same with the discrepancy taken out
   Discrepancy discrepancy;
-  Eigen::VectorXd discrepancy_weights;  ///< per kept row; empty without a discrepancy
+  Eigen::VectorXd discrepancy_weights;  ///< N, a kept row each; empty without a discrepancy
   /// Covariance of setting_change and of the free coefficients, in that order.
   Eigen::MatrixXd covariance;
   std::vector<std::size_t> free;  ///< positions in `regressors`

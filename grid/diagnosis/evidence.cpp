@@ -10,16 +10,12 @@
 #include <numbers>
 
 #include "grid/diagnosis/normal.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
-
-double log_sum(double a, double b) {
-  const double high = std::max(a, b);
-  return high == kMinusInfinity ? high : high + std::log1p(std::exp(std::min(a, b) - high));
-}
 
 /// log of the chance that a normal lies in [low, high].
 double log_mass(double mean, double sigma, double low, double high) {

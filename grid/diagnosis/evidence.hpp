@@ -4,7 +4,8 @@
 /// their sizes, the settings and the noise.
 ///
 /// Notation
-///   e, g_k   whitened rows (linearised_system.hpp), those of points set aside taken out; N of them
+///   e, g_k   whitened rows (linearised_system.hpp), those of points set aside taken out
+///   N        how many rows are kept
 ///   V        I + A diag(sigma^2) A': their covariance with the settings unknown but for what is
 ///            stated, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
 ///   delta_k  coefficient times |V^-1/2 g_k|: the signal-to-noise ratio of a cause. Beforehand
@@ -51,17 +52,17 @@ class NoiseDensity {
 
 /// The system with the settings integrated out and some points set aside.
 struct MarginalisedSystem {
-  std::vector<bool> outliers;      ///< per unit
-  std::vector<Eigen::Index> kept;  ///< rows
-  Eigen::MatrixXd factor;          ///< lower L of V = L L'
-  Eigen::VectorXd e;               ///< L^-1
-  Eigen::MatrixXd g;               ///< L^-1
-  double log_det = 0.0;            ///< of V
+  std::vector<bool> outliers;      ///< a flag a unit
+  std::vector<Eigen::Index> kept;  ///< N rows, ascending
+  Eigen::MatrixXd factor;          ///< N x N, lower L of V = L L'
+  Eigen::VectorXd e;               ///< N, L^-1 times the residual
+  Eigen::MatrixXd g;               ///< N x a column a regressor, L^-1 times it
+  double log_det = 0.0;            ///< log |V|
   double log_outliers = 0.0;       ///< prior and density of the points set aside
   /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.
   std::vector<double> discrepancy_trace;
 };
-/// Prior and density of one unit of so many rows set aside.
+/// Prior and density of one unit of so many rows set aside, as a natural logarithm.
 [[nodiscard]] double log_price_of_outlier(Eigen::Index rows);
 /// Of all these units.
 [[nodiscard]] double log_price_of_outliers(const LinearisedSystem& system,
@@ -86,11 +87,11 @@ struct MarginalisedSystem {
 
 /// Inner products of the residual and of some columns.
 struct NormalEquations {
-  std::vector<int> columns;  ///< regressors, ascending
-  double ee = 0.0;
-  Eigen::VectorXd ge;
-  Eigen::MatrixXd gg;
-  double log_det = 0.0;  ///< of everything that is not noise's scale: V and the discrepancy
+  std::vector<int> columns;  ///< m regressors, ascending
+  double ee = 0.0;           ///< e'e
+  Eigen::VectorXd ge;        ///< m, g'e
+  Eigen::MatrixXd gg;        ///< m x m, g'g
+  double log_det = 0.0;      ///< of everything that is not noise's scale: V and the discrepancy
   [[nodiscard]] Eigen::Index position(int column) const;
 };
 [[nodiscard]] NormalEquations normal_equations(const MarginalisedSystem& marginalised,
@@ -108,7 +109,7 @@ struct NormalEquations {
 
 /// What a set of regressors makes of the data.
 struct SetEvidence {
-  double log_evidence = 0.0;
+  double log_evidence = 0.0;                 ///< natural logarithm, up to a constant of the data
   double quadratic = 0.0;                    ///< what is left of e'e
   Eigen::VectorXd signal_to_noise;           ///< of the free ones, in the order of the set
   Eigen::VectorXd signal_to_noise_variance;  ///< their variances, in units of s^2

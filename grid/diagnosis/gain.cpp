@@ -11,6 +11,7 @@
 #include "grid/diagnosis/expected_gain.hpp"
 #include "grid/diagnosis/leading.hpp"
 #include "grid/map/spatial_blocks.hpp"
+#include "grid/statistics.hpp"
 #include "grid/synthetic/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -116,12 +117,6 @@ class Folds {
 
   const Analysis& a_;
 };
-
-double rms(const std::vector<Eigen::Vector2d>& errors) {
-  double sum = 0.0;
-  for (const auto& e : errors) sum += e.squaredNorm();
-  return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
-}
 
 /// Units held out together, and what they are.
 struct Blocks {
@@ -297,12 +292,13 @@ struct Extension {
 };
 
 Extension extension_of(const Analysis& a, const Errors& errors) {
-  if (!a.decision.listed.empty() && rms(errors.extended) < rms(errors.calibrated)) {
+  if (!a.decision.listed.empty() && rms_length(errors.extended) < rms_length(errors.calibrated)) {
     return {&errors.extended, &errors.extended_and_surface, true, true};
   }
   // A block without which these points leave two names, the wrong one first, says little against
   // the name that all points give.
-  if (!a.decision.listed.empty() && rms(errors.fixed_naming) < rms(errors.calibrated)) {
+  if (!a.decision.listed.empty() &&
+      rms_length(errors.fixed_naming) < rms_length(errors.calibrated)) {
     return {&errors.fixed_naming, &errors.fixed_naming_and_surface, true, false};
   }
   return {&errors.calibrated, &errors.surface_only, false, true};
@@ -329,7 +325,7 @@ HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
   if (tool_mm.empty()) return result;
   std::vector<double> size;
   for (const auto& e : tool_mm) size.push_back(e.norm());
-  result.rms_mm = rms(tool_mm);
+  result.rms_mm = rms_length(tool_mm);
   std::vector<double> sorted = size;
   std::sort(sorted.begin(), sorted.end());
   const auto at = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(sorted.size())));
@@ -397,10 +393,10 @@ std::optional<Gain> measure_gain(const Analysis& a) {
   const auto edge = border(a, blocks.of_the_bed);
   if (a.session.units.size() - edge.size() >= a.session.fewest_units) {
     const Errors outer = folds.hold_out(edge).errors;
-    gain.border = {rms(outer.calibrated),
-                   rms(outer.extended),
-                   rms(outer.extended_and_surface),
-                   rms(outer.surface_only)};
+    gain.border = {rms_length(outer.calibrated),
+                   rms_length(outer.extended),
+                   rms_length(outer.extended_and_surface),
+                   rms_length(outer.surface_only)};
   }
   return gain;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grid/estimation/linearised_system.hpp"
+#include "grid/estimation/unknowns.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -102,7 +103,8 @@ tl::expected<estimation::LinearisedSystem, observation::Unreachable> lines_of(
   std::vector<estimation::ObservedFrom> from;
   for (const SessionPart& part : session.parts) {
     observations.push_back(part.observation);
-    const Eigen::Index settings = part.observation->sheet() ? 9 : 6;
+    const auto settings =
+        static_cast<Eigen::Index>(estimation::settings_of(*part.observation).size());
     from.push_back({state.view(part), Eigen::VectorXd::Zero(settings)});
   }
   auto line = estimation::linearise(observations, from);

@@ -13,6 +13,12 @@
 ///   A    W d(prediction)/d(settings, nuisances)
 ///   D_i  W d(prediction)/d(chains at place i)
 ///   g_k  W (prediction with the effect less without it)
+///   n    rows: those of the units, then a reading of the machine itself each
+///   q    settings (those of a sheet once for each sheet), then nuisances
+///
+/// Whitened rows have no unit (noise is one); chains and marks are in mm, settings and nuisances in
+/// their own units. Source: G. Golub and C. Van Loan, Matrix Computations (2013), section 6.1, for
+/// whitening.
 ///
 /// A regressor is a secant: exact at the size at which it was taken, and proportional to
 /// size^power. Coefficient b of a regressor is (size / that size)^power; a power of about one goes
@@ -80,31 +86,29 @@ struct SystemUnit {
 };
 
 struct LinearisedSystem {
-  Eigen::VectorXd e;
-  Eigen::MatrixXd by_setting;  ///< A
-  Eigen::MatrixXd g;           ///< a column a regressor
+  Eigen::VectorXd e;           ///< n
+  Eigen::MatrixXd by_setting;  ///< A, n x q
+  Eigen::MatrixXd g;           ///< n x a column a regressor
   std::vector<Regressor> regressors;
   std::vector<SystemPlace> places;
   std::vector<SystemUnit> units;    ///< of consecutive rows, the first ones
-  std::vector<int> unit_of_row;     ///< -1: a reading that never slips
-  Eigen::VectorXd reading_sigma;    ///< of the rows after the units
-  Eigen::VectorXd setting;          ///< value in the state
-  Eigen::VectorXd expected_change;  ///< stated less that
-  Eigen::Index nuisances = 0;       ///< the last of these columns
-  Eigen::VectorXd sigma;            ///< as stated
-  double noise_dof = 15.0;          ///< how well the noise is known
+  std::vector<int> unit_of_row;     ///< n; -1: a reading that never slips
+  Eigen::VectorXd reading_sigma;    ///< of the rows after the units, in the readings' units
+  Eigen::VectorXd setting;          ///< q, value in the state
+  Eigen::VectorXd expected_change;  ///< q, stated less that
+  Eigen::Index nuisances = 0;       ///< the last of these q columns
+  Eigen::VectorXd sigma;            ///< q, one sigma as stated
+  double noise_dof = 15.0;          ///< how well the noise is known, degrees of freedom
   std::size_t fewest_units = 0;     ///< with fewer left, none is set aside
 
-  [[nodiscard]] Eigen::Index observed_rows() const {
-    return e.size() - reading_sigma.size();
-  }
+  [[nodiscard]] Eigen::Index observed_rows() const { return e.size() - reading_sigma.size(); }
 };
 
-/// Without regressors. Fails where a place cannot be reached.
+/// Without regressors. Fails with the first place that the machine cannot reach.
 [[nodiscard]] tl::expected<LinearisedSystem, observation::Unreachable> linearise(
     const Session& session, const State& state, const Steps& steps);
 
-/// All rows in units of noise.
+/// All n rows in units of noise.
 [[nodiscard]] Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all);
 
 /// What stands in the nuisances' columns.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/link_priors.hpp"
+#include "grid/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +11,12 @@ namespace {
 /// Of whole numbers of links, one is the rule.
 double log_share_of_links(double links) { return std::log(0.25) * (std::abs(links) - 1.0); }
 
-/// log(e^a + e^b)
-double log_add(double a, double b) {
-  return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
-}
-
 /// In logarithms: readings much better than usual make every density smaller than any double.
 double log_strength_density(double signal_to_noise) {
   const auto log_normal = [&](double sigma) {
     return -0.5 * std::pow(signal_to_noise / sigma, 2) - std::log(sigma);
   };
-  return log_add(std::log(1.0 - kWideSignalToNoisePrior) + log_normal(kUsualSignalToNoise),
+  return log_sum(std::log(1.0 - kWideSignalToNoisePrior) + log_normal(kUsualSignalToNoise),
                  std::log(kWideSignalToNoisePrior) + log_normal(kWideSignalToNoise));
 }
 
@@ -30,7 +26,7 @@ void share_out_links(const MarginalisedSystem& marginalised, LinearisedSystem& s
   std::size_t first = 0;
   while (first < system.regressors.size()) {
     std::size_t last = first;
-    double log_sum = 0.0;
+    double log_all = 0.0;
     std::vector<double> log_weight;
     for (; last < system.regressors.size(); ++last) {
       const Regressor& d = system.regressors[last];
@@ -38,11 +34,11 @@ void share_out_links(const MarginalisedSystem& marginalised, LinearisedSystem& s
       log_weight.push_back(
           log_share_of_links(d.values.front()) +
           log_strength_density(marginalised.g.col(static_cast<Eigen::Index>(last)).norm()));
-      log_sum = last == first ? log_weight.back() : log_add(log_sum, log_weight.back());
+      log_all = last == first ? log_weight.back() : log_sum(log_all, log_weight.back());
     }
     for (std::size_t k = first; k < last && system.regressors[first].fixed; ++k) {
       Regressor& d = system.regressors[k];
-      d.log_prior = log_weight[k - first] - log_sum -
+      d.log_prior = log_weight[k - first] - log_all -
                     std::log(static_cast<double>(d.cause.effect->sides.size()));
       if (d.slip) d.log_prior += std::log(kSlipOddsOfVisit * d.visits);
     }

@@ -295,14 +295,15 @@ class Assembly {
 std::optional<std::string> too_few(const Measured& measured) {
   std::size_t points = 0;
   std::size_t distances = 0;
-  for (const MeasuredGrid& grid : measured.grids) points += grid.points.size();
-  for (const MeasuredHoles& set : measured.holes) distances += set.distances.size();
-  if (measured.grids.empty()) {
-    return distances < kFewestDistances ? std::optional(too_few_distances(measured.holes.front()))
-                                        : std::nullopt;
+  for (const MeasuredGrid* grid : measured.grids()) points += grid->points.size();
+  for (const MeasuredHoles* set : measured.holes()) distances += set->distances.size();
+  if (measured.grids().empty()) {
+    return distances < kFewestDistances
+               ? std::optional(too_few_distances(*measured.holes().front()))
+               : std::nullopt;
   }
   if (2 * points + distances >= 2 * kFewestPoints) return std::nullopt;
-  if (!measured.holes.empty()) {
+  if (!measured.holes().empty()) {
     return fmt::format(
         "{} points and {} distances are too few to name a cause: a point counts as two, and {} in "
         "all are needed",
@@ -319,22 +320,22 @@ std::optional<std::string> too_few(const Measured& measured) {
 }  // namespace
 
 tl::expected<Session, DiagnosisFailure> make_session(const Measured& measured) {
-  if (!measured.machine) {
+  if (!measured.machine()) {
     return failure(Reason::no_machine,
-                   measured.grids.empty()
+                   measured.grids().empty()
                        ? "the holes name no machine; what was commanded becomes chain lengths by "
                          "its controller: give --machine M.json"
                        : "a diagnosis needs the machine as its owner states it: give --machine "
                          "M.json");
   }
-  Machine stated = *measured.machine;
+  Machine stated = *measured.machine();
   std::vector<ExtraReading> readings;
   const auto take = [&](const std::vector<ExtraReading>& of_file) {
     const auto own = predictable(of_file, stated);
     readings.insert(readings.end(), own.begin(), own.end());
   };
-  for (const MeasuredGrid& grid : measured.grids) take(grid.readings);
-  for (const MeasuredHoles& set : measured.holes) take(set.readings);
+  for (const MeasuredGrid* grid : measured.grids()) take(grid->readings);
+  for (const MeasuredHoles* set : measured.holes()) take(set->readings);
   if (auto said = too_few(measured)) return failure(Reason::too_few_points, *std::move(said));
   if (auto said = contradiction(stated, readings)) {
     return failure(Reason::contradictory_settings, *std::move(said));
@@ -342,15 +343,16 @@ tl::expected<Session, DiagnosisFailure> make_session(const Measured& measured) {
   Assembly assembly(stated);
   PointsSoFar so_far;
   std::size_t index = 0;
-  for (const MeasuredGrid& grid : measured.grids) {
-    auto points = points_of(grid, stated, index, so_far);
+  for (const MeasuredGrid* grid : measured.grids()) {
+    auto points = points_of(*grid, stated, index, so_far);
     if (!points) return tl::unexpected(points.error());
     assembly.add(*std::move(points));
-    index += grid.points.size();
+    index += grid->points.size();
   }
   observation::NumberedFrom first;
-  for (std::size_t k = 0; k < measured.holes.size(); ++k) {
-    MeasuredHoles set = measured.holes[k];
+  const auto sets = measured.holes();
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    MeasuredHoles set = *sets[k];
     if (!set.machine) set.machine = stated;
     for (Hole& hole : set.holes) {
       if (k > 0) hole.name = fmt::format("{} ({})", hole.name, k + 1);

@@ -9,6 +9,7 @@
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/diagnosis/set_search.hpp"
+#include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -25,15 +26,6 @@ double prior_of_count(std::size_t causes) {
   const std::array<double, kMostCauses + 1> prior = {
       kPriorOfNothing, kPriorOfOne, kPriorOfTwo, kPriorOfThree, kPriorOfFour};
   return prior.at(causes);
-}
-
-double log_sum(const std::vector<double>& terms) {
-  double high = kMinusInfinity;
-  for (const double t : terms) high = std::max(high, t);
-  if (high == kMinusInfinity) return high;
-  double sum = 0.0;
-  for (const double t : terms) sum += std::exp(t - high);
-  return high + std::log(sum);
 }
 
 /// Nothing, and each cause alone at its best place.

@@ -21,15 +21,15 @@ struct CandidateModel {
   std::vector<int> regressors;   ///< ascending
   int discrepancy = -1;          ///< number of the model discrepancy, or none
   std::size_t marginalised = 0;  ///< into ModelComparison::marginalised_systems
-  double log_weight = 0.0;       ///< prior times evidence
+  double log_weight = 0.0;       ///< natural logarithm of prior times evidence
   double larger_noise = 0.0;     ///< share of it from noise larger than stated
-  double quadratic = 0.0;
+  double quadratic = 0.0;        ///< what the set leaves of e'e
 };
 
 struct ModelComparison {
   std::vector<MarginalisedSystem> marginalised_systems;
   std::vector<CandidateModel> models;  ///< those that matter, best first
-  double log_total = 0.0;
+  double log_total = 0.0;              ///< logarithm of the sum of weights
   [[nodiscard]] const CandidateModel& best() const { return models.front(); }
   [[nodiscard]] double probability(const CandidateModel& model) const;
 };

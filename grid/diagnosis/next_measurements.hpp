@@ -4,9 +4,9 @@
 ///
 /// Notation
 ///   pi_k  probability of hypothesis k, a set of causes
-///   m_k, S_k  mean and covariance of the new readings as k predicts them, settings and sizes
-///   uncertain D_kl  (m_k - m_l)' ((S_k + S_l) / 2)^-1 (m_k - m_l) over all new readings chosen so
-///   far
+///   m_k   mean of the new readings as k predicts them
+///   S_k   their covariance, settings and sizes uncertain
+///   D_kl  (m_k - m_l)' ((S_k + S_l) / 2)^-1 (m_k - m_l) over all new readings chosen so far
 ///
 /// Chosen one after the other to make the sum over pairs of sqrt(pi_k pi_l) exp(-D_kl / 8)
 /// smallest, the Bhattacharyya bound on taking one for the other. The log Bayes factor of k against

@@ -10,8 +10,7 @@
 /// \code
 ///   const Periodogram waves(lengths_mm, 5.5);
 ///   const std::vector<double> power = waves.power(residuals_mm);   // beside waves.periods_mm()
-///   const double level = waves.level(0.01, 499, seed);             // noise passes it 1 time in
-///   100
+///   const double level = waves.level(0.01, 499, seed);  // noise passes it 1 time in 100
 /// \endcode
 #pragma once
 

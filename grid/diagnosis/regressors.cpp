@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/chain_rows.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -49,16 +50,15 @@ Eigen::Vector2d added_at(const SystemPlace& place,
   const model::Pose& pose = place.reading.pose;
   for (const model::Side side : model::kSides) {
     if (!model::effects::acts_on(cause.side, side)) continue;
-    const Eigen::Index row = side == model::Side::left ? 0 : 1;
+    const Eigen::Index row = row_of(side);
     if (cause.effect->misread != nullptr) {
       mm(row) = cause.effect->misread({place.order, sprocket.pitch_mm}, values);
     } else {
-      mm(row) = cause.effect
-                    ->add({pose.chains[side],
-                           row == 0 ? pose.lengths.left_mm : pose.lengths.right_mm,
-                           sprocket.teeth * sprocket.pitch_mm},
-                          values)
-                    .length_mm;
+      mm(row) =
+          cause.effect
+              ->add({pose.chains[side], pose.lengths[side], sprocket.teeth * sprocket.pitch_mm},
+                    values)
+              .length_mm;
     }
   }
   return mm;

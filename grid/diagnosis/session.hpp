@@ -29,8 +29,8 @@ struct SessionPart {
   Eigen::Index first_row = 0;
   std::size_t first_place = 0;
   std::size_t first_unit = 0;
-  std::optional<std::size_t> sheet;             ///< which of the session's; none: the bed's frame
-  std::vector<Eigen::Index> nuisance_columns;   ///< among all columns
+  std::optional<std::size_t> sheet;            ///< which of the session's; none: the bed's frame
+  std::vector<Eigen::Index> nuisance_columns;  ///< among all columns
   [[nodiscard]] bool reads_chains() const { return observation->kind().reads_chains; }
 };
 
@@ -56,8 +56,8 @@ struct Session {
   std::vector<SessionUnit> units;
   std::vector<model::Setting> settings;  ///< those of a sheet once for each
   std::size_t sheets = 0;
-  Eigen::VectorXd stated_value;  ///< of the settings, then of the nuisances
-  Eigen::VectorXd stated_sigma;
+  Eigen::VectorXd stated_value;  ///< q: of the settings, then of the nuisances, each in its unit
+  Eigen::VectorXd stated_sigma;  ///< q, one sigma of these
   Eigen::Index rows = 0;
   Eigen::Index observed_rows = 0;  ///< those of units
   /// How well the noise is known; of several observations that of the one that knows least.
@@ -106,7 +106,8 @@ inline constexpr std::size_t kFewestDistances = 8;
 /// Of which so many must stay when bad ones are set aside.
 inline constexpr std::size_t kFewestGoodDistances = 6;
 
-/// Points and distances of one machine, in any mix; the machine is that of the first file.
+/// Points and distances of one machine, in any mix; the machine is that of the first file. Fails in
+/// words where there is no machine, too little was measured, or a command is out of reach.
 [[nodiscard]] tl::expected<Session, DiagnosisFailure> make_session(const Measured& measured);
 
 /// The same machine with other observations in place of the session's, each in the frame (sheet and

@@ -7,6 +7,7 @@
 #include "grid/diagnosis/gain.hpp"
 #include "grid/diagnosis/leading.hpp"
 #include "grid/map/spatial_blocks.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -34,12 +35,8 @@ class Placed {
       result = left - scaled * x;
       std::vector<double> size;
       for (const SystemUnit& unit : system_.units) size.push_back(unit.segment(result).norm());
-      std::vector<double> sorted = size;
-      std::nth_element(sorted.begin(),
-                       sorted.begin() + static_cast<std::ptrdiff_t>(size.size() / 2),
-                       sorted.end());
       // The median length of two standard normals is 1.18.
-      const double s = std::max(1.0, sorted[size.size() / 2] / 1.18);
+      const double s = std::max(1.0, median(size) / 1.18);
       for (std::size_t i = 0; i < size.size(); ++i) {
         const SystemUnit& unit = system_.units[i];
         weight.segment(unit.first_row, unit.rows)

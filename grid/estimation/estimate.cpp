@@ -77,9 +77,9 @@ class Estimator {
   double surface_log_evidence_ = 0.0;
 };
 
-EstimationFailure failure_of(const interp::FitRefusal& refusal) {
-  return {refusal.reason == interp::FitFailure::kRankDeficient ? Reason::rank_deficient
-                                                               : Reason::not_converged,
+EstimationFailure failure_of(const interp::FitFailure& refusal) {
+  return {refusal.reason == interp::FitFailure::Reason::rank_deficient ? Reason::rank_deficient
+                                                                       : Reason::not_converged,
           refusal.sentence};
 }
 
@@ -90,7 +90,7 @@ Estimator::Fit Estimator::solve(const Eigen::VectorXd& weights,
   interp::FitOptions options;
   options.correct_covariance = correct_covariance;
   const bool nothing_to_choose =
-      problem.penalties.empty() && problem.noise.knowledge == interp::NoiseKnowledge::kExact;
+      problem.penalties.empty() && problem.noise.knowledge == interp::NoiseKnowledge::exact;
   auto fit = nothing_to_choose ? interp::fit_with_smoothing(problem, Eigen::VectorXd(0), 1.0)
              : smoothing == Smoothing::choose
                  ? interp::fit_penalised(problem, options)
@@ -207,10 +207,10 @@ tl::expected<void, EstimationFailure> Estimator::settle() {
 /// A surface as smooth as the readings ask for, where they speak for one.
 tl::expected<void, EstimationFailure> Estimator::choose_surface() {
   interp::FitOptions plain;
-  plain.prior = interp::SmoothingPrior::kNone;
+  plain.prior = interp::SmoothingPrior::none;
   plain.correct_covariance = false;
   // V without a surface; of an unknown noise its prior is in it (reml.hpp).
-  const bool unknown = input_.noise.knowledge == interp::NoiseKnowledge::kUnknown;
+  const bool unknown = input_.noise.knowledge == interp::NoiseKnowledge::unknown;
   const double without =
       fit_.minus_two_log_reml + (unknown ? std::log(fit_.sigma2) : 0.0);
   auto bent = std::make_unique<JointProblem>(input_, true);

@@ -68,7 +68,7 @@ inline constexpr double kSurfaceEvidence = 3.0;
 inline constexpr std::size_t kFewestSingleRows = 5;
 
 /// The order of the machine's own unknowns: model::kMachineSettings, the left scale, the right one.
-inline constexpr Eigen::Index kMachineUnknowns = 8;
+inline constexpr Eigen::Index kMachineUnknowns = model::kMachineSettings.size() + 2;
 
 /// What is known of the machine: deviations from the stated settings, scales beside none.
 struct MachineKnowledge {

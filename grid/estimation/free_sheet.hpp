@@ -4,10 +4,13 @@
 /// defined by laying it so that the places, as a whole, lie where they were commanded. That tells
 /// nothing of the machine. Private to grid/estimation.
 ///
-/// Notation: m_i marks of the places, c_i where they were commanded; G, d(all m)/d(unknowns); g,
-/// what the unknowns have moved the marks by where they stand now; M, 3 x 2N, how places lie beside
-/// their commands as a whole: shift x, shift y, turn (small). Free directions x_f follow from the
-/// other unknowns x_r:
+/// Notation
+///   m_i  marks of the places
+///   c_i  where they were commanded
+///   G    d(all m)/d(unknowns)
+///   g    what the unknowns have moved the marks by where they stand now
+///   M    3 x 2N, how places lie beside their commands as a whole: shift x, shift y, turn (small)
+///   x_f  the free directions, which follow from the other unknowns x_r:
 ///
 ///   M (m - c + G x - g) = 0   =>   x_f = a + F x_r,
 ///   F = -(M G_f)^-1 M G_r,   a = -(M G_f)^-1 M (m - c - g)                                  (1)

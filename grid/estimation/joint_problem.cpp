@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/chain_rows.hpp"
 #include "grid/estimation/surface_correction.hpp"
 #include "grid/map/measured_area.hpp"
 #include "model/calibration/setting.hpp"
@@ -52,7 +53,6 @@ bool is_linear_in_correction(const Observation& observation) {
   return observation.places().empty() || observation.kind().reads_chains;
 }
 
-Eigen::Index column_of(Side side) { return side == Side::left ? 0 : 1; }
 
 double length_of(model::ChainLengths lengths, Side side) {
   return lengths[side];
@@ -166,7 +166,7 @@ void JointProblem::fill_design(const LinearisedSystem& system, const State& stat
     for (const observation::PlaceColumns& place : unit.places) {
       const SystemPlace& at = system.places[place.place];
       for (const Side side : model::kSides) {
-        const Eigen::VectorXd by_chain = place.by_chain.col(column_of(side));
+        const Eigen::VectorXd by_chain = place.by_chain.col(row_of(side));
         own.col(unknowns_->scale(side)) += by_chain * length_of(at.state.reading.lengths, side);
         if (!has_surface_) continue;
         const auto row = static_cast<Eigen::Index>(place.place);
@@ -207,7 +207,7 @@ Eigen::MatrixXd JointProblem::lengths_by_unknown(std::size_t place,
                                  view.sheet.sensitivity(at.state.mark));
   }
   for (const Side side : model::kSides) {
-    const Eigen::Index row = column_of(side);
+    const Eigen::Index row = row_of(side);
     rows(row, unknowns_->scale(side)) = length_of(at.state.reading.lengths, side);
     if (!has_surface_) continue;
     const auto own = static_cast<Eigen::Index>(place);

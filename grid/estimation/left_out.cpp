@@ -50,9 +50,8 @@ std::vector<Eigen::VectorXd> LeftOut::residuals(const UnitGroup& group) const {
     response.segment(rows, count) = root * response_of(unit);
     rows += count;
   }
-  const auto held = rows == 0
-                        ? tl::expected<interp::HeldOut, interp::FitRefusal>(interp::HeldOut{})
-                        : fit_.held_out(design, response);
+  const auto held = rows == 0 ? tl::expected<interp::HeldOut, interp::FitFailure>(interp::HeldOut{})
+                              : fit_.held_out(design, response);
   std::vector<Eigen::VectorXd> residuals;
   Eigen::Index at = 0;
   for (const std::size_t unit : group) {

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "grid/chain_rows.hpp"
 #include "grid/observation/observation.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
@@ -37,12 +38,12 @@ class Unknowns {
 
   /// How many settings there are: of the machine and of the first sheet.
   [[nodiscard]] Eigen::Index settings() const { return settings_; }
-  [[nodiscard]] Eigen::Index scale(model::Side side) const { return settings_ + second(side); }
+  [[nodiscard]] Eigen::Index scale(model::Side side) const { return settings_ + row_of(side); }
   [[nodiscard]] Eigen::Index polynomial(model::Side side) const {
-    return settings_ + 2 + second(side) * surface_.polynomials;
+    return settings_ + 2 + row_of(side) * surface_.polynomials;
   }
   [[nodiscard]] Eigen::Index bend(model::Side side) const {
-    return settings_ + 2 + 2 * surface_.polynomials + second(side) * surface_.bends;
+    return settings_ + 2 + 2 * surface_.polynomials + row_of(side) * surface_.bends;
   }
   [[nodiscard]] const SurfaceColumns& surface() const { return surface_; }
   /// Where the columns of an observation's sheet begin; -1: it has none.
@@ -64,7 +65,6 @@ class Unknowns {
                                                std::size_t observation) const;
 
  private:
-  static Eigen::Index second(model::Side side) { return side == model::Side::left ? 0 : 1; }
 
   model::Machine stated_;
   SurfaceColumns surface_;

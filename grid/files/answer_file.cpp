@@ -31,9 +31,7 @@ std::string write_answer(const synthetic::SyntheticAnswer& answer) {
     settings.push_back(
         {{"setting", std::string(model::name(offset.setting))}, {"offset", offset.offset}});
   }
-  Json file = Json::object();
-  file["file_type"] = "chaintrue_answer";
-  file["format_version"] = "1.0";
+  Json file = headed(kAnswerFormat);
   file["seed"] = answer.seed;
   file["effects"] = std::move(effects);
   file["settings"] = std::move(settings);

@@ -7,8 +7,8 @@
 ///     "settings": [ {"setting": "motor_left_x_mm", "offset": 1.7} ],   // truth less stated
 ///     "sheet": {"x_mm": 0, "y_mm": 0, "rotation_rad": 0},
 ///     "bad_points": [indices into points],
-///     "points": [ {"x_mm", "y_mm", "left_mm", "right_mm"} ],     // true places, readings without
-///     noise "machine": { the machine as it truly is } }
+///     "points": [ {"x_mm", "y_mm", "left_mm", "right_mm"} ],  // true places, no noise in readings
+///     "machine": { the machine as it truly is } }
 #pragma once
 
 #include <string>

@@ -79,17 +79,10 @@ Json square_json(const synthetic::ShiftedSquare& square) {
           {"diagonal_mm", square.diagonal_mm}};
 }
 
-Json headed(const char* file_type) {
-  Json file = Json::object();
-  file["file_type"] = file_type;
-  file["format_version"] = "1.0";
-  return file;
-}
-
 }  // namespace
 
 std::string write_catalogue() {
-  Json file = headed("chaintrue_effects");
+  Json file = headed(kEffectsFormat);
   file["effects"] = Json::array();
   for (const Effect* effect : model::effects::catalogue())
     file["effects"].push_back(effect_json(*effect));
@@ -97,7 +90,7 @@ std::string write_catalogue() {
 }
 
 std::string write_effect_picture(const synthetic::EffectPicture& picture) {
-  Json file = headed("chaintrue_effect_picture");
+  Json file = headed(kEffectPictureFormat);
   file["effect"] = effect_record().write(picture.applied);
   file["noise"] = {{"length_mm", picture.noise.length_mm},
                    {"position_mm", picture.noise.position_mm}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/check_file.hpp"
 
-#include "grid/files/json_text.hpp"
+#include "grid/files/formats.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -30,9 +30,7 @@ Json hypothesis_of(const CheckHypothesis& hypothesis) {
 }  // namespace
 
 std::string write_check(const MapCheck& check) {
-  Json json;
-  json["file_type"] = "chaintrue_check";
-  json["format_version"] = "1.0";
+  Json json = headed(kCheckFormat);
   json["verdict"] = std::string(name(check.verdict));
   json["decided"] = check.decided;
   json["sentence"] = check.sentence;

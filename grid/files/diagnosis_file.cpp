@@ -185,7 +185,7 @@ void check_diagnosis(const Cursor& at, Diagnosis& object) {
 }
 
 Record<Diagnosis> make_diagnosis_record() {
-  Record<Diagnosis> record("a diagnosis", "chaintrue_diagnosis");
+  Record<Diagnosis> record("a diagnosis", kDiagnosisFormat);
   record.required("verdict", &Diagnosis::verdict, verdict_word())
       .required("sentence", &Diagnosis::sentence, text())
       .required("what_to_do", &Diagnosis::what_to_do, list(text()))
@@ -227,12 +227,19 @@ const Record<Diagnosis>& diagnosis_record() {
 
 }  // namespace
 
-Diagnosis read_diagnosis(const std::filesystem::path& path) {
-  return parse_diagnosis(read_whole_file(path), name_in_messages(path));
+Diagnosis read_diagnosis(const std::filesystem::path& path, std::vector<Warning>* warnings) {
+  return parse_diagnosis(read_whole_file(path), name_in_messages(path), warnings);
 }
 
-Diagnosis parse_diagnosis(const std::string& text, const std::string& file) {
-  return read_document(diagnosis_record(), text, file);
+Diagnosis parse_diagnosis(const std::string& text,
+                          const std::string& file,
+                          std::vector<Warning>* warnings) {
+  Problems problems(file);
+  Diagnosis diagnosis = read_document(diagnosis_record(), text, problems);
+  if (warnings != nullptr) {
+    warnings->insert(warnings->end(), problems.warnings().begin(), problems.warnings().end());
+  }
+  return diagnosis;
 }
 
 std::string write_diagnosis(const Diagnosis& diagnosis) {

@@ -21,12 +21,13 @@
 ///
 /// Of holes ("observations": "distances"; without the key: points) there are no points but
 ///
-///     "holes":     [ {"name", "x_mm", "y_mm", "commanded_mm": [x, y]} ], where the machine puts
-///     them "distances": [ {"index", "from", "to", "bad", "read_mm", "before_mm", "after_mm", ...}
-///     ], "stated_tape": {"tape_sigma_mm", "hole_sigma_mm", "dof"}
+///     "holes":       [ {"name", "x_mm", "y_mm", "commanded_mm": [x, y]} ],
+///     "distances":   [ {"index", "from", "to", "bad", "read_mm", "before_mm", "after_mm", ...} ],
+///     "stated_tape": {"tape_sigma_mm", "hole_sigma_mm", "dof"}
 ///
-/// bad_points are then indices into the holes file's distances, their shifts {"off_mm", "sigmas"}:
-/// read less what all the others make of it. The gain's errors are of distances.
+/// Holes lie where the machine puts them. bad_points are then indices into the holes file's
+/// distances, their shifts {"off_mm", "sigmas"}: read less what all the others make of it. The
+/// gain's errors are of distances.
 ///
 /// A side, a follow-up's place and what a left-over follows are null where there is none.
 ///
@@ -38,16 +39,21 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
+#include "grid/files/input_error.hpp"
 
 namespace chaintrue::grid::files {
 
-/// "-" reads standard input. \throws InputError with every problem of the file.
-[[nodiscard]] diagnosis::Diagnosis read_diagnosis(const std::filesystem::path& path);
+/// "-" reads standard input; what was assumed is added to `warnings` where they are wanted.
+/// \throws InputError with every problem of the file.
+[[nodiscard]] diagnosis::Diagnosis read_diagnosis(const std::filesystem::path& path,
+                                                  std::vector<Warning>* warnings = nullptr);
 /// Parses text; `file` is the name used in messages.
 [[nodiscard]] diagnosis::Diagnosis parse_diagnosis(const std::string& text,
-                                                   const std::string& file);
+                                                   const std::string& file,
+                                                   std::vector<Warning>* warnings = nullptr);
 /// \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_diagnosis(const diagnosis::Diagnosis& diagnosis);
 

@@ -80,7 +80,7 @@ void read_points(const Cursor& at, StatedGrid& grid) {
 
 const Record<StatedGrid>& grid_record() {
   static const auto record =
-      Record<StatedGrid>("a grid", "chaintrue_grid")
+      Record<StatedGrid>("a grid", kGridFormat)
           .optional("name", &StatedGrid::name, text())
           .optional("machine", &StatedGrid::machine, object(machine_record()))
           .sparse("machine_file", &StatedGrid::machine_file, text())

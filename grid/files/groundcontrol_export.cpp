@@ -135,7 +135,7 @@ void remark_on_what_cannot_be_typed(const Machine& machine, std::vector<std::str
   }
   for (const Side side : model::kSides) {
     const bool left = side == Side::left;
-    const double zero_mm = left ? machine.chain_zero.left_mm : machine.chain_zero.right_mm;
+    const double zero_mm = machine.chain_zero[side];
     if (std::abs(zero_mm) <= kWorthSayingMm) continue;
     remarks.push_back(fmt::format("the {} chain reads {:.2f} mm too {}; set its zero anew",
                                   left ? "left" : "right",

@@ -5,9 +5,14 @@
 /// controller, maslow_classic. Exporting turns a machine, as calibration found it, into the numbers
 /// to type in.
 ///
-/// Notation: D motorspacingx, Yo motoroffsety, t topbeamtilt, H bedheight, s = left -1, right +1.
+/// Notation
+///   D   motorspacingx
+///   Yo  motoroffsety
+///   t   topbeamtilt
+///   H   bedheight
+///   s   left -1, right +1
 ///
-///   motor = (0, H/2 + Yo) + s D/2 (cos t, sin t) (1)
+///   motor = (0, H/2 + Yo) + s D/2 (cos t, sin t)                                            (1)
 ///
 /// (1) is the firmware's own (Kinematics.cpp of MaslowCNC/Firmware, with the beam's tilt of its
 /// optical branch). The section [Computed Settings] is ignored: GroundControl makes it from the

@@ -110,7 +110,7 @@ std::function<std::optional<Json>(const StatedHoles&)> list_writer(
 
 const Record<StatedHoles>& holes_record() {
   static const auto record =
-      Record<StatedHoles>("a set of holes", "chaintrue_holes")
+      Record<StatedHoles>("a set of holes", kHolesFormat)
           .optional("name", &StatedHoles::name, text())
           .optional("machine", &StatedHoles::machine, object(machine_record()))
           .sparse("machine_file", &StatedHoles::machine_file, text())

@@ -131,22 +131,21 @@ bool KnownKeys::open(const Cursor& at, bool is_root) const {
     at.expect(fmt::format("an object: {}", noun_));
     return false;
   }
-  if (file_type_.empty()) return true;
+  if (format_ == nullptr) return true;
   const Cursor type = at.child("file_type");
   if (!at.has("file_type")) {
-    if (is_root) type.missing(fmt::format("\"{}\"", file_type_));
-  } else if (type.json() != file_type_) {
-    type.expect(fmt::format("\"{}\"", file_type_));
+    if (is_root) type.missing(fmt::format("\"{}\"", format_->file_type));
+  } else if (type.json() != format_->file_type) {
+    type.expect(fmt::format("\"{}\"", format_->file_type));
     return false;
   }
   const Cursor version = at.child("format_version");
   if (!at.has("format_version")) {
-    if (is_root) version.missing(fmt::format("\"{}\"", versions_.back()));
-  } else if (std::find(versions_.begin(), versions_.end(), version.json()) == versions_.end()) {
-    const bool is_one = versions_.size() == 1;
-    version.expect(fmt::format("\"{}\", the version{} that this program reads",
-                               fmt::join(versions_, "\" or \""),
-                               is_one ? "" : "s"));
+    if (is_root) version.missing(fmt::format("\"{}\"", format_->version));
+  } else if (const OlderVersion* older = find_older(*format_, version.json())) {
+    at.warn(std::string(older->assumed));
+  } else if (version.json() != format_->version) {
+    version.expect(expected_version(*format_, version.json()));
     return false;
   }
   return true;
@@ -155,7 +154,7 @@ bool KnownKeys::open(const Cursor& at, bool is_root) const {
 std::vector<std::string> KnownKeys::report_unknown_keys(const Cursor& at) const {
   std::vector<std::string> probably_meant;
   for (const auto& [key, value] : at.json().items()) {
-    const bool head = !file_type_.empty() && (key == "file_type" || key == "format_version");
+    const bool head = format_ != nullptr && (key == "file_type" || key == "format_version");
     if (head || key == "comment" || std::find(keys_.begin(), keys_.end(), key) != keys_.end())
       continue;
     std::vector<std::string> free;
@@ -170,12 +169,6 @@ std::vector<std::string> KnownKeys::report_unknown_keys(const Cursor& at) const 
     at.problems().add(at.pointer() + "/" + pointer_token(key), compact_json(value), expected);
   }
   return probably_meant;
-}
-
-void KnownKeys::write_head(Json& object) const {
-  if (file_type_.empty()) return;
-  object["file_type"] = file_type_;
-  object["format_version"] = versions_.back();
 }
 
 }  // namespace chaintrue::grid::files

@@ -6,8 +6,15 @@
 /// pointer; and the same bytes for the same object.
 ///
 /// \code
-///   struct Hole { std::string name; double x_mm = 0; double y_mm = 0; std::optional<double>
-///   sigma_mm; }; struct Holes { std::string name; std::vector<Hole> holes; };
+///   struct Hole {
+///     std::string name;
+///     double x_mm = 0, y_mm = 0;
+///     std::optional<double> sigma_mm;
+///   };
+///   struct Holes {
+///     std::string name;
+///     std::vector<Hole> holes;
+///   };
 ///
 ///   const Record<Hole>& hole_record() {
 ///     static const auto record = Record<Hole>("a hole")
@@ -18,27 +25,27 @@
 ///     return record;
 ///   }
 ///   const Record<Holes>& holes_record() {
-///     static const auto record = Record<Holes>("a chaintrue_holes file", "chaintrue_holes")
+///     static const auto record = Record<Holes>("a chaintrue_holes file", kHolesFormat)
 ///         .sparse("name", &Holes::name, text())
 ///         .required("holes", &Holes::holes, list(object(hole_record()), 2))
-///         .check([](const Cursor& at, Holes& holes) {       // across fields; runs even where
-///         fields were wrong
+///         .check([](const Cursor& at, Holes& holes) {  // even where fields were wrong
 ///           if (at.clean() && names_repeat(holes)) at.child("holes").expect("names that differ");
 ///         });
 ///     return record;
 ///   }
-///   Holes parse_holes(const std::string& text, const std::string& file) { return
-///   read_document(holes_record(), text, file); } std::string write_holes(const Holes& holes) {
-///   return write_document(holes_record(), holes); }
+///   Holes parse_holes(const std::string& text, const std::string& file) {
+///     return read_document(holes_record(), text, file);
+///   }
+///   std::string write_holes(const Holes& holes) { return write_document(holes_record(), holes); }
 /// \endcode
 ///
 /// How a field stands in the file:
 ///   required   must be there; always written
 ///   optional   may be absent or null. A plain member keeps its default and is always written; a
-///   std::optional member is
-///              empty, and written only when it holds a value
+///              std::optional member is empty, and written only when it holds a value
 ///   sparse     may be absent or null; written only when it is not empty (texts, lists,
-///   dictionaries)
+///              dictionaries)
+///
 /// Values: number, integer, boolean, text, choice (an enum by its names), one_of (a text from a
 /// list), object, list, dictionary. `Record::custom` takes a pair of functions for whatever does
 /// not fit (a variant, a path to another file). Keys are written in the order they are declared.
@@ -56,6 +63,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/files/formats.hpp"
 #include "grid/files/json_text.hpp"
 #include "grid/files/number_text.hpp"
 
@@ -197,36 +205,33 @@ template <class V>
 /// The part of a record that does not depend on its type: which keys there are.
 class KnownKeys {
  public:
-  KnownKeys(std::string noun, std::string file_type, std::vector<std::string> versions)
-      : noun_(std::move(noun)), file_type_(std::move(file_type)), versions_(std::move(versions)) {}
+  KnownKeys(std::string noun, const Format* format) : noun_(std::move(noun)), format_(format) {}
   [[nodiscard]] std::string expected() const { return noun_; }
 
  protected:
   void add_key(std::string key) { keys_.push_back(std::move(key)); }
-  /// False, and reported, where this is no object or a file of another type.
+  /// False, and reported, where this is no object or a file of another type or version. Warns of
+  /// what is assumed of an older version.
   [[nodiscard]] bool open(const Cursor& at, bool is_root) const;
   /// Reports keys that nobody knows; gives those known keys that one of them was probably meant to
   /// be.
   [[nodiscard]] std::vector<std::string> report_unknown_keys(const Cursor& at) const;
-  void write_head(Json& object) const;
+  [[nodiscard]] Json head() const { return format_ != nullptr ? headed(*format_) : Json::object(); }
 
  private:
   std::string noun_;
-  std::string file_type_;
-  std::vector<std::string> versions_;
+  const Format* format_;
   std::vector<std::string> keys_;
 };
 
 template <class T>
 class Record : public KnownKeys {
  public:
-  /// `noun` with its article, as in "expected a sprocket". Records with a file type begin with it
-  /// and the version; as part of another file both may be left out. `versions` are those that are
-  /// read, the one that is written last.
-  explicit Record(std::string noun,
-                  std::string file_type = {},
-                  std::vector<std::string> versions = {"1.0"})
-      : KnownKeys(std::move(noun), std::move(file_type), std::move(versions)) {}
+  /// `noun` with its article, as in "expected a sprocket".
+  explicit Record(std::string noun) : KnownKeys(std::move(noun), nullptr) {}
+  /// A file's record begins with its type and version; as part of another file both may be left
+  /// out. The format must outlive the record.
+  Record(std::string noun, const Format& format) : KnownKeys(std::move(noun), &format) {}
 
   template <class V>
   Record& required(const std::string& key, V T::*member, Value<V> value) {
@@ -314,8 +319,7 @@ class Record : public KnownKeys {
   }
 
   [[nodiscard]] Json write(const T& object) const {
-    Json json = Json::object();
-    write_head(json);
+    Json json = head();
     for (const Field& field : fields_) {
       if (auto value = field.write(object)) json[field.key] = std::move(*value);
     }

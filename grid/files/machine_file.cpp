@@ -286,7 +286,7 @@ const Record<model::AppliedEffect>& effect_record() {
 
 const Record<Machine>& machine_record() {
   static const auto record =
-      Record<Machine>("a machine", "chaintrue_machine")
+      Record<Machine>("a machine", kMachineFormat)
           .optional("name", &Machine::name, text())
           .required("bed", &Machine::bed, object(bed_record()))
           .required("motors", &Machine::motors, object(motors_record()))

@@ -20,25 +20,6 @@ constexpr Range kErrorMm{"mm", -1e5, 1e5};
 constexpr Range kAny{"", -1e12, 1e12};
 constexpr Range kPositive{"", 0.0, 1e12};
 
-/// A map as it stands in the file, where that differs from the map in memory.
-struct MapPart {
-  std::string name;
-  std::optional<ModelPart> model;
-  std::optional<DirectPart> direct;
-  std::vector<model::BedPoint> hull;
-  double edge_mm = 0.0;
-  interp::Rectangle domain;
-  std::optional<OutsideRule> outside;
-  MapNoise noise;
-  MapAccuracy accuracy;
-  std::vector<SettingResult> settings;
-  std::vector<MapPoint> points;
-  std::optional<MirrorTest> mirror;
-  std::optional<DistancesUsed> distances;
-  std::vector<std::string> notes;
-  std::string content_hash = {};
-};
-
 const Record<model::BedPoint>& place_record() {
   static const auto record = Record<model::BedPoint>("a point")
                                  .required("x_mm", &model::BedPoint::x_mm, number(kPlaceMm))
@@ -216,18 +197,17 @@ void check_content(const Cursor& at) {
           "the hash of this file's content: something in it was changed or damaged since it was "
           "written; fit the points again");
     }
-  } else if (at.child("format_version").json() == "1.0") {
-    at.warn("written before maps carried a hash of their content; taken to be undamaged");
-  } else {
+  } else if (find_older(kMapFormat, at.child("format_version").json()) == nullptr) {
     hash.missing("the hash of this file's content");
   }
 }
 
-void check_map(const Cursor& at, MapPart& map) {
-  if (map.model.has_value() == map.direct.has_value()) {
+void check_map(const Cursor& at, MapContents& map) {
+  const auto stands = [&at](std::string_view key) { return !at.child(key).json().is_null(); };
+  if (stands("on_machine") == stands("direct")) {
     at.expect("either \"on_machine\" or \"direct\", the two kinds of surface, and not both");
   }
-  if (map.direct && map.outside && map.outside->way == Outside::fade) {
+  if (stands("direct") && map.outside.way == Outside::fade) {
     at.child("outside").child("way").expect(
         "another way: without a machine nothing is left where a surface fades out");
   }
@@ -240,73 +220,67 @@ void check_map(const Cursor& at, MapPart& map) {
   }
 }
 
-const Record<MapPart>& map_record() {
-  static const auto record =
-      Record<MapPart>(
-          "a chaintrue_map file", "chaintrue_map", std::vector<std::string>{"1.0", "1.1"})
-          .optional("name", &MapPart::name, text())
-          .optional("on_machine", &MapPart::model, object(model_part_record()))
-          .optional("direct", &MapPart::direct, object(direct_part_record()))
-          .required("domain_mm", &MapPart::domain, object(rectangle_record()))
-          .required("hull", &MapPart::hull, list(object(place_record()), 3))
-          .required("edge_mm", &MapPart::edge_mm, number(kPositive))
-          .optional("outside", &MapPart::outside, object(outside_record()))
-          .required("noise", &MapPart::noise, object(noise_record()))
-          .required("accuracy", &MapPart::accuracy, object(accuracy_record()))
-          .required("settings", &MapPart::settings, list(object(setting_record())))
-          .required("points", &MapPart::points, list(object(point_record())))
-          .optional("mirror", &MapPart::mirror, object(mirror_record()))
-          .optional("distances", &MapPart::distances, object(distances_record()))
-          .required("notes", &MapPart::notes, list(text()))
-          .sparse("content_hash", &MapPart::content_hash, text())
-          .check(check_map);
+/// One of the two kinds of surface: `Surface` in memory, `Part` in the file.
+template <class Surface, class Part>
+void add_surface(Record<MapContents>& record, const std::string& key, const Record<Part>& part) {
+  record.custom(
+      key,
+      false,
+      part.expected(),
+      [&part](const Cursor& at, MapContents& map) {
+        const auto read = part.read(at);
+        if (read && at.clean()) map.surface = surface_of(*read);
+      },
+      [&part](const MapContents& map) -> std::optional<Json> {
+        const auto* surface = std::get_if<Surface>(&map.surface);
+        if (surface == nullptr) return std::nullopt;
+        return part.write(part_of(*surface));
+      });
+}
+
+/// Written where it is not the rule that files without it follow.
+std::optional<Json> write_outside(const MapContents& map) {
+  if (map.outside.way == OutsideRule{}.way) return std::nullopt;
+  return outside_record().write(map.outside);
+}
+
+Record<MapContents> make_map_record() {
+  Record<MapContents> record("a chaintrue_map file", kMapFormat);
+  record.optional("name", &MapContents::name, text());
+  add_surface<ModelSurface>(record, "on_machine", model_part_record());
+  add_surface<DirectSurface>(record, "direct", direct_part_record());
+  record.required("domain_mm", &MapContents::domain, object(rectangle_record()))
+      .required("hull", &MapContents::hull, list(object(place_record()), 3))
+      .required("edge_mm", &MapContents::edge_mm, number(kPositive))
+      .custom(
+          "outside",
+          false,
+          outside_record().expected(),
+          [](const Cursor& at, MapContents& map) {
+            if (const auto rule = outside_record().read(at)) map.outside = *rule;
+          },
+          write_outside)
+      .required("noise", &MapContents::noise, object(noise_record()))
+      .required("accuracy", &MapContents::accuracy, object(accuracy_record()))
+      .required("settings", &MapContents::settings, list(object(setting_record())))
+      .required("points", &MapContents::points, list(object(point_record())))
+      .optional("mirror", &MapContents::mirror, object(mirror_record()))
+      .optional("distances", &MapContents::distances, object(distances_record()))
+      .required("notes", &MapContents::notes, list(text()))
+      // Of the file, not of the map: write_map adds it to all the rest.
+      .custom(
+          "content_hash",
+          false,
+          text().expected,
+          [](const Cursor& at, MapContents&) { (void)at.text(); },
+          [](const MapContents&) { return std::optional<Json>(); })
+      .check(check_map);
   return record;
 }
 
-MapPart part_of(const MapContents& map) {
-  MapPart part{map.name,
-               std::nullopt,
-               std::nullopt,
-               map.hull,
-               map.edge_mm,
-               map.domain,
-               std::nullopt,
-               map.noise,
-               map.accuracy,
-               map.settings,
-               map.points,
-               map.mirror,
-               map.distances,
-               map.notes};
-  if (const auto* model = std::get_if<ModelSurface>(&map.surface)) {
-    part.model = files::part_of(*model);
-  } else {
-    part.direct = files::part_of(std::get<DirectSurface>(map.surface));
-  }
-  if (map.outside.way != Outside::continued) part.outside = map.outside;
-  return part;
-}
-
-MapContents contents_of(const MapPart& part) {
-  MapContents map;
-  map.name = part.name;
-  if (part.model) {
-    map.surface = surface_of(*part.model);
-  } else {
-    map.surface = surface_of(*part.direct);
-  }
-  map.hull = part.hull;
-  map.edge_mm = part.edge_mm;
-  map.domain = part.domain;
-  map.outside = part.outside.value_or(OutsideRule{});
-  map.noise = part.noise;
-  map.accuracy = part.accuracy;
-  map.settings = part.settings;
-  map.points = part.points;
-  map.mirror = part.mirror;
-  map.distances = part.distances;
-  map.notes = part.notes;
-  return map;
+const Record<MapContents>& map_record() {
+  static const Record<MapContents> record = make_map_record();
+  return record;
 }
 
 }  // namespace
@@ -315,7 +289,7 @@ CompensationMap parse_map(const std::string& text,
                           const std::string& file,
                           std::vector<Warning>* warnings) {
   Problems problems(file);
-  CompensationMap map(contents_of(read_document(map_record(), text, problems)));
+  CompensationMap map(read_document(map_record(), text, problems));
   if (warnings != nullptr) {
     warnings->insert(warnings->end(), problems.warnings().begin(), problems.warnings().end());
   }
@@ -327,7 +301,7 @@ CompensationMap read_map(const std::filesystem::path& path, std::vector<Warning>
 }
 
 std::string write_map(const CompensationMap& map) {
-  Json json = map_record().write(part_of(map.contents()));
+  Json json = map_record().write(map.contents());
   json["content_hash"] = content_hash(json);
   return print_json(json);
 }

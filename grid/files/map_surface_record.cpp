@@ -63,10 +63,10 @@ void check_model_part(const Cursor& at, ModelPart& part) {
 }
 
 Value<interp::EndCondition> end_condition() {
-  return choice<interp::EndCondition>({{"not_a_knot", interp::EndCondition::kNotAKnot},
-                                       {"natural", interp::EndCondition::kNatural},
-                                       {"parabolic", interp::EndCondition::kParabolic},
-                                       {"clamped", interp::EndCondition::kClamped}});
+  return choice<interp::EndCondition>({{"not_a_knot", interp::EndCondition::not_a_knot},
+                                       {"natural", interp::EndCondition::natural},
+                                       {"parabolic", interp::EndCondition::parabolic},
+                                       {"clamped", interp::EndCondition::clamped}});
 }
 
 const Record<interp::AxisEnds>& axis_ends_record() {

@@ -8,7 +8,7 @@
 /// left end (ix = -15 .. 15). A square lies at (ix, iy) times the pitch. The error is the command
 /// less the square's place, so
 ///
-///   command = square + error (1)
+///   command = square + error                                                                (1)
 ///
 /// puts the tool on the square. 0.00 in both blocks: not visited. A scan of what remains with a
 /// compensation switched on has the same form and another meaning; (1) does not hold for it.

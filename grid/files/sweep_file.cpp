@@ -128,7 +128,7 @@ void add_to(Record<StatedSweep>& record,
 }
 
 Record<StatedSweep> make_record() {
-  auto record = Record<StatedSweep>("a chaintrue_sweep file", "chaintrue_sweep");
+  auto record = Record<StatedSweep>("a chaintrue_sweep file", kSweepFormat);
   add_to(record, "name", true, &SweepSpec::name, text());
   add_to(record, "question", false, &SweepSpec::question, text());
   record.custom(
@@ -265,14 +265,15 @@ ReadSweep read_sweep(const fs::path& path) {
   for (const sweep::MachineLevel& level : stated.spec.machines) {
     depends_on += write_machine(level.truth) + write_machine(level.stated);
   }
-  return {stated.spec, hash_of(depends_on)};
+  return {stated.spec, hash_of(depends_on), problems.warnings()};
 }
 
 std::string sweep_summary_head(const SweepSpec& spec) {
   return fmt::format(
-      "{{\n  \"file_type\": \"chaintrue_sweep_summary\",\n  \"format_version\": \"1.0\",\n  "
-      "\"name\": {},\n"
+      "{{\n  \"file_type\": \"{}\",\n  \"format_version\": \"{}\",\n  \"name\": {},\n"
       "  \"question\": {},\n  \"repetitions\": {},\n  \"combinations\": [\n",
+      kSweepSummaryFormat.file_type,
+      kSweepSummaryFormat.version,
       compact_json(spec.name),
       compact_json(spec.question),
       spec.repetitions);

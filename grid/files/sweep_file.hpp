@@ -5,11 +5,11 @@
 ///   { "file_type": "chaintrue_sweep", "format_version": "1.0",
 ///     "name": "how many points", "question": "How many points do I need?",
 ///     "seed": 1, "repetitions": 50, "repeats": 6, "draw_settings": true,
-///     "evaluation": "40x25",                                      // raster that maps are held
-///     against the truth on "grids": ["4x3", "7x4"], "spacings": ["regular", "chebyshev"],
-///     "noises": [{"length_mm": 0.2, "position_mm": 0.3}], "jitters_mm": [8], "surfaces":
-///     ["residual", "direct"], "machines": [{"name": "classic", "machine_file":
-///     "../machines/classic.json",
+///     "evaluation": "40x25",           // raster on which maps are held against the truth
+///     "grids": ["4x3", "7x4"], "spacings": ["regular", "chebyshev"],
+///     "noises": [{"length_mm": 0.2, "position_mm": 0.3}], "jitters_mm": [8],
+///     "surfaces": ["residual", "direct"],
+///     "machines": [{"name": "classic", "machine_file": "../machines/classic.json",
 ///                   "stated_file": "...", "model": "elastic", "unmodelled_mm": 0.8}],
 ///     "effects": [{"name": "none", "effects": []}],
 ///     "used_on": [{"name": "the same machine", "effects": [], "another_of_the_build": false}] }
@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/files/input_error.hpp"
 #include "grid/sweep/sweep_spec.hpp"
 
 namespace chaintrue::grid::files {
@@ -30,6 +31,7 @@ struct ReadSweep {
   sweep::SweepSpec spec;
   /// Of everything that the results depend on, machines included.
   std::uint64_t hash = 0;
+  std::vector<Warning> warnings;
 };
 
 /// \throws InputError with every problem of the file.

@@ -131,17 +131,21 @@ tl::expected<CheckReadings, PlanFailure> readings_at(const CompensationMap& map,
     const auto told = map.query(mark);
     if (!told) {
       return tl::unexpected(PlanFailure{
+          PlanFailure::Reason::unreachable,
           fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(told.error()))});
     }
     grid.points.push_back({mark, told->lengths, {}, {}});
   }
-  auto readings = check_readings(map, {{grid.name, grid}});
-  if (!readings) return tl::unexpected(PlanFailure{readings.error()});
+  auto readings = check_readings(map, grid);
+  if (!readings) {
+    return tl::unexpected(PlanFailure{PlanFailure::Reason::unreachable, readings.error().sentence});
+  }
   return *std::move(readings);
 }
 
 PlanFailure no_machine() {
-  return {"a direct map has no machine: its bed and what a zero shifts are unknown"};
+  return {PlanFailure::Reason::no_machine,
+          "a direct map has no machine: its bed and what a zero shifts are unknown"};
 }
 
 model::PerSide<double> roots(const model::PerSide<double>& squares) {
@@ -168,7 +172,8 @@ tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
   const std::vector<BedPoint> places = places_of(map, request.margin_mm);
   if (places.size() < static_cast<std::size_t>(request.points)) {
     return tl::unexpected(
-        PlanFailure{fmt::format("the map answers at {} of the places tried only", places.size())});
+        PlanFailure{PlanFailure::Reason::too_few_places,
+                    fmt::format("the map answers at {} of the places tried only", places.size())});
   }
   const auto readings = readings_at(map, places, request);
   if (!readings) return tl::unexpected(readings.error());

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "grid/observation/tape_distances.hpp"
 #include "grid/map/length_points.hpp"
+#include "grid/observation/chain_lengths.hpp"
+#include "grid/observation/tape_distances.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid {
@@ -17,6 +19,17 @@ namespace {
 
 using model::BedPoint;
 using model::ChainLengths;
+
+using Reason = CheckFailure::Reason;
+
+tl::unexpected<CheckFailure> fail(Reason reason, std::string sentence) {
+  return tl::unexpected(CheckFailure{reason, std::move(sentence)});
+}
+
+constexpr std::array kMotors = {model::Setting::motor_left_x_mm,
+                                model::Setting::motor_left_y_mm,
+                                model::Setting::motor_right_x_mm,
+                                model::Setting::motor_right_y_mm};
 
 /// The map at N places: d(lengths)/d(mark), and what it does not know of its lengths there, all
 /// places together.
@@ -31,36 +44,28 @@ struct MapAt {
 std::optional<Eigen::MatrixXd> design_at(const ModelSurface& surface,
                                          const model::ReadingModel& model,
                                          BedPoint mark,
-                                         Eigen::Matrix<double, 2, 4>& by_motor) {
+                                         Eigen::Matrix2Xd& by_motor) {
+  const observation::View view{model, surface.sheet};
   const auto reading = model.at(surface.sheet.to_bed(mark));
   if (!reading) return std::nullopt;
-  const Eigen::Matrix<double, 2, 3> by_sheet =
-      reading->position_jacobian * surface.sheet.sensitivity(mark);
-  Eigen::MatrixXd by_setting(2, surface.columns.settings);
-  for (Eigen::Index s = 0; s < surface.columns.settings; ++s) {
-    const model::Setting setting = surface.settings[static_cast<std::size_t>(s)];
-    by_setting.col(s) =
-        setting >= model::Setting::sheet_x_mm
-            ? Eigen::Vector2d(by_sheet.col(static_cast<Eigen::Index>(setting) -
-                                           static_cast<Eigen::Index>(model::Setting::sheet_x_mm)))
-            : model.sensitivity(*reading, setting);
-  }
-  for (Eigen::Index s = 0; s < 4; ++s) {
-    by_motor.col(s) =
-        model.sensitivity(*reading, model::kMachineSettings[static_cast<std::size_t>(s)]);
-  }
-  return design_rows(surface.residual.basis, surface.columns, mark, reading->lengths, by_setting);
+  by_motor =
+      observation::lengths_by_setting(view, *reading, mark, {kMotors.begin(), kMotors.end()});
+  return design_rows(surface.residual.basis,
+                     surface.columns,
+                     mark,
+                     reading->lengths,
+                     observation::lengths_by_setting(view, *reading, mark, surface.settings));
 }
 
-tl::expected<MapAt, std::string> map_at(const CompensationMap& map,
-                                        const std::vector<BedPoint>& marks) {
+tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
+                                         const std::vector<BedPoint>& marks) {
   const auto count = static_cast<Eigen::Index>(marks.size());
   MapAt at;
   at.covariance = Eigen::MatrixXd::Zero(2 * count, 2 * count);
   const auto* surface = std::get_if<ModelSurface>(&map.contents().surface);
   // A lattice's doubt is no linear function of the unknowns: its points stand for themselves.
   const bool is_joint = surface != nullptr && !surface->lattice;
-  at.by_motor.resize(2 * count, surface != nullptr ? 4 : 0);
+  at.by_motor.resize(2 * count, surface != nullptr ? kMotors.size() : 0);
   Eigen::MatrixXd factor;
   if (is_joint) factor.resize(2 * count, surface->columns.total());
   std::optional<model::ReadingModel> model;
@@ -69,18 +74,21 @@ tl::expected<MapAt, std::string> map_at(const CompensationMap& map,
     const BedPoint mark = marks[static_cast<std::size_t>(i)];
     const auto answer = map.query(mark);
     if (!answer) {
-      return tl::unexpected(
+      return fail(
+          Reason::unreachable,
           fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(answer.error())));
     }
     at.lengths.push_back(answer->lengths);
     at.by_mark.push_back(answer->mark_jacobian);
     at.covariance.block<2, 2>(2 * i, 2 * i) = answer->covariance;
     if (surface == nullptr) continue;
-    Eigen::Matrix<double, 2, 4> by_motor;
+    Eigen::Matrix2Xd by_motor;
     const auto design = design_at(*surface, *model, mark, by_motor);
     if (!design) {
-      return tl::unexpected(fmt::format(
-          "({:.1f}, {:.1f}): the calibrated machine has no pose there", mark.x_mm, mark.y_mm));
+      return fail(
+          Reason::unreachable,
+          fmt::format(
+              "({:.1f}, {:.1f}): the calibrated machine has no pose there", mark.x_mm, mark.y_mm));
     }
     at.by_motor.middleRows(2 * i, 2) = by_motor;
     if (is_joint) factor.middleRows(2 * i, 2) = *design * surface->covariance_factor;
@@ -110,13 +118,15 @@ std::vector<Repeated> merged(const std::vector<LengthPoint>& points) {
   return result;
 }
 
-std::string too_many(std::size_t found, std::size_t most, const char* what) {
-  return fmt::format(
-      "{} {} are more than a check takes ({}); three to five that lie far from each other tell "
-      "as much, and a map of all of them is made by chaintrue fit",
-      found,
-      what,
-      most);
+tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const char* what) {
+  return fail(
+      Reason::too_many_readings,
+      fmt::format(
+          "{} {} are more than a check takes ({}); three to five that lie far from each other tell "
+          "as much, and a map of all of them is made by chaintrue fit",
+          found,
+          what,
+          most));
 }
 
 /// The new points of one file: where they are on the map, and what they say there.
@@ -127,34 +137,36 @@ struct Part {
   std::optional<observation::TapeDistances> distances;
 };
 
-tl::expected<Part, std::string> part_of(const CompensationMap& map, const MeasuredGrid& grid) {
+tl::expected<Part, CheckFailure> part_of(const CompensationMap& map, const MeasuredGrid& grid) {
   MeasuredGrid with_machine = grid;
   if (!with_machine.machine && map.machine() != nullptr) with_machine.machine = *map.machine();
   const auto points = length_points(with_machine);
-  if (!points) return tl::unexpected(points.error().sentence);
+  if (!points) return fail(Reason::no_lengths, points.error().sentence);
   Part part;
   part.points = merged(*points);
   if (part.points.size() > kMostCheckedPoints)
-    return tl::unexpected(too_many(part.points.size(), kMostCheckedPoints, "points"));
+    return too_many(part.points.size(), kMostCheckedPoints, "points");
   part.noise = grid.noise.value_or(StatedNoise{});
   for (const Repeated& one : part.points) part.marks.push_back(one.point.mark);
   return part;
 }
 
-tl::expected<Part, std::string> part_of(const CompensationMap& map, const MeasuredHoles& set) {
+tl::expected<Part, CheckFailure> part_of(const CompensationMap& map, const MeasuredHoles& set) {
   if (!set.machine) {
-    return tl::unexpected(std::string(
-        "the holes name no machine; what was commanded becomes chain lengths by its controller"));
+    return fail(
+        Reason::no_machine,
+        "the holes name no machine; what was commanded becomes chain lengths by its controller");
   }
   if (set.distances.size() > kMostCheckedDistances)
-    return tl::unexpected(too_many(set.distances.size(), kMostCheckedDistances, "distances"));
+    return too_many(set.distances.size(), kMostCheckedDistances, "distances");
   auto distances = observation::TapeDistances::in_given_order(set);
-  if (!distances) return tl::unexpected(distances.error());
+  if (!distances) return fail(Reason::no_lengths, distances.error());
   Part part;
   for (const observation::Place& place : distances->places()) {
     const auto mark = map.inverse(place.lengths);
     if (!mark) {
-      return tl::unexpected(fmt::format("hole {}: {}", place.name, explain(mark.error())));
+      return fail(Reason::unreachable,
+                  fmt::format("hole {}: {}", place.name, explain(mark.error())));
     }
     part.marks.push_back(*mark);
   }
@@ -182,8 +194,7 @@ Rows rows_of_points(const Part& part, const MapAt& at, std::size_t first) {
     const Eigen::Matrix2d& by_mark = at.by_mark[first + i];
     rows.residual_mm.segment<2>(row) << read.left_mm - told.left_mm, read.right_mm - told.right_mm;
     rows.noise.block<2, 2>(row, row) =
-        (part.noise.length_mm * part.noise.length_mm * Eigen::Matrix2d::Identity() +
-         part.noise.position_mm * part.noise.position_mm * by_mark * by_mark.transpose()) /
+        observation::covariance_of({part.noise.length_mm, part.noise.position_mm}, by_mark) /
         part.points[i].count;
   }
   return rows;
@@ -240,14 +251,17 @@ void fill_common(CheckReadings& readings, const CompensationMap& map, const MapA
 
 }  // namespace
 
-tl::expected<CheckReadings, std::string> check_readings(const CompensationMap& map,
-                                                        const std::vector<MeasuredFile>& files) {
+tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& map,
+                                                         const Measured& measured) {
+  const std::vector<MeasuredFile>& files = measured.files();
   std::vector<Part> parts;
   std::vector<BedPoint> marks;
   for (const MeasuredFile& file : files) {
     auto part = std::visit([&map](const auto& one) { return part_of(map, one); }, file.measured);
-    if (!part)
-      return tl::unexpected((files.size() > 1 ? file.name + ": " : std::string{}) + part.error());
+    if (!part) {
+      return fail(part.error().reason,
+                  (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence);
+    }
     marks.insert(marks.end(), part->marks.begin(), part->marks.end());
     parts.push_back(*std::move(part));
   }

@@ -34,8 +34,8 @@ inline constexpr std::size_t kMostCheckedPoints = 1000;
 inline constexpr std::size_t kMostCheckedDistances = 2000;
 
 /// Of all files together: what the map does not know of itself they share. Readings at one and the
-/// same mark count as their mean. Fails with a sentence where there are too many, before any work.
-[[nodiscard]] tl::expected<CheckReadings, std::string> check_readings(
-    const CompensationMap& map, const std::vector<MeasuredFile>& files);
+/// same mark count as their mean. Fails where there are too many before any work.
+[[nodiscard]] tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& map,
+                                                                       const Measured& measured);
 
 }  // namespace chaintrue::grid

@@ -3,9 +3,14 @@
 /// Which distances to measure between holes that are given, and to the sheet's edges. Private to
 /// grid/holes.
 ///
-/// Notation: x, the unknowns of a plan (the machine's eight, then the sheet's place); S, their
-/// covariance; A, the distances' derivative by x; V, the readings' covariance (tape_distances.hpp
-/// (2)); C = L' L, the criterion. Measuring distance k alone lowers trace(C S) by
+/// Notation
+///   x   the unknowns of a plan: the machine's eight, then the sheet's place
+///   S   their covariance
+///   A   the distances' derivative by x
+///   V   the readings' covariance, (2) of tape_distances.hpp
+///   C   the criterion, L' L
+///
+/// Measuring distance k alone lowers trace(C S) by
 ///
 ///   |b_k|^2 / K_kk,  b = L S A',  K = A S A' + V                                            (1)
 ///

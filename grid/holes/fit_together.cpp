@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "grid/holes/holes_notes.hpp"
-#include "grid/holes/sets_together.hpp"
 #include "grid/map/corrected_data.hpp"
 #include "grid/map/map_parts.hpp"
 #include "grid/map/points_map.hpp"
@@ -36,19 +35,14 @@ struct Part {
   interp::Rectangle domain;
 };
 
-const std::optional<model::Machine>& machine_of(const MeasuredFile& file) {
-  return std::visit([](const auto& one) -> const auto& { return one.machine; }, file.measured);
-}
-
 tl::expected<void, FitFailure> check_one_machine(const std::vector<MeasuredFile>& files) {
   for (const MeasuredFile& file : files) {
-    const auto& machine = machine_of(file);
+    const auto& machine = file.machine();
     if (!machine) {
       return fail(FitFailure::Reason::no_machine,
                   fmt::format("{} names no machine: give --machine", file.name));
     }
-    const std::string difference =
-        difference_of_settings(*machine_of(files.front()), *machine);
+    const std::string difference = difference_of_settings(*files.front().machine(), *machine);
     if (!difference.empty()) {
       return fail(FitFailure::Reason::impossible_readings,
                   fmt::format("{}: {}", file.name, difference));
@@ -65,7 +59,7 @@ tl::expected<Part, FitFailure> part_of(const MeasuredGrid& grid) {
   Part part;
   part.grid = &grid;
   part.points = points_input(grid, *points);
-  if (part.points->noise_scale.knowledge == interp::NoiseKnowledge::kUnknown) {
+  if (part.points->noise_scale.knowledge == interp::NoiseKnowledge::unknown) {
     auto alone = fit_grid(grid);
     if (!alone) return tl::unexpected(alone.error());
     const double factor = alone->fit.estimate.noise_factor;
@@ -75,7 +69,7 @@ tl::expected<Part, FitFailure> part_of(const MeasuredGrid& grid) {
     part.points->noise = {factor * alone->input.noise.length_mm,
                           factor * alone->input.noise.position_mm};
     part.points->noise_scale = {
-        interp::NoiseKnowledge::kFromRepeats,
+        interp::NoiseKnowledge::from_repeats,
         repeats ? alone->input.noise_scale.degrees_of_freedom : std::max(left, 1.0)};
   }
   part.noise_dof = part.points->noise_scale.degrees_of_freedom;
@@ -135,7 +129,7 @@ estimation::EstimationInput estimation_input(const model::Machine& stated,
     }
     units += part.observation->units().size();
   }
-  input.noise = {interp::NoiseKnowledge::kFromRepeats, dof};
+  input.noise = {interp::NoiseKnowledge::from_repeats, dof};
   input.surface =
       reads_chains ? estimation::SurfaceUse::smoothed : estimation::SurfaceUse::on_evidence;
   if (!reads_chains) {
@@ -167,8 +161,7 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
                             files[k].name,
                             aside,
                             all,
-                            std::holds_alternative<MeasuredGrid>(files[k].measured) ? "points"
-                                                                                    : "distances"));
+                            files[k].grid() != nullptr ? "points" : "distances"));
   }
   return {};
 }
@@ -279,14 +272,13 @@ class TogetherMap {
   }
 
   void finish(const std::vector<HolesAmongFiles>& holes) {
-    const auto& first = files_.front().measured;
-    map_.name = std::visit([](const auto& one) { return one.name; }, first);
+    map_.name = std::visit([](const auto& one) { return one.name; }, files_.front().measured);
     map_.surface = model_surface(estimate_);
     map_.domain = input_.domain;
     const MeasuredArea area(good_, map_.domain);
     map_.hull = area.hull();
     map_.edge_mm = area.edge_mm();
-    const auto* grid = std::get_if<MeasuredGrid>(&first);
+    const MeasuredGrid* grid = files_.front().grid();
     map_.settings = setting_results(
         input_.machine, estimate_, grid != nullptr ? grid->sheet : std::nullopt);
     if (has_points_) {
@@ -326,14 +318,15 @@ class TogetherMap {
 
 }  // namespace
 
-tl::expected<TogetherFit, FitFailure> fit_together(const std::vector<MeasuredFile>& files) {
+tl::expected<TogetherFit, FitFailure> fit_together(const Measured& measured) {
+  const std::vector<MeasuredFile>& files = measured.files();
   if (files.empty()) throw std::invalid_argument("no files to fit together");
   if (auto one = check_one_machine(files); !one) return tl::unexpected(one.error());
   std::vector<CorrectedData> corrected(files.size());
   std::vector<Part> parts;
   std::vector<std::string> corrections;
   for (std::size_t k = 0; k < files.size(); ++k) {
-    const auto* grid = std::get_if<MeasuredGrid>(&files[k].measured);
+    const MeasuredGrid* grid = files[k].grid();
     tl::expected<Part, FitFailure> part;
     if (grid != nullptr) {
       auto data = corrected_data(*grid);
@@ -343,14 +336,13 @@ tl::expected<TogetherFit, FitFailure> fit_together(const std::vector<MeasuredFil
           corrections.end(), corrected[k].notes.begin(), corrected[k].notes.end());
       part = part_of(corrected[k].grid);
     } else {
-      part = part_of(std::get<MeasuredHoles>(files[k].measured));
+      part = part_of(*files[k].holes());
     }
     if (!part) return fail(part.error().reason, files[k].name + ": " + part.error().sentence);
     parts.push_back(*std::move(part));
   }
-  const model::Machine stated = parts.front().grid != nullptr
-                                    ? *parts.front().grid->machine
-                                    : *machine_of(files.front());
+  const model::Machine stated =
+      parts.front().grid != nullptr ? *parts.front().grid->machine : *files.front().machine();
   const estimation::EstimationInput input = estimation_input(stated, parts);
   const auto estimate = estimation::estimate(input);
   if (!estimate) return tl::unexpected(failure_of(estimate.error()));

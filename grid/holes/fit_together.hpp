@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "grid/holes/holes_fit.hpp"
-#include "grid/holes/measured_file.hpp"
+#include "grid/measured.hpp"
 
 namespace chaintrue::grid {
 
@@ -39,7 +39,6 @@ struct TogetherFit {
 /// Fails in words where a file has no machine or another machine's settings than the first, as the
 /// fit of a single file fails, or where a third of a file's readings contradict the others.
 /// \throws std::invalid_argument without a file.
-[[nodiscard]] tl::expected<TogetherFit, FitFailure> fit_together(
-    const std::vector<MeasuredFile>& files);
+[[nodiscard]] tl::expected<TogetherFit, FitFailure> fit_together(const Measured& measured);
 
 }  // namespace chaintrue::grid

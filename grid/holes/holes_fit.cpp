@@ -127,7 +127,7 @@ tl::expected<HolesFit, FitFailure> fit_holes(
   estimation::EstimationInput input;
   input.machine = *set.machine;
   input.observations = {std::make_shared<const observation::TapeDistances>(*distances)};
-  input.noise = {interp::NoiseKnowledge::kFromRepeats, set.noise_dof};
+  input.noise = {interp::NoiseKnowledge::from_repeats, set.noise_dof};
   input.surface = estimation::SurfaceUse::on_evidence;
   input.domain = holes_domain(set.machine->bed);
   input.intervals_x = kHolesIntervalsX;

@@ -233,10 +233,11 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
   check(machine, request);
   const std::vector<PlannedPlace> places = candidates(machine, request.margin_mm);
   if (places.size() < static_cast<std::size_t>(request.holes)) {
-    return tl::unexpected(PlanFailure{fmt::format(
-        "the machine can cut at {} of the places tried only; a wider margin leaves out those it "
-        "cannot reach",
-        places.size())});
+    return tl::unexpected(PlanFailure{PlanFailure::Reason::too_few_places,
+                                      fmt::format("the machine can cut at {} of the places tried "
+                                                  "only; a wider margin leaves out those it "
+                                                  "cannot reach",
+                                                  places.size())});
   }
   const Eigen::MatrixXd prior = prior_of(machine, request.edges);
   const ToolError error = tool_error(machine, request.edges);

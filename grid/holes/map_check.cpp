@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/chain_rows.hpp"
 #include "grid/holes/check_readings.hpp"
 
 namespace chaintrue::grid {
@@ -114,7 +115,7 @@ class Proposals {
   /// What one more mm read on a chain, everywhere, does.
   [[nodiscard]] Eigen::VectorXd zero_column(Side side) const {
     Eigen::VectorXd chain = Eigen::VectorXd::Zero(2 * places_);
-    for (Eigen::Index i = 0; i < places_; ++i) chain[2 * i + (side == Side::left ? 0 : 1)] = 1.0;
+    for (Eigen::Index i = 0; i < places_; ++i) chain[2 * i + row_of(side)] = 1.0;
     return readings_.by_chain * chain;
   }
 
@@ -390,19 +391,9 @@ std::string_view name(CheckVerdict verdict) {
   return "measure_again";
 }
 
-tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
-                                              const std::vector<MeasuredFile>& files) {
-  return check_readings(map, files).map(judge);
-}
-
-tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
-                                              const MeasuredGrid& grid) {
-  return check_map(map, std::vector<MeasuredFile>{{grid.name, grid}});
-}
-
-tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
-                                              const MeasuredHoles& set) {
-  return check_map(map, std::vector<MeasuredFile>{{set.name, set}});
+tl::expected<MapCheck, CheckFailure> check_map(const CompensationMap& map,
+                                               const Measured& measured) {
+  return check_readings(map, measured).map(judge);
 }
 
 }  // namespace chaintrue::grid

@@ -5,8 +5,8 @@
 ///
 /// Each hypothesis predicts the residuals r (measured less map) as a Gaussian,
 ///
-///   r ~ N(X m, K + X P X'),   K = noise of the new points + what the map does not know of itself
-///   (1)
+///   r ~ N(X m, K + X P X')                                                                  (1)
+///   K  noise of the new readings, and what the map does not know of itself
 ///
 /// where X is what the changed quantities do to r, m and P their size beforehand; the probabilities
 /// follow by Bayes' theorem from the priors stated in kCheckPriors. A pitch only grows: half of its
@@ -27,8 +27,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/holes/measured_file.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "grid/measured.hpp"
 
 namespace chaintrue::grid {
 
@@ -100,12 +100,18 @@ struct MapCheck {
 };
 inline constexpr double kDecided = 0.8;
 
-/// Any mix of files. Fails in words: a point off the map, commands without a controller, a tape without a machine.
-[[nodiscard]] tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
-                                                            const std::vector<MeasuredFile>& files);
-[[nodiscard]] tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
-                                                            const MeasuredGrid& grid);
-[[nodiscard]] tl::expected<MapCheck, std::string> check_map(const CompensationMap& map,
-                                                            const MeasuredHoles& set);
+struct CheckFailure {
+  enum class Reason {
+    too_many_readings,
+    no_machine,   ///< commands without a controller
+    no_lengths,   ///< a command that its controller cannot reach, or points without lengths
+    unreachable,  ///< a place off the map, or where its machine cannot hold the sled
+  } reason;
+  std::string sentence;
+};
+
+/// Any mix of files.
+[[nodiscard]] tl::expected<MapCheck, CheckFailure> check_map(const CompensationMap& map,
+                                                             const Measured& measured);
 
 }  // namespace chaintrue::grid

@@ -7,7 +7,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "grid/holes/sets_together.hpp"
+#include "grid/measured.hpp"
 #include "grid/synthetic/holes.hpp"
 #include "model/controllers/payout.hpp"
 
@@ -106,10 +106,13 @@ double true_error_mm(const model::Machine& truth,
   return count > 0 ? std::sqrt(2.0 * left.squaredNorm() / static_cast<double>(count)) : 0.0;
 }
 
-tl::expected<SimulatedPasses, std::string> simulate_passes(const model::Machine& stated,
-                                                           const SimulatedPassesRequest& request) {
+tl::expected<SimulatedPasses, FitFailure> simulate_passes(const model::Machine& stated,
+                                                          const SimulatedPassesRequest& request) {
+  const auto cannot_be_cut = [](std::string sentence) {
+    return tl::unexpected(FitFailure{FitFailure::Reason::point_unreachable, std::move(sentence)});
+  };
   const auto plan = plan_holes(stated, request.plan);
-  if (!plan) return tl::unexpected(plan.error().sentence);
+  if (!plan) return cannot_be_cut(plan.error().sentence);
   synthetic::HolesSpec spec;
   spec.draw_settings = true;
   spec.scale_sigma = request.elongation_sigma;
@@ -130,7 +133,7 @@ tl::expected<SimulatedPasses, std::string> simulate_passes(const model::Machine&
       const auto command = lengths ? controller->command(lengths->lengths)
                                    : tl::expected<BedPoint, model::PoseFailure>(wanted[i]);
       if (!command) {
-        return tl::unexpected(
+        return cannot_be_cut(
             fmt::format("hole {}: {}", design.holes[i].name, model::explain(command.error())));
       }
       design.holes[i].commanded = *command;
@@ -138,9 +141,9 @@ tl::expected<SimulatedPasses, std::string> simulate_passes(const model::Machine&
     // A stream of noise of its own for each pass.
     spec.seed = request.seed + 1000003ULL * static_cast<std::uint64_t>(number);
     auto made = synthetic::simulate_holes(design, spec, truth);
-    if (!made) return tl::unexpected(made.error());
+    if (!made) return cannot_be_cut(made.error().sentence);
     auto pass = passes.add(made->set, wanted);
-    if (!pass) return tl::unexpected(pass.error().sentence);
+    if (!pass) return tl::unexpected(pass.error());
     last = made->set;
     map.emplace(map_of(last, *passes.fit()));
     pass->true_mm = true_error_mm(truth, stated, &*map);

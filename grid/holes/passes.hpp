@@ -86,7 +86,7 @@ struct SimulatedPassesRequest {
 
 /// The whole loop on a machine that is drawn from what is stated. Each pass is cut through the map
 /// of the one before.
-[[nodiscard]] tl::expected<SimulatedPasses, std::string> simulate_passes(
+[[nodiscard]] tl::expected<SimulatedPasses, FitFailure> simulate_passes(
     const model::Machine& stated, const SimulatedPassesRequest& request);
 
 /// True error of a tool that pays out `map`'s lengths (the controller's where there is none) on the

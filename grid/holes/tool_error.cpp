@@ -20,8 +20,8 @@ std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, BedP
     lengths.col(static_cast<Eigen::Index>(i)) =
         model.sensitivity(*reading, model::kMachineSettings[i]);
   }
-  lengths.col(6) = Eigen::Vector2d(reading->lengths.left_mm, 0.0);
-  lengths.col(7) = Eigen::Vector2d(0.0, reading->lengths.right_mm);
+  lengths.rightCols<2>() =
+      Eigen::Vector2d(reading->lengths.left_mm, reading->lengths.right_mm).asDiagonal();
   PlannedPlace planned{place, {}};
   planned.by_unknown << -reading->position_jacobian.inverse() * lengths,
       -model::SheetPlacement{}.sensitivity(place);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/map/compensation_map.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -14,14 +16,20 @@ namespace chaintrue::grid {
 using model::BedPoint;
 using model::ChainLengths;
 
-std::string_view explain(MapFailure failure) {
-  constexpr std::array<std::string_view, 4> kSentences = {
-      "the point is off the bed that was measured",
-      "the chains cannot hold the sled there",
-      "no point of the bed was found for these chain lengths",
-      "an eccentric sprocket makes a wave along the chain that no table over the bed holds",
-  };
-  return kSentences[static_cast<std::size_t>(failure)];
+std::string explain(const MapFailure& failure) {
+  switch (failure.reason) {
+    case MapFailure::outside_map:
+      return "the point is off the bed that was measured";
+    case MapFailure::unreachable:
+      return fmt::format("the chains cannot hold the sled there{}{}",
+                         failure.pose ? ": " : "",
+                         failure.pose ? model::explain(*failure.pose) : "");
+    case MapFailure::not_converged:
+      return "no point of the bed was found for these chain lengths";
+    case MapFailure::wave_along_chain:
+      break;
+  }
+  return "an eccentric sprocket makes a wave along the chain that no table over the bed holds";
 }
 
 namespace {

@@ -8,9 +8,9 @@
 /// skips and hysteresis.
 ///
 /// \code
-///   const CompensationMap map(contents);                       // from fit() or files::read_map()
-///   if (const auto answer = map.query({100.0, -200.0})) use(answer->lengths, answer->sigma,
-///   answer->status); if (const auto mark = map.inverse({1702.1, 1821.4})) use(*mark);
+///   const CompensationMap map(contents);        // from fit() or files::read_map()
+///   if (const auto answer = map.query({100.0, -200.0})) use(answer->lengths, answer->sigma);
+///   if (const auto mark = map.inverse({1702.1, 1821.4})) use(*mark);
 /// \endcode
 #pragma once
 
@@ -105,8 +105,8 @@ struct MirrorTest {
   std::string sentence;
 };
 
-/// What a map made from holes and a tape stands on (grid/holes): its points are the holes, where the
-/// distances say they are, and its held-out errors those of distances, along the tape.
+/// What a map made from holes and a tape stands on (grid/holes): its points are the holes, where
+/// the distances say they are, and its held-out errors those of distances, along the tape.
 struct DistancesUsed {
   int used = 0;
   int set_aside = 0;
@@ -202,13 +202,22 @@ struct MapLengths {
 class MapField;
 
 /// Why there is no answer.
-enum class MapFailure {
-  outside_map,    ///< off the domain, or refused
-  unreachable,    ///< no pose of the machine there
-  not_converged,  ///< the inverse did not settle
-  wave_along_chain,  ///< an eccentric sprocket's wave, shorter than any table's cells
+struct MapFailure {
+  enum class Reason {
+    outside_map,       ///< off the domain, or refused
+    unreachable,       ///< no pose of the machine there
+    not_converged,     ///< the inverse did not settle
+    wave_along_chain,  ///< an eccentric sprocket's wave, shorter than any table's cells
+  };
+  using enum Reason;
+  MapFailure(Reason why) : reason(why) {}  // NOLINT: most reasons are the whole answer
+  explicit MapFailure(model::PoseFailure why) : reason(unreachable), pose(why) {}
+
+  Reason reason;
+  std::optional<model::PoseFailure> pose;  ///< of `unreachable`
+  friend bool operator==(const MapFailure&, const MapFailure&) = default;
 };
-[[nodiscard]] std::string_view explain(MapFailure failure);
+[[nodiscard]] std::string explain(const MapFailure& failure);
 
 /// Immutable, thread safe.
 class CompensationMap {

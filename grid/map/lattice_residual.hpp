@@ -3,10 +3,10 @@
 /// What the calibrated machine and its chains' scales leave at the nodes of a lattice, joined by a
 /// spline that passes through every measured node.
 ///
-///   correction_i(q) = e_i f_i(q) + t_i(q) (1)
+///   correction_i(q) = e_i f_i(q) + t_i(q)                                                   (1)
 ///
-///   e_i, f_i   as in residual_surface.hpp       t_i   quintic on axes of six nodes or more, else
-///   not-a-knot cubic
+///   e_i, f_i   as in residual_surface.hpp
+///   t_i        quintic on axes of six nodes or more, else not-a-knot cubic
 ///
 /// For readings without noise this errs less between the nodes than a penalised surface, which has
 /// to balance smoothness against fidelity. Nodes that were not measured are filled from the line

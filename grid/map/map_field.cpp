@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "grid/chain_rows.hpp"
+
 namespace chaintrue::grid {
 namespace {
 
@@ -49,14 +51,14 @@ class ModelField final : public MapField {
  private:
   [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(BedPoint mark) const override {
     const auto reading = model_.at(surface_.sheet.to_bed(mark));
-    if (!reading) return tl::unexpected(MapFailure::unreachable);
+    if (!reading) return tl::unexpected(MapFailure(reading.error()));
     return corrected(mark, *reading);
   }
 
   [[nodiscard]] tl::expected<WithCovariance, MapFailure> continued_with_covariance(
       BedPoint mark) const override {
     const auto reading = model_.at(surface_.sheet.to_bed(mark));
-    if (!reading) return tl::unexpected(MapFailure::unreachable);
+    if (!reading) return tl::unexpected(MapFailure(reading.error()));
     return WithCovariance{corrected(mark, *reading), covariance(mark, *reading)};
   }
 
@@ -125,7 +127,7 @@ class LatticeField final : public MapField {
  private:
   [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(BedPoint mark) const override {
     const auto reading = model_.at(sheet_.to_bed(mark));
-    if (!reading) return tl::unexpected(MapFailure::unreachable);
+    if (!reading) return tl::unexpected(MapFailure(reading.error()));
     const auto spline = splines_.at(mark);
     const Eigen::Vector2d factor(1.0 + scale_.left, 1.0 + scale_.right);
     MapLengths here;
@@ -221,11 +223,11 @@ std::shared_ptr<MapField> field_of(const MapContents& contents) {
 }
 
 /// In the order of Outside. Where nothing is answered, the search for the inverse may still step.
-constexpr std::array<interp::OutsidePolicy, 5> kPolicies = {interp::OutsidePolicy::kLinear,
-                                                            interp::OutsidePolicy::kLinear,
-                                                            interp::OutsidePolicy::kFade,
-                                                            interp::OutsidePolicy::kLinear,
-                                                            interp::OutsidePolicy::kClamp};
+constexpr std::array<interp::OutsidePolicy, 5> kPolicies = {interp::OutsidePolicy::linear,
+                                                            interp::OutsidePolicy::linear,
+                                                            interp::OutsidePolicy::fade,
+                                                            interp::OutsidePolicy::linear,
+                                                            interp::OutsidePolicy::clamp};
 
 }  // namespace
 
@@ -246,7 +248,7 @@ std::optional<MapField::Change> MapField::change(BedPoint mark) const {
   Change change;
   const model::PerSide<const interp::Surface*> both = surfaces();
   for (const Side side : model::kSides) {
-    const Eigen::Index row = side == Side::left ? 0 : 1;
+    const Eigen::Index row = row_of(side);
     const interp::ValueGradient own = both[side]->at(mark.x_mm, mark.y_mm);
     const interp::ValueGradient told =
         interp::evaluate(*both[side], beyond_->hull, beyond_->policy, {mark.x_mm, mark.y_mm}).z;

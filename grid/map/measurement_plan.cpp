@@ -41,7 +41,8 @@ class Planner {
       const auto reading = model_.at(mark);
       if (!reading) {
         return tl::unexpected(
-            PlanFailure{fmt::format("the machine cannot measure at ({:.0f}, {:.0f}): {}. A wider "
+            PlanFailure{PlanFailure::Reason::unreachable,
+                        fmt::format("the machine cannot measure at ({:.0f}, {:.0f}): {}. A wider "
                                     "margin leaves such places out",
                                     mark.x_mm,
                                     mark.y_mm,
@@ -56,7 +57,7 @@ class Planner {
            std::nullopt});
     }
     auto map = fit(grid);
-    if (!map) return tl::unexpected(PlanFailure{map.error().sentence});
+    if (!map) return tl::unexpected(PlanFailure{PlanFailure::Reason::no_map, map.error().sentence});
     return *std::move(map);
   }
 

@@ -47,8 +47,14 @@ struct MeasurementPlan {
   CompensationMap map;
 };
 
-/// Why there is no plan: in words, with the place.
+/// Why there is no plan, with the place.
 struct PlanFailure {
+  enum class Reason {
+    no_machine,
+    unreachable,     ///< a mark where the machine cannot hold the sled, or off the map
+    too_few_places,  ///< that could be measured or cut at all
+    no_map,          ///< what would be measured makes no map
+  } reason;
   std::string sentence;
 };
 

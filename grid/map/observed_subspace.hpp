@@ -3,9 +3,11 @@
 /// The part of a penalised spline surface that a set of points observes: as many combinations of
 /// its coefficients as there are points, however fine the splines are.
 ///
-///   s(q) = phi(q)' c,   c = F a + B u + B2 u2 (1) u, u2 ~ N(0, I / lambda) (2)
+///   s(q) = phi(q)' c,   c = F a + B u + B2 u2                                               (1)
+///   u, u2 ~ N(0, I / lambda)                                                                (2)
 ///
-///   phi  the splines at a mark             P     their bending penalty
+///   phi  the splines at a mark
+///   P    their bending penalty
 ///   F    the polynomials that P leaves free, F' P = 0
 ///   B    with B2 beside it, B B' + B2 B2' the pseudo-inverse of P: (2) is the prior
 ///        exp(-lambda c' P c / 2) on all that is no polynomial

@@ -78,7 +78,7 @@ PointsFit with_plain_calibration(const PointsFitInput& input, PointsFit fit) {
   PointsFitInput alike = input;
   alike.noise = {1.0, 0.0};
   estimation::EstimationInput joint = estimation_input(alike);
-  joint.noise = {interp::NoiseKnowledge::kUnknown, 0.0};
+  joint.noise = {interp::NoiseKnowledge::unknown, 0.0};
   joint.surface = estimation::SurfaceUse::none;
   Eigen::VectorXd weights(static_cast<Eigen::Index>(fit.points.size()));
   for (std::size_t i = 0; i < fit.points.size(); ++i)

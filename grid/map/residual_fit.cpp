@@ -87,7 +87,7 @@ tl::expected<void, FitFailure> find_noise(FittedGrid& fitted) {
   if (repeats) {
     fitted.input.noise.length_mm *= repeats->factor;
     fitted.input.noise.position_mm *= repeats->factor;
-    fitted.input.noise_scale = {interp::NoiseKnowledge::kFromRepeats, repeats->dof};
+    fitted.input.noise_scale = {interp::NoiseKnowledge::from_repeats, repeats->dof};
     fitted.noise_source = "repeats";
     auto fit = fit_points(fitted.input);
     if (!fit) return tl::unexpected(failure_of(fit.error()));
@@ -113,9 +113,9 @@ PointsFitInput points_input(const MeasuredGrid& grid, const std::vector<LengthPo
   if (states_noise(grid)) {
     input.noise = {std::max(grid.noise->length_mm, kLeastNoiseMm),
                    std::max(grid.noise->position_mm, kLeastNoiseMm)};
-    input.noise_scale = {interp::NoiseKnowledge::kFromRepeats, grid.noise->dof};
+    input.noise_scale = {interp::NoiseKnowledge::from_repeats, grid.noise->dof};
   } else {
-    input.noise_scale = {interp::NoiseKnowledge::kUnknown, 0.0};
+    input.noise_scale = {interp::NoiseKnowledge::unknown, 0.0};
   }
   input.sheet = grid.sheet;
   input.readings = setting_readings(grid.readings);

@@ -2,10 +2,12 @@
 /// \file
 /// What the calibrated model leaves: one smooth correction for each chain.
 ///
-///   correction_i(q) = e_i f_i(q) + s_i(q) (1)
+///   correction_i(q) = e_i f_i(q) + s_i(q)                                                   (1)
 ///
-///   q    a mark                                f_i   the model's length of chain i there
-///   e_i  a length scale of the chain           s_i   cubic B-splines with a thin-plate penalty
+///   q    a mark
+///   f_i  the model's length of chain i there
+///   e_i  a length scale of the chain
+///   s_i  cubic B-splines with a thin-plate penalty
 ///
 /// The scale is there because a chain's pitch is never quite nominal, and because a correction that
 /// follows the chain's length is a far better guess between and beyond the points than one that
@@ -16,6 +18,7 @@
 
 #include <Eigen/Core>
 
+#include "grid/chain_rows.hpp"
 #include "interp/bspline_basis.hpp"
 #include "model/calibration/observation.hpp"
 
@@ -25,11 +28,9 @@ namespace chaintrue::grid {
 struct FitColumns {
   Eigen::Index settings = 0;  ///< how many settings there are
   Eigen::Index basis = 0;     ///< coefficients of one spline
-  [[nodiscard]] Eigen::Index scale(model::Side side) const {
-    return settings + (side == model::Side::left ? 0 : 1);
-  }
+  [[nodiscard]] Eigen::Index scale(model::Side side) const { return settings + row_of(side); }
   [[nodiscard]] Eigen::Index spline(model::Side side) const {
-    return settings + 2 + (side == model::Side::left ? 0 : basis);
+    return settings + 2 + row_of(side) * basis;
   }
   [[nodiscard]] Eigen::Index total() const { return settings + 2 + 2 * basis; }
 };

@@ -23,6 +23,11 @@ std::vector<Place> sorted(std::vector<Place> places) {
 
 }  // namespace
 
+Eigen::Matrix2d covariance_of(const PointNoise& noise, const Eigen::Matrix2d& by_mark) {
+  return std::pow(noise.length_mm, 2) * Eigen::Matrix2d::Identity() +
+         std::pow(noise.position_mm, 2) * by_mark * by_mark.transpose();
+}
+
 ChainLengthReadings::ChainLengthReadings(std::vector<Place> places,
                                          bool ordered,
                                          PointNoise noise,
@@ -37,11 +42,9 @@ ChainLengthReadings::ChainLengthReadings(GivenOrder,
                                          PointNoise noise,
                                          double noise_dof,
                                          std::optional<SheetPrior> sheet)
-    : places_(std::move(places)),
-      ordered_(ordered),
-      noise_(noise),
-      noise_dof_(noise_dof),
-      sheet_(sheet) {
+    : ordered_(ordered), noise_(noise), noise_dof_(noise_dof) {
+  places_ = std::move(places);
+  sheet_ = sheet;
   measured_.resize(2 * static_cast<Eigen::Index>(places_.size()));
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const auto row = 2 * static_cast<Eigen::Index>(i);
@@ -104,19 +107,10 @@ tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
     const auto row = 2 * static_cast<Eigen::Index>(i);
     line.predicted(row) = lengths.left_mm;
     line.predicted(row + 1) = lengths.right_mm;
-    const Eigen::Matrix<double, 2, 3> by_sheet =
-        reading->position_jacobian * view.sheet.sensitivity(place);
-    for (std::size_t s = 0; s < settings.size(); ++s) {
-      const Eigen::Vector2d by_setting =
-          model::is_of_sheet(settings[s])
-              ? Eigen::Vector2d(by_sheet.col(model::sheet_column(settings[s])))
-              : view.model.sensitivity(*reading, settings[s]);
-      line.by_setting.block<2, 1>(row, static_cast<Eigen::Index>(s)) =
-          state.by_length.cwiseProduct(by_setting);
-    }
+    line.by_setting.middleRows<2>(row) =
+        state.by_length.asDiagonal() * lengths_by_setting(view, *reading, place, settings);
     UnitState unit;
-    unit.covariance = std::pow(noise_.length_mm, 2) * Eigen::Matrix2d::Identity() +
-                      std::pow(noise_.position_mm, 2) * state.by_mark * state.by_mark.transpose();
+    unit.covariance = covariance_of(noise_, state.by_mark);
     unit.places.push_back({i, Eigen::Matrix2d::Identity()});
     line.places.push_back(std::move(state));
     line.units.push_back(std::move(unit));

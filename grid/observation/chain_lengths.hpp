@@ -3,7 +3,10 @@
 /// The two chain lengths with the tool at a mark, read off the chains or paid out by the controller
 /// for a command (then the mark is where the tool really went). A point is a unit of two rows.
 ///
-///   y_i = f(sheet(m_i)),   C_i = sigma_length^2 I + sigma_position^2 J J',   J = d(L, R)/d(mark)   (1)
+///   y_i = f(sheet(m_i)),   C_i = sigma_length^2 I + sigma_position^2 J J'                   (1)
+///
+///   m_i  a mark
+///   J    d(L, R)/d(mark)
 #pragma once
 
 #include "grid/observation/observation.hpp"
@@ -15,6 +18,10 @@ struct PointNoise {
   double length_mm = 0.2;
   double position_mm = 0.3;
 };
+
+/// C_i of (1).
+[[nodiscard]] Eigen::Matrix2d covariance_of(const PointNoise& noise,
+                                            const Eigen::Matrix2d& by_mark);
 
 class ChainLengthReadings final : public Observation {
  public:
@@ -32,12 +39,6 @@ class ChainLengthReadings final : public Observation {
                                                           std::optional<SheetPrior> sheet);
 
   [[nodiscard]] const Kind& kind() const override { return chain_lengths; }
-  [[nodiscard]] Eigen::Index rows() const override { return measured_.size(); }
-  [[nodiscard]] const std::vector<Place>& places() const override { return places_; }
-  [[nodiscard]] const std::vector<Unit>& units() const override { return units_; }
-  [[nodiscard]] const Eigen::VectorXd& measured() const override { return measured_; }
-  [[nodiscard]] const Eigen::VectorXd& nuisance_sigma() const override { return nuisance_sigma_; }
-  [[nodiscard]] const std::optional<SheetPrior>& sheet() const override { return sheet_; }
   [[nodiscard]] bool ordered() const override { return ordered_; }
   [[nodiscard]] double noise_dof() const override { return noise_dof_; }
   [[nodiscard]] bool may_slip() const override { return true; }
@@ -60,14 +61,9 @@ class ChainLengthReadings final : public Observation {
                       double noise_dof,
                       std::optional<SheetPrior> sheet);
 
-  std::vector<Place> places_;
-  std::vector<Unit> units_;
-  Eigen::VectorXd measured_;
-  Eigen::VectorXd nuisance_sigma_;
   bool ordered_;
   PointNoise noise_;
   double noise_dof_;
-  std::optional<SheetPrior> sheet_;
 };
 
 }  // namespace chaintrue::grid::observation

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/observation/observation.hpp"
 
-#include <Eigen/Cholesky>
-
 namespace chaintrue::grid::observation {
 
 bool SheetPrior::knows(model::Setting setting) const {
@@ -40,11 +38,22 @@ Eigen::MatrixXd marginal_covariance(const Linearisation& line,
   return covariance;
 }
 
-Eigen::MatrixXd whitening(const UnitState& unit) {
-  const Eigen::Index n = unit.covariance.rows();
-  return Eigen::MatrixXd(unit.covariance.llt().matrixL())
-      .triangularView<Eigen::Lower>()
-      .solve(Eigen::MatrixXd::Identity(n, n));
+Eigen::Matrix2Xd lengths_by_setting(const View& view,
+                                    const model::PointReading& reading,
+                                    model::BedPoint place,
+                                    const std::vector<model::Setting>& settings) {
+  const Eigen::Matrix<double, 2, 3> by_sheet =
+      reading.position_jacobian * view.sheet.sensitivity(place);
+  Eigen::Matrix2Xd columns(2, static_cast<Eigen::Index>(settings.size()));
+  for (std::size_t s = 0; s < settings.size(); ++s) {
+    const auto column = static_cast<Eigen::Index>(s);
+    if (model::is_of_sheet(settings[s])) {
+      columns.col(column) = by_sheet.col(model::sheet_column(settings[s]));
+    } else {
+      columns.col(column) = view.model.sensitivity(reading, settings[s]);
+    }
+  }
+  return columns;
 }
 
 }  // namespace chaintrue::grid::observation

@@ -142,18 +142,19 @@ class Observation {
   virtual ~Observation() = default;
   [[nodiscard]] virtual const Kind& kind() const = 0;
 
-  [[nodiscard]] virtual Eigen::Index rows() const = 0;
-  [[nodiscard]] virtual const std::vector<Place>& places() const = 0;
+  [[nodiscard]] Eigen::Index rows() const { return measured_.size(); }
+  [[nodiscard]] const std::vector<Place>& places() const { return places_; }
   /// In the order of their rows, which they cover without a gap.
-  [[nodiscard]] virtual const std::vector<Unit>& units() const = 0;
-  [[nodiscard]] virtual const Eigen::VectorXd& measured() const = 0;
+  [[nodiscard]] const std::vector<Unit>& units() const { return units_; }
+  /// y, as the kind corrects what was read by what is known exactly.
+  [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
   /// One sigma of each nuisance.
-  [[nodiscard]] virtual const Eigen::VectorXd& nuisance_sigma() const = 0;
+  [[nodiscard]] const Eigen::VectorXd& nuisance_sigma() const { return nuisance_sigma_; }
   /// The last so many of the nuisances belong to the noise: what is said of the noise's size holds
   /// for theirs as well. Those before them are known as well as is stated.
   [[nodiscard]] virtual Eigen::Index nuisances_of_noise() const { return 0; }
   /// Absent: the marks' frame is the bed's.
-  [[nodiscard]] virtual const std::optional<SheetPrior>& sheet() const = 0;
+  [[nodiscard]] const std::optional<SheetPrior>& sheet() const { return sheet_; }
   /// The visits' order is known.
   [[nodiscard]] virtual bool ordered() const = 0;
   /// How well the noise is known, degrees of freedom.
@@ -173,6 +174,19 @@ class Observation {
                                                model::effects::EffectSide side) const = 0;
   /// A unit in a workshop's words: "point 3 at (-900, 400) mm", "the distance A-B".
   [[nodiscard]] virtual std::string name_of(std::size_t unit) const = 0;
+
+ protected:
+  Observation() = default;
+  Observation(const Observation&) = default;
+  Observation(Observation&&) = default;
+  Observation& operator=(const Observation&) = default;
+  Observation& operator=(Observation&&) = default;
+
+  std::vector<Place> places_;
+  std::vector<Unit> units_;
+  Eigen::VectorXd measured_;
+  Eigen::VectorXd nuisance_sigma_;
+  std::optional<SheetPrior> sheet_;
 };
 
 using Observations = std::vector<std::shared_ptr<const Observation>>;
@@ -188,7 +202,11 @@ using Observations = std::vector<std::shared_ptr<const Observation>>;
 [[nodiscard]] Eigen::MatrixXd marginal_covariance(const Linearisation& line,
                                                   const Eigen::VectorXd& nuisance_sigma);
 
-/// C_u = L L': L^-1.
-[[nodiscard]] Eigen::MatrixXd whitening(const UnitState& unit);
+/// How settings move the lengths at a place, 2 x p; `place` is where the reading was asked for, on
+/// the sheet, with what the machine's effects of the paper do to it taken out.
+[[nodiscard]] Eigen::Matrix2Xd lengths_by_setting(const View& view,
+                                                  const model::PointReading& reading,
+                                                  model::BedPoint place,
+                                                  const std::vector<model::Setting>& settings);
 
 }  // namespace chaintrue::grid::observation

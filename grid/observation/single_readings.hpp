@@ -26,12 +26,6 @@ class SingleReadings final : public Observation {
   explicit SingleReadings(std::vector<ExtraReading> readings);
 
   [[nodiscard]] const Kind& kind() const override { return single_readings; }
-  [[nodiscard]] Eigen::Index rows() const override { return measured_.size(); }
-  [[nodiscard]] const std::vector<Place>& places() const override { return places_; }
-  [[nodiscard]] const std::vector<Unit>& units() const override { return units_; }
-  [[nodiscard]] const Eigen::VectorXd& measured() const override { return measured_; }
-  [[nodiscard]] const Eigen::VectorXd& nuisance_sigma() const override { return nuisance_sigma_; }
-  [[nodiscard]] const std::optional<SheetPrior>& sheet() const override { return sheet_; }
   [[nodiscard]] bool ordered() const override { return false; }
   [[nodiscard]] double noise_dof() const override;
   [[nodiscard]] bool may_slip() const override { return false; }
@@ -47,11 +41,6 @@ class SingleReadings final : public Observation {
 
  private:
   std::vector<ExtraReading> readings_;
-  std::vector<Place> places_;
-  std::vector<Unit> units_;
-  Eigen::VectorXd measured_;
-  Eigen::VectorXd nuisance_sigma_;
-  std::optional<SheetPrior> sheet_;
 };
 
 }  // namespace chaintrue::grid::observation

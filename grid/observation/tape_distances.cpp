@@ -307,19 +307,13 @@ tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const V
   return states;
 }
 
-Eigen::Vector2d TapeDistances::mark_by_setting(const View& view,
-                                               const PlaceState& place,
-                                               model::Setting setting) {
+Eigen::Matrix2Xd TapeDistances::mark_by_setting(const View& view,
+                                                const PlaceState& place,
+                                                const std::vector<model::Setting>& settings) {
   // f(sheet(m), settings) = l holds: dm = -(df/dm)^-1 df/ds ds
-  Eigen::Vector2d by_setting;
-  if (model::is_of_sheet(setting)) {
-    const Eigen::Matrix<double, 2, 3> by_sheet =
-        place.reading.position_jacobian * view.sheet.sensitivity(place.mark);
-    by_setting = by_sheet.col(model::sheet_column(setting));
-  } else {
-    by_setting = view.model.sensitivity(place.reading, setting);
-  }
-  return -place.by_mark.inverse() * place.by_length.cwiseProduct(by_setting);
+  const Eigen::Matrix2Xd lengths =
+      place.by_length.asDiagonal() * lengths_by_setting(view, place.reading, place.mark, settings);
+  return -place.by_mark.inverse() * lengths;
 }
 
 tl::expected<Eigen::VectorXd, Unreachable> TapeDistances::predicted(const View& view) const {
@@ -341,10 +335,10 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(
   line.predicted = factor * geometry.predicted_mm;
   line.by_setting = Eigen::MatrixXd::Zero(rows(), static_cast<Eigen::Index>(settings.size()));
   for (std::size_t i = 0; i < states->size(); ++i) {
-    for (std::size_t s = 0; s < settings.size(); ++s) {
-      line.by_setting.col(static_cast<Eigen::Index>(s)) +=
-          by_mark.middleCols<2>(2 * static_cast<Eigen::Index>(i)) *
-          mark_by_setting(view, (*states)[i], settings[s]);
+    const Eigen::Matrix2Xd marks = mark_by_setting(view, (*states)[i], settings);
+    for (Eigen::Index s = 0; s < marks.cols(); ++s) {
+      line.by_setting.col(s) +=
+          by_mark.middleCols<2>(2 * static_cast<Eigen::Index>(i)) * marks.col(s);
     }
   }
   line.by_nuisance.resize(rows(), nuisance_sigma_.size());

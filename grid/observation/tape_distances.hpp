@@ -91,16 +91,10 @@ class TapeDistances final : public Observation {
       MeasuredHoles set, std::vector<std::size_t> hook_sessions);
 
   [[nodiscard]] const Kind& kind() const override { return tape_distances; }
-  [[nodiscard]] Eigen::Index rows() const override { return measured_.size(); }
-  [[nodiscard]] const std::vector<Place>& places() const override { return places_; }
-  [[nodiscard]] const std::vector<Unit>& units() const override { return units_; }
-  /// The readings less the hook.
-  [[nodiscard]] const Eigen::VectorXd& measured() const override { return measured_; }
-  [[nodiscard]] const Eigen::VectorXd& nuisance_sigma() const override { return nuisance_sigma_; }
+  /// measured() are the readings less the hook.
   [[nodiscard]] Eigen::Index nuisances_of_noise() const override {
     return 2 * static_cast<Eigen::Index>(places_.size());
   }
-  [[nodiscard]] const std::optional<SheetPrior>& sheet() const override { return sheet_; }
   [[nodiscard]] bool ordered() const override { return false; }
   [[nodiscard]] double noise_dof() const override { return set_.noise_dof; }
   [[nodiscard]] bool may_slip() const override { return true; }
@@ -116,10 +110,9 @@ class TapeDistances final : public Observation {
   [[nodiscard]] const MeasuredHoles& set() const { return set_; }
   /// Where a view puts the holes with what was paid out for them.
   [[nodiscard]] tl::expected<std::vector<PlaceState>, Unreachable> placed(const View& view) const;
-  /// How a setting moves a hole's mark.
-  [[nodiscard]] static Eigen::Vector2d mark_by_setting(const View& view,
-                                                       const PlaceState& place,
-                                                       model::Setting setting);
+  /// How settings move a hole's mark, 2 x p.
+  [[nodiscard]] static Eigen::Matrix2Xd mark_by_setting(
+      const View& view, const PlaceState& place, const std::vector<model::Setting>& settings);
   /// Sessions of the tape whose hook is a nuisance, in the order of the nuisances.
   [[nodiscard]] const std::vector<std::size_t>& hook_sessions() const { return hook_sessions_; }
 
@@ -129,11 +122,6 @@ class TapeDistances final : public Observation {
   [[nodiscard]] Eigen::MatrixXd hook_columns() const;
 
   MeasuredHoles set_;
-  std::vector<Place> places_;
-  std::vector<Unit> units_;
-  Eigen::VectorXd measured_;
-  Eigen::VectorXd nuisance_sigma_;
-  std::optional<SheetPrior> sheet_;
   std::vector<std::size_t> hook_sessions_;
 };
 

@@ -5,7 +5,8 @@
 /// that are assembled from them, the same bytes however they came about.
 ///
 ///   DIR/parts/NAME.cells   header, then records of 64 bytes, each with a checksum; a torn one at
-///   the end is ignored DIR/results.csv        every cell, in the order of their numbers
+///                          the end is ignored
+///   DIR/results.csv        every cell, in the order of their numbers
 ///   DIR/summary.json       every combination: medians and worst values over the repetitions
 ///
 /// Memory: one bit a cell, and what one combination needs.

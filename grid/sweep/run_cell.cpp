@@ -23,9 +23,9 @@ std::uint64_t seed_of(const SweepSpec& spec, std::uint64_t stream, std::uint64_t
 FitOptions fit_options(SurfaceLevel level) {
   FitOptions options;
   options.surface = level == SurfaceLevel::residual ? SurfaceKind::residual : SurfaceKind::direct;
-  interp::EndCondition end = interp::EndCondition::kNotAKnot;
-  if (level == SurfaceLevel::direct_parabolic) end = interp::EndCondition::kParabolic;
-  if (level == SurfaceLevel::direct_natural) end = interp::EndCondition::kNatural;
+  interp::EndCondition end = interp::EndCondition::not_a_knot;
+  if (level == SurfaceLevel::direct_parabolic) end = interp::EndCondition::parabolic;
+  if (level == SurfaceLevel::direct_natural) end = interp::EndCondition::natural;
   options.ends = {{end, end}, {end, end}};
   return options;
 }

@@ -42,24 +42,27 @@ model::Machine hidden_truth(const model::Machine& stated, const HolesSpec& spec)
   return truth;
 }
 
-tl::expected<SyntheticHoles, std::string> simulate_holes(
+tl::expected<SyntheticHoles, CutFailure> simulate_holes(
     const MeasuredHoles& design,
     const HolesSpec& spec,
     const std::optional<model::Machine>& truth) {
   if (!design.machine) throw std::invalid_argument("holes are cut by a machine; none was given");
   const auto distances = observation::TapeDistances::in_given_order(design);
-  if (!distances) return tl::unexpected(distances.error());
+  if (!distances) {
+    return tl::unexpected(CutFailure{CutFailure::Reason::no_lengths, distances.error()});
+  }
   SyntheticHoles made{design, truth ? *truth : hidden_truth(*design.machine, spec), {}};
   const model::ReadingModel model(made.truth);
   Random hole_noise(spec.seed, kHoleStream);
   for (std::size_t i = 0; i < design.holes.size(); ++i) {
     const auto reading = model.find(distances->places()[i].lengths, design.holes[i].commanded);
     if (!reading) {
-      return tl::unexpected(fmt::format("hole {} at ({:.1f}, {:.1f}) cannot be cut: {}",
-                                        design.holes[i].name,
-                                        design.holes[i].commanded.x_mm,
-                                        design.holes[i].commanded.y_mm,
-                                        model::explain(reading.error())));
+      return tl::unexpected(CutFailure{CutFailure::Reason::unreachable,
+                                       fmt::format("hole {} at ({:.1f}, {:.1f}) cannot be cut: {}",
+                                                   design.holes[i].name,
+                                                   design.holes[i].commanded.x_mm,
+                                                   design.holes[i].commanded.y_mm,
+                                                   model::explain(reading.error()))});
     }
     const model::BedPoint at = spec.sheet.to_mark(reading->pose.position);
     const double dx = design.hole_sigma_mm * hole_noise.normal();

@@ -41,12 +41,20 @@ struct SyntheticHoles {
   std::vector<model::BedPoint> places;  ///< where the holes truly are, on the sheet
 };
 
+struct CutFailure {
+  enum class Reason {
+    no_lengths,   ///< a command out of the controller's reach
+    unreachable,  ///< the true machine has no place for what was paid out
+  } reason;
+  std::string sentence;
+};
+
 /// `design` has holes and the pairs to measure; the tape's sigma and the holes' are those of the
 /// noise, the hook is added; of the effects of the paper a tape has only its scale on both axes.
 /// Where the truth is to be a given machine (another pass on the same one), `truth` replaces what
-/// would be drawn. Fails in words where a hole cannot be cut. \throws std::invalid_argument for a
+/// would be drawn. Fails where a hole cannot be cut. \throws std::invalid_argument for a
 /// design without a machine.
-[[nodiscard]] tl::expected<SyntheticHoles, std::string> simulate_holes(
+[[nodiscard]] tl::expected<SyntheticHoles, CutFailure> simulate_holes(
     const MeasuredHoles& design,
     const HolesSpec& spec,
     const std::optional<model::Machine>& truth = std::nullopt);

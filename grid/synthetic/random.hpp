@@ -8,8 +8,8 @@
 /// which IEEE 754 rounds alike everywhere; the logarithm of the tails is computed from those.
 ///
 /// \code
-///   Random random(seed, 3);          // stream 3: what it draws does not depend on the other
-///   streams const double error_mm = 0.2 * random.normal();
+///   Random random(seed, 3);  // stream 3: what it draws does not depend on the other streams
+///   const double error_mm = 0.2 * random.normal();
 /// \endcode
 #pragma once
 

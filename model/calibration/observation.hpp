@@ -4,9 +4,10 @@
 /// and diagnosis work on these, so that another way of measuring is another class here and nothing
 /// else.
 ///
-///   y      what was measured                      f(theta)  what the machine with settings theta
-///   predicts A      df/dtheta                              C         covariance of y - f at the
-///   true theta
+///   y         what was measured
+///   f(theta)  what the machine with settings theta predicts
+///   A         df/dtheta
+///   C         covariance of y - f at the true theta
 ///
 /// \code
 ///   const ChainReading reading({100, -200}, {1702.1, 1821.4}, {0.2, 0.3});

@@ -5,8 +5,7 @@
 ///
 /// \code
 ///   for (Setting setting : kMachineSettings)
-///     fmt::print("{} = {} +- {}\n", name(setting), stated_value(machine, setting),
-///     stated_sigma(machine, setting));
+///     say(name(setting), stated_value(machine, setting), stated_sigma(machine, setting));
 /// \endcode
 #pragma once
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// angular_kink: beyond an angle the chain no longer leaves the sprocket as it should.
-///   phi  chain's angle below the horizontal [rad]      k  slope [mm/rad]      m  knee [rad]
+///   phi  chain's angle below the horizontal [rad]
+///   k    slope [mm/rad]
+///   m    knee [rad]
 ///
-///   added = k max(0, phi - m) (1)
+///   added = k max(0, phi - m)                                                               (1)
 #include <numbers>
 
 #include "model/effects/sides.hpp"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// axes_skew: the marks' axes are not square to each other.
-///   x, y  where the mark truly is [mm]      g  angle by which the y axis leans [rad]
+///   x, y  where the mark truly is [mm]
+///   g     angle by which the y axis leans [rad]
 ///
-///   x_written = x + y g (1)
+///   x_written = x + y g                                                                     (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// beam_flex: the top beam gives where the motors pull on it.
-///   a_i  motor axis [mm]      T_i  tension at the sprocket [N]      t_i  unit vector along the
-///   chain there, towards the sled k    flexibility [mm/N]
+///   a_i  motor axis [mm]
+///   T_i  tension at the sprocket [N]
+///   t_i  unit vector along the chain there, towards the sled
+///   k    flexibility [mm/N]
 ///
-///   a_i = a_i,stated + k T_i t_i (1)
+///   a_i = a_i,stated + k T_i t_i                                                            (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

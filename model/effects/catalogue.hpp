@@ -4,8 +4,7 @@
 ///
 /// \code
 ///   for (const Effect* effect : catalogue()) fmt::print("{}: {}\n", effect->id, effect->cause);
-///   for (const MachineProblem& p : problems_of_effects(machine)) fmt::print("{}: {}\n",
-///   p.parameter, p.expected);
+///   for (const MachineProblem& p : problems_of_effects(machine)) say(p.parameter, p.expected);
 /// \endcode
 #pragma once
 

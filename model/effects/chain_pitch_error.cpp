@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chain_pitch_error: the links are longer than nominal, so fewer of them are counted.
-///   L  true length paid out, with all that the chain station adds [mm]      e  elongation
+///   L  true length paid out, with all that the chain station adds [mm]
+///   e  elongation
 ///
-///   L_counted = L / (1 + e) (1)
+///   L_counted = L / (1 + e)                                                                 (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

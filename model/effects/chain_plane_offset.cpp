@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chain_plane_offset: the chains run in another plane than the sled's pins.
-///   S  free chain [mm]      z  distance of the planes [mm]
+///   S  free chain [mm]
+///   z  distance of the planes [mm]
 ///
-///   added = sqrt(S^2 + z^2) - S = z^2 / (sqrt(S^2 + z^2) + S) (1) d/dS  = S / sqrt(S^2 + z^2) - 1
-///   = -added / sqrt(S^2 + z^2)                                     (2)
+///   added = sqrt(S^2 + z^2) - S = z^2 / (sqrt(S^2 + z^2) + S)                               (1)
+///   d/dS  = S / sqrt(S^2 + z^2) - 1 = -added / sqrt(S^2 + z^2)                              (2)
 #include <cmath>
 
 #include "model/effects/sides.hpp"

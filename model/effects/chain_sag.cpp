@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chain_sag: the chain is heavier or lighter than stated, so it hangs deeper or less deep.
-///   w  chain weight in the sheet's plane [N/mm]      q  relative excess
+///   w  chain weight in the sheet's plane [N/mm]
+///   q  relative excess
 ///
-///   w = w_stated (1 + q) (1)
+///   w = w_stated (1 + q)                                                                    (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

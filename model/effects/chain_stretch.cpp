@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chain_stretch: the chain gives more under tension than stated.
-///   c  compliance, strain per newton of tension on unstretched length [1/N]      k  added
-///   compliance [1/N]
+///   c  compliance, strain per newton of tension on unstretched length [1/N]
+///   k  added compliance [1/N]
 ///
-///   c = c_stated + k (1)
+///   c = c_stated + k                                                                        (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

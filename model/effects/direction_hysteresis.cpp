@@ -2,9 +2,10 @@
 /// \file
 /// direction_hysteresis: a point is reached differently when the chain is paid out and when it is
 /// taken in.
-///   b  half of the width between the two [mm]      d  +1 paid out, -1 taken in
+///   b  half of the width between the two [mm]
+///   d  +1 paid out, -1 taken in
 ///
-///   added = b d (1)
+///   added = b d                                                                             (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

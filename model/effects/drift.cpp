@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// drift: the readings creep from visit to visit.
-///   n  number of the visit      d  rate [mm/visit]
+///   n  number of the visit
+///   d  rate [mm/visit]
 ///
-///   added = d n (1)
+///   added = d n                                                                             (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

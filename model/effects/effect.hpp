@@ -7,9 +7,9 @@
 ///
 ///   paper     the mark is not where it is thought to be     `write`
 ///   machine   geometry and forces of the equilibrium        `alter`
-///   chain     what is paid out: added to a chain, in the catalogue's order (`add`,
-///   `add_by_direction`), and at last
-///             the length of the counted links (`elongation`)
+///   chain     what is paid out: added to a chain,           `add`, `add_by_direction`
+///             in the catalogue's order, and at last
+///             the length of the counted links               `elongation`
 ///   reading   what is written down                          `misread`
 ///
 /// Of the six functions an effect sets exactly one. A new effect is one file that defines its
@@ -18,7 +18,8 @@
 ///
 /// Symbols used by the equations of the catalogue, i = left or right:
 ///   phi_i  angle of the chain below the horizontal where it leaves the sprocket [rad]
-///   T_i    tension there [N]          H_i  its horizontal part [N]
+///   T_i    tension there [N]
+///   H_i    its horizontal part [N]
 ///   S_i    free unstretched chain [mm]
 ///   L0_i   wrap + S, unstretched chain past 12 o'clock [mm]
 ///   n      number of the visit (`order`)

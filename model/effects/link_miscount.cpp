@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// link_miscount: the links of one reading are miscounted.
-///   p  nominal pitch [mm]      k  links      n  number of the visit      m  number of the visit
+///   p  nominal pitch [mm]
+///   k  links
+///   n  number of the visit
+///   m  the visit whose links are miscounted
 ///
-///   added = p k for n = m, otherwise 0 (1)
+///   added = p k for n = m, otherwise 0                                                      (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

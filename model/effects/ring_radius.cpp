@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// ring_radius: the chain ends at another distance from the bit than stated.
-///   rho  ring radius, as stated and as it is [mm]      d  offset [mm]
+///   rho  ring radius, as stated and as it is [mm]
+///   d    offset [mm]
 ///
-///   rho = rho_stated + d (1)
+///   rho = rho_stated + d                                                                    (1)
 #include <variant>
 
 #include "model/effects/sides.hpp"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// side_pull: something pulls the sled sideways.
-///   H_i  horizontal force of a chain [N]      f  force on the sled towards +x [N]
+///   H_i  horizontal force of a chain [N]
+///   f    force on the sled towards +x [N]
 ///
-///   H_left - H_right = f (1)
+///   H_left - H_right = f                                                                    (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

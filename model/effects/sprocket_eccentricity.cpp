@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// sprocket_eccentricity: a sprocket turns about a point that is not its centre.
-///   a  amplitude [mm]      p  phase [rad]      u = teeth * pitch, chain of one turn [mm]
+///   a  amplitude [mm]
+///   p  phase [rad]
+///   u  chain of one turn, teeth * pitch [mm]
 ///
-///   added  = a sin(2 pi L0 / u + p) (1) d/dL0  = a (2 pi / u) cos(2 pi L0 / u + p) (2)
+///   added  = a sin(2 pi L0 / u + p)                                                         (1)
+///   d/dL0  = a (2 pi / u) cos(2 pi L0 / u + p)                                              (2)
 #include <cmath>
 #include <numbers>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// sprocket_radius: the chain runs on another radius than stated.
-///   r  radius of the chain line on the sprocket, for the tangent and the wrap alike [mm]      d
-///   offset [mm]
+///   r  radius of the chain line on the sprocket, for the tangent and the wrap alike [mm]
+///   d  offset [mm]
 ///
-///   r = r_stated + d (1)
+///   r = r_stated + d                                                                        (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// tape_scale: the tape that set out the marks is long or short.
-///   x, y  where the mark truly is [mm]      s  scale, written length over true length less one
+///   x, y  where the mark truly is [mm]
+///   s     scale, written length over true length less one
 ///
-///   x_written = x (1 + s)     y_written = y (1 + s) (1)
+///   x_written = x (1 + s),  y_written = y (1 + s)                                           (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// tooth_skip: the chain jumps over teeth during the session.
-///   p  nominal pitch [mm]      k  links      n  number of the visit      m  number of the first
-///   visit after the skip
+///   p  nominal pitch [mm]
+///   k  links
+///   n  number of the visit
+///   m  number of the first visit after the skip
 ///
-///   added = p k for n >= m, otherwise 0 (1)
+///   added = p k for n >= m, otherwise 0                                                     (1)
 #include "model/effects/sides.hpp"
 
 namespace chaintrue::model::effects {

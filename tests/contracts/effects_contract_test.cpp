@@ -151,6 +151,23 @@ TEST_P(EffectContract, StandsAtExactlyOneStation) {
   EXPECT_EQ(depends_on_visit(e), e.needs == DataNeed::order);
 }
 
+TEST_P(EffectContract, SaysWhetherItActsAtOneVisitAlone) {
+  const std::vector<double> usual = seen_with({with(nominal_values(effect()))});
+  const std::vector<double> without = seen_with({});
+  ASSERT_EQ(usual.size(), without.size());
+  constexpr std::size_t kNumbersAVisit = 4;
+  std::size_t acts = 0;
+  for (std::size_t i = 0; i < usual.size(); i += kNumbersAVisit) {
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    acts += std::equal(usual.begin() + at,
+                       usual.begin() + at + static_cast<std::ptrdiff_t>(kNumbersAVisit),
+                       without.begin() + at)
+                ? 0
+                : 1;
+  }
+  EXPECT_EQ(acts == 1, effect().at_one_visit) << acts << " visits are touched";
+}
+
 TEST_P(EffectContract, IsExactlyZeroAtNull) {
   std::vector<double> values = null_values(effect());
   EXPECT_EQ(seen_with({with(values)}), seen_with({}));  // to the last bit

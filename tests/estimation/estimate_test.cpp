@@ -151,7 +151,7 @@ estimation::EstimationInput of_distances(const MeasuredHoles& set) {
   input.machine = *set.machine;
   input.observations = {std::make_shared<const observation::TapeDistances>(
       *observation::TapeDistances::in_given_order(set))};
-  input.noise = {interp::NoiseKnowledge::kFromRepeats, set.noise_dof};
+  input.noise = {interp::NoiseKnowledge::from_repeats, set.noise_dof};
   input.surface = estimation::SurfaceUse::none;
   input.domain = holes_domain(set.machine->bed);
   return input;
@@ -189,7 +189,7 @@ TEST(Estimate, AUnitLeftOutIsSeenAsByAFitWithoutIt) {
   const auto observation = std::make_shared<const observation::ChainLengthReadings>(
       chain_length_readings(*length_points(own.points), {0.2, 0.3}, 15.0, std::nullopt));
   input.observations.insert(input.observations.begin(), observation);
-  input.noise = {interp::NoiseKnowledge::kExact, 0.0};
+  input.noise = {interp::NoiseKnowledge::exact, 0.0};
   const auto units = static_cast<Eigen::Index>(observation->units().size() +
                                                own.holes.distances.size());
   input.fixed_weights = Eigen::VectorXd::Ones(units);

@@ -22,6 +22,8 @@ TEST(Statistics, RootMeanSquaresCountEveryComponent) {
   EXPECT_DOUBLE_EQ(rms(std::vector<double>{3.0, 4.0}), std::sqrt(12.5));
   EXPECT_DOUBLE_EQ(rms(std::vector<Eigen::Vector2d>{{3.0, 4.0}}), std::sqrt(12.5));
   EXPECT_EQ(rms(std::vector<double>{}), 0.0);
+  EXPECT_DOUBLE_EQ(rms_length({{3.0, 4.0}, {0.0, 0.0}}), std::sqrt(12.5));
+  EXPECT_EQ(rms_length({}), 0.0);
 }
 
 TEST(Statistics, SumsOfExponentialsDoNotOverflow) {

@@ -35,21 +35,22 @@ class FormulaMap final : public TargetMap {
   using Displacement = std::function<model::BedPoint(model::BedPoint)>;
   explicit FormulaMap(Displacement displacement) : displacement_(std::move(displacement)) {}
 
-  [[nodiscard]] tl::expected<model::ChainLengths, TargetFailure> lengths(
+  [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> lengths(
       model::BedPoint p) const override {
     if (std::fabs(p.x_mm) > 1400.0 || std::fabs(p.y_mm) > 800.0)
-      return tl::unexpected(TargetFailure::outside);
+      return tl::unexpected(CorrectionFailure::outside_map);
     const model::BedPoint d = displacement_(p);
     return model::ChainLengths{p.x_mm + d.x_mm, p.y_mm + d.y_mm};
   }
-  [[nodiscard]] tl::expected<TargetAnswer, TargetFailure> query(model::BedPoint p) const override {
+  [[nodiscard]] tl::expected<TargetAnswer, CorrectionFailure> query(
+      model::BedPoint p) const override {
     const auto found = lengths(p);
     if (!found) return tl::unexpected(found.error());
     return TargetAnswer{*found, {0.1, 0.1}, status(p)};
   }
   [[nodiscard]] TargetStatus status(model::BedPoint) const override { return TargetStatus::inside; }
   /// Fixed point: the displacement's gradient is a few percent, so 30 steps reach rounding.
-  [[nodiscard]] tl::expected<model::BedPoint, TargetFailure> tool(
+  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(
       model::ChainLengths lengths) const override {
     model::BedPoint p{lengths.left_mm, lengths.right_mm};
     for (int i = 0; i < 30; ++i) {

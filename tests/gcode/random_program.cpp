@@ -299,21 +299,23 @@ std::vector<Bump> bumps(const std::vector<Command>& commands, double tolerance_m
 
 std::string random_program(std::mt19937_64& random) { return Writer(random).run(); }
 
-tl::expected<model::ChainLengths, TargetFailure> TrueMachine::lengths(model::BedPoint point) const {
+tl::expected<model::ChainLengths, CorrectionFailure> TrueMachine::lengths(
+    model::BedPoint point) const {
   const auto found = kinematics_->lengths(point);
-  if (!found) return tl::unexpected(TargetFailure::unreachable);
+  if (!found) return tl::unexpected(CorrectionFailure::unreachable);
   return *found;
 }
 
-tl::expected<TargetAnswer, TargetFailure> TrueMachine::query(model::BedPoint point) const {
+tl::expected<TargetAnswer, CorrectionFailure> TrueMachine::query(model::BedPoint point) const {
   const auto found = lengths(point);
   if (!found) return tl::unexpected(found.error());
   return TargetAnswer{*found, {}, TargetStatus::inside};
 }
 
-tl::expected<model::BedPoint, TargetFailure> TrueMachine::tool(model::ChainLengths lengths) const {
+tl::expected<model::BedPoint, CorrectionFailure> TrueMachine::tool(
+    model::ChainLengths lengths) const {
   const auto found = kinematics_->command(lengths);
-  if (!found) return tl::unexpected(TargetFailure::unreachable);
+  if (!found) return tl::unexpected(CorrectionFailure::unreachable);
   return *found;
 }
 

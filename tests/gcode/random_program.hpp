@@ -23,12 +23,12 @@ class TrueMachine final : public TargetMap {
  public:
   explicit TrueMachine(const model::Machine& machine)
       : kinematics_(model::make_controller_kinematics(machine)) {}
-  [[nodiscard]] tl::expected<model::ChainLengths, TargetFailure> lengths(
+  [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> lengths(
       model::BedPoint point) const override;
-  [[nodiscard]] tl::expected<TargetAnswer, TargetFailure> query(
+  [[nodiscard]] tl::expected<TargetAnswer, CorrectionFailure> query(
       model::BedPoint point) const override;
   [[nodiscard]] TargetStatus status(model::BedPoint) const override { return TargetStatus::inside; }
-  [[nodiscard]] tl::expected<model::BedPoint, TargetFailure> tool(
+  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(
       model::ChainLengths lengths) const override;
   [[nodiscard]] BedRectangle bounds() const override { return {-1219.2, 1219.2, -609.6, 609.6}; }
 

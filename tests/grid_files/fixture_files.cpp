@@ -59,7 +59,9 @@ Outcome groundcontrol_outcome(const std::string& text, const std::string& name) 
 }
 
 Outcome diagnosis_outcome(const std::string& text, const std::string& name) {
-  return {write_diagnosis(parse_diagnosis(text, name)), {}, {}};
+  std::vector<Warning> warnings;
+  const diagnosis::Diagnosis read = parse_diagnosis(text, name, &warnings);
+  return {write_diagnosis(read), messages_of(warnings), {}};
 }
 
 Outcome holes_outcome(const std::string& text, const std::string& name) {

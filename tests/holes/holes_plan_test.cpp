@@ -209,7 +209,7 @@ TEST(HolesPasses, ConvergeInAtMostThree) {
     request.most = 4;
     request.seed = seed;
     const auto result = simulate_passes(classic(), request);
-    ASSERT_TRUE(result) << result.error();
+    ASSERT_TRUE(result) << result.error().sentence;
     const HolesPass& last = result->passes.back();
     converged += !last.next_pays && last.number <= 3;
     worst_mm = std::max(worst_mm, *last.true_mm);

@@ -29,23 +29,23 @@ constexpr double kNoiseMm = 0.3;
 const std::vector<BedPoint> kFive = {
     {-1100.0, 500.0}, {1100.0, 500.0}, {0.0, 0.0}, {-1100.0, -500.0}, {1100.0, -500.0}};
 
-struct Measured {
+struct MeasuredMachine {
   CompensationMap map;
   model::Machine truth;
   std::vector<BedPoint> planned;  ///< by plan_check
 };
 
 /// A map of 28 points as an owner measures them, and the machine that it is of.
-Measured measured(std::uint64_t seed) {
+MeasuredMachine measured(std::uint64_t seed) {
   const auto session = synthetic::generate(classic(), testing_support::usual_spec(seed));
   CompensationMap map = *fit(session->grid);
   std::vector<BedPoint> planned = plan_check(map, {})->marks;
   return {std::move(map), session->answer.machine, std::move(planned)};
 }
 
-const std::vector<Measured>& machines() {
-  static const std::vector<Measured> several = [] {
-    std::vector<Measured> made;
+const std::vector<MeasuredMachine>& machines() {
+  static const std::vector<MeasuredMachine> several = [] {
+    std::vector<MeasuredMachine> made;
     for (std::uint64_t seed = 1; seed <= 24; ++seed) made.push_back(measured(seed));
     return made;
   }();
@@ -123,13 +123,13 @@ TEST_P(AfterSomething, IsRightInNineteenOfTwentyCasesAtThePlannedPoints) {
   int mended = 0;
   double new_zero2 = 0.0;
   for (std::size_t m = 0; m < machines().size(); ++m) {
-    const Measured& one = machines()[m];
+    const MeasuredMachine& one = machines()[m];
     for (int k = 0; k < kEach; ++k) {
       Random random(static_cast<std::uint64_t>(k), m + 40);
       model::Machine machine = one.truth;
       GetParam().happens(machine, random);
       const auto check = check_map(one.map, measured_at(one.planned, machine, random));
-      ASSERT_TRUE(check) << check.error();
+      ASSERT_TRUE(check) << check.error().sentence;
       ++count;
       right += check->verdict == GetParam().verdict;
       named += check->hypotheses.front().what == GetParam().what;
@@ -160,7 +160,7 @@ TEST(MapCheck, CornersAndTheMiddleTellOneChainsGrowthInNineOfTen) {
     int right = 0;
     for (int k = 0; k < kDraws; ++k) {
       Random random(static_cast<std::uint64_t>(k), 77);
-      const Measured& one = machines()[static_cast<std::size_t>(k) % machines().size()];
+      const MeasuredMachine& one = machines()[static_cast<std::size_t>(k) % machines().size()];
       model::Machine machine = one.truth;
       grow(machine, side);
       const auto check = check_map(one.map, five_points(machine, random));
@@ -178,7 +178,7 @@ double together(const model::PerSide<double>& sigmas) {
 }
 
 TEST(CheckPlan, NoSinglePointMovedTellsMore) {
-  const Measured& one = machines()[1];
+  const MeasuredMachine& one = machines()[1];
   const CheckPlanRequest request;
   const auto plan = plan_check(one.map, request);
   ASSERT_TRUE(plan);
@@ -199,7 +199,7 @@ TEST(CheckPlan, NoSinglePointMovedTellsMore) {
 TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
   // Where readings are far worse than the map and than any shift of a zero, nothing is imitated:
   // told = e |l| / sigma, l the lengths at the points.
-  const Measured& one = machines()[2];
+  const MeasuredMachine& one = machines()[2];
   constexpr double kPoorMm = 200.0;
   const auto told = told_sigmas(one.map, kFive, {.length_mm = kPoorMm});
   ASSERT_TRUE(told);
@@ -293,7 +293,8 @@ TEST(MapCheck, APointOffTheMapIsSaid) {
   grid.points[0].mark = {5000.0, 0.0};
   const auto check = check_map(machines()[0].map, grid);
   ASSERT_FALSE(check);
-  EXPECT_THAT(check.error(), HasSubstr("(5000.0, 0.0)"));
+  EXPECT_EQ(check.error().reason, CheckFailure::Reason::unreachable);
+  EXPECT_THAT(check.error().sentence, HasSubstr("(5000.0, 0.0)"));
 }
 
 }  // namespace

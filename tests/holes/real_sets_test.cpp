@@ -12,7 +12,7 @@
 
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/holes/holes_fit.hpp"
-#include "grid/holes/sets_together.hpp"
+#include "tests/holes/sets_together.hpp"
 
 namespace chaintrue::grid {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "grid/holes/sets_together.hpp"
 #include "grid/synthetic/random.hpp"
 #include "tests/holes/hole_sets.hpp"
+#include "tests/holes/sets_together.hpp"
 
 namespace chaintrue::grid {
 namespace {

@@ -108,7 +108,7 @@ TEST(CompiledPair, InverseReturnsEveryPointOfAPathInFourEvaluations) {
   std::vector<InverseResult> results(path.size());
   table.inverse(targets, path.front(), results);
   for (std::size_t k = 0; k < path.size(); ++k) {
-    ASSERT_EQ(results[k].status, InverseStatus::kConverged) << k;
+    ASSERT_EQ(results[k].status, InverseStatus::converged) << k;
     ASSERT_NEAR(results[k].x, path[k].x, 1e-9) << k;  // the tolerance asked for
     ASSERT_NEAR(results[k].y, path[k].y, 1e-9) << k;
     const bool jump = k % 1200 == 0;
@@ -121,7 +121,7 @@ TEST(CompiledPair, InverseFindsEveryPointFromTheMiddleOfTheBed) {
   const CompiledPair table = CompiledPair::compile(kBed, 100, 50, chains);
   for (const PlanePoint& p : random_points(kSeed + 3, 4000, 0.0)) {
     const InverseResult r = table.inverse(table.value(p.x, p.y), {0.0, 0.0});
-    ASSERT_EQ(r.status, InverseStatus::kConverged) << p.x << " " << p.y;
+    ASSERT_EQ(r.status, InverseStatus::converged) << p.x << " " << p.y;
     EXPECT_NEAR(r.x, p.x, 1e-9);
     EXPECT_NEAR(r.y, p.y, 1e-9);
   }
@@ -130,10 +130,10 @@ TEST(CompiledPair, InverseFindsEveryPointFromTheMiddleOfTheBed) {
 TEST(CompiledPair, InverseNamesWhatItCannotAnswer) {
   const CompiledPair table = CompiledPair::compile(kBed, 50, 25, chains);
   const auto beside = table.value(kBed.x_max + 30.0, 0.0);
-  EXPECT_EQ(table.inverse(beside, {1000.0, 0.0}).status, InverseStatus::kOutside);
+  EXPECT_EQ(table.inverse(beside, {1000.0, 0.0}).status, InverseStatus::outside);
   // Chains too short to meet: 3000 mm lie between the motors.
-  EXPECT_EQ(table.inverse({1000.0, 1000.0}, {0.0, 0.0}).status, InverseStatus::kNotConverged);
-  EXPECT_EQ(table.inverse({NAN, 1000.0}, {0.0, 0.0}).status, InverseStatus::kNotConverged);
+  EXPECT_EQ(table.inverse({1000.0, 1000.0}, {0.0, 0.0}).status, InverseStatus::not_converged);
+  EXPECT_EQ(table.inverse({NAN, 1000.0}, {0.0, 0.0}).status, InverseStatus::not_converged);
 }
 
 TEST(CompiledPair, RefusesWhatItCannotCompile) {

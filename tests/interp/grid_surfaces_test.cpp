@@ -160,7 +160,7 @@ TEST(MeasuredRegion, EveryPolicyIsContinuousAndItsGradientTrue) {
   const Tilted surface;
   const ConvexHull hull({{-1, -1}, {1, -1}, {1, 0.5}, {0, 1}, {-1, 1}});
   for (const OutsidePolicy outside :
-       {OutsidePolicy::kFade, OutsidePolicy::kLinear, OutsidePolicy::kClamp}) {
+       {OutsidePolicy::fade, OutsidePolicy::linear, OutsidePolicy::clamp}) {
     const RegionPolicy policy{outside, 0.1, 0.6};
     const auto value = [&](double x, double y) {
       return evaluate(surface, hull, policy, {x, y}).z.value;
@@ -191,13 +191,13 @@ TEST(MeasuredRegion, SaysHowEachAnswerCameAbout) {
   const auto status = [&](OutsidePolicy outside, double x, double y) {
     return to_string(evaluate(surface, hull, {outside, 0.1, 0.6}, {x, y}).status);
   };
-  EXPECT_EQ(status(OutsidePolicy::kFade, 0.9, 0.9), "inside");
-  EXPECT_EQ(status(OutsidePolicy::kFade, 1.05, 0.0), "edge");
-  EXPECT_EQ(status(OutsidePolicy::kFade, 1.5, 0.0), "extrapolated");
-  EXPECT_EQ(status(OutsidePolicy::kRefuse, 1.5, 0.0), "outside");
-  EXPECT_EQ(status(OutsidePolicy::kRefuse, 1.05, 0.0), "edge");
-  EXPECT_EQ(status(OutsidePolicy::kLinear, NAN, 0.0), "outside");
-  EXPECT_EQ(evaluate(surface, hull, {OutsidePolicy::kFade, 0.1, 0.6}, {3, 3}).z.value, 0.0);
+  EXPECT_EQ(status(OutsidePolicy::fade, 0.9, 0.9), "inside");
+  EXPECT_EQ(status(OutsidePolicy::fade, 1.05, 0.0), "edge");
+  EXPECT_EQ(status(OutsidePolicy::fade, 1.5, 0.0), "extrapolated");
+  EXPECT_EQ(status(OutsidePolicy::refuse, 1.5, 0.0), "outside");
+  EXPECT_EQ(status(OutsidePolicy::refuse, 1.05, 0.0), "edge");
+  EXPECT_EQ(status(OutsidePolicy::linear, NAN, 0.0), "outside");
+  EXPECT_EQ(evaluate(surface, hull, {OutsidePolicy::fade, 0.1, 0.6}, {3, 3}).z.value, 0.0);
 }
 
 TEST(PlannerNodes, AreChebyshevLobattoAndSymmetric) {

@@ -41,7 +41,7 @@ TEST(TensorSpline, EqualsFitpacksRegridAndNaturalSplinesOnUnevenLines) {
     const auto y = one.at("y").get<std::vector<double>>();
     const Eigen::MatrixXd z = values_of(one.at("z"));
     for (const auto& [name, end] :
-         {std::pair{"not_a_knot", EndCondition::kNotAKnot}, {"natural", EndCondition::kNatural}}) {
+         {std::pair{"not_a_knot", EndCondition::not_a_knot}, {"natural", EndCondition::natural}}) {
       SCOPED_TRACE(name);
       const TensorSpline surface(x, y, z, {{end, end}, {end, end}});
       for (const json& place : one.at("at")) {

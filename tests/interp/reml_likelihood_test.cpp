@@ -113,18 +113,18 @@ TEST_P(RemlLikelihood, IsThatOfTheMixedModelUpToAConstant) {
 TEST_P(RemlLikelihood, DerivativesAgreeWithDifferences) {
   SCOPED_TRACE(kSeed);
   Joint joint = joint_problem(30, GetParam());
-  joint.problem.noise = {NoiseKnowledge::kFromRepeats, 7.0};
+  joint.problem.noise = {NoiseKnowledge::from_repeats, 7.0};
   const reml::Marginal marginal(joint.problem, std::nullopt);
   const Eigen::Vector3d theta(0.4, -1.1, 0.3);
-  const auto state = marginal.evaluate(theta, reml::Order::kHessian).value();
+  const auto state = marginal.evaluate(theta, reml::Order::hessian).value();
   for (Eigen::Index i = 0; i < 3; ++i) {
     constexpr double kStep = 1e-4;
     Eigen::VectorXd up = theta;
     Eigen::VectorXd down = theta;
     up(i) += kStep;
     down(i) -= kStep;
-    const auto high = marginal.evaluate(up, reml::Order::kHessian).value();
-    const auto low = marginal.evaluate(down, reml::Order::kHessian).value();
+    const auto high = marginal.evaluate(up, reml::Order::hessian).value();
+    const auto low = marginal.evaluate(down, reml::Order::hessian).value();
     // Central differences: third derivatives of order ten times 1e-8, rounding 1e-13 * 1e3 / 1e-4.
     EXPECT_NEAR(state.gradient(i), (high.value - low.value) / (2 * kStep), 1e-5) << i;
     for (Eigen::Index j = 0; j < 3; ++j) {
@@ -159,7 +159,7 @@ TEST(Reml, BorderedAndDenseAgree) {
 TEST(Reml, FindsTheMinimumAGridFinds) {
   const Joint joint = joint_problem(30, false);
   FitOptions plain;
-  plain.prior = SmoothingPrior::kNone;
+  plain.prior = SmoothingPrior::none;
   const auto fit = fit_penalised(joint.problem, plain).value();
   double best = 1e300;
   for (double a = -12; a <= 12; a += 1.0) {
@@ -206,7 +206,7 @@ TEST(Reml, PointsOnALineAreRefused) {
   problem.penalties.push_back({0, basis.thin_plate_penalty(), basis.thin_plate_rank()});
   const auto fit = fit_penalised(problem);
   ASSERT_FALSE(fit.has_value());
-  EXPECT_EQ(fit.error().reason, FitFailure::kRankDeficient);
+  EXPECT_EQ(fit.error().reason, FitFailure::Reason::rank_deficient);
   EXPECT_EQ(fit.error().sentence,
             "the points do not determine the fit: some combination of its unknowns is left free");
 }
@@ -226,17 +226,17 @@ TEST(Reml, APlaneIsLeftToTheNullSpace) {
   problem.add_rows(design, response);
   problem.penalties.push_back({0, basis.thin_plate_penalty(), basis.thin_plate_rank()});
   FitOptions plain;
-  plain.prior = SmoothingPrior::kNone;
+  plain.prior = SmoothingPrior::none;
   const auto fit = fit_penalised(problem, plain);
   ASSERT_TRUE(fit.has_value());
-  EXPECT_EQ(fit->ends[0], SmoothingEnd::kStiff);
+  EXPECT_EQ(fit->ends[0], SmoothingEnd::stiff);
   EXPECT_NEAR(fit->edf, 3.0, 0.01);  // lambda stops ten decades above balance
   // Even so the field is not claimed to vanish: averaging over lambda keeps some of its variance.
   EXPECT_GT(fit->corrected_covariance.trace(), 1.05 * fit->covariance.trace());
   // The prior that avoids the boundary keeps a little of the field itself.
   const auto kept = fit_penalised(problem);
   ASSERT_TRUE(kept.has_value());
-  EXPECT_EQ(kept->ends[0], SmoothingEnd::kInside);
+  EXPECT_EQ(kept->ends[0], SmoothingEnd::inside);
   EXPECT_GT(kept->edf, 3.05);
 }
 

@@ -41,7 +41,7 @@ PenalisedProblem problem_of(double sigma, bool keeps_rows) {
   problem.prior_precision.diagonal().tail(kShared) << 1.0, 0.5, 0.25;
   problem.prior_mean = Eigen::VectorXd::Zero(kRidge + kShared);
   problem.prior_mean.tail(kShared) << 0.2, -0.1, 0.4;
-  problem.noise = {NoiseKnowledge::kUnknown, 0.0};
+  problem.noise = {NoiseKnowledge::unknown, 0.0};
   return problem;
 }
 

@@ -29,7 +29,7 @@ TEST(Reml, SmoothsANoisySurface) {
   }
   problem.add_rows(design, response);
   problem.penalties.push_back({0, basis.thin_plate_penalty(), basis.thin_plate_rank()});
-  problem.noise = {NoiseKnowledge::kUnknown, 0};
+  problem.noise = {NoiseKnowledge::unknown, 0};
   const auto fit = fit_penalised(problem);
   ASSERT_TRUE(fit.has_value());
   EXPECT_NEAR(fit->sigma2, 1.0, 0.3);

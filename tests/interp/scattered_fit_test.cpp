@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/scattered_fit.hpp"
+#include "tests/interp/oracle/scattered_fit.hpp"
 
 #include <cmath>
 
@@ -105,9 +105,9 @@ TEST_P(NoisyPoints, AreSmoothedWellAndTheirIntervalsCoverTheTruth) {
   EXPECT_LE(coverage, 98.0);
 }
 
-constexpr NoiseScale kStated = {NoiseKnowledge::kExact, 0.0};
-constexpr NoiseScale kFromTwelve = {NoiseKnowledge::kFromRepeats, 12.0};
-constexpr NoiseScale kUnknown = {NoiseKnowledge::kUnknown, 0.0};
+constexpr NoiseScale kStated = {NoiseKnowledge::exact, 0.0};
+constexpr NoiseScale kFromTwelve = {NoiseKnowledge::from_repeats, 12.0};
+constexpr NoiseScale kUnknown = {NoiseKnowledge::unknown, 0.0};
 
 INSTANTIATE_TEST_SUITE_P(Grids,
                          NoisyPoints,
@@ -167,7 +167,7 @@ TEST(ScatteredFit, OnePointOffIsFoundAndHardlyCounts) {
   ASSERT_TRUE(surface) << surface.error().sentence;
   ASSERT_EQ(surface->flags().size(), 1U);
   EXPECT_EQ(surface->flags()[0].index, 17U);
-  EXPECT_EQ(surface->flags()[0].doubt, PointDoubt::kContradicted);
+  EXPECT_EQ(surface->flags()[0].doubt, PointDoubt::contradicted);
   EXPECT_LT(surface->flags()[0].weight, 0.2);
   EXPECT_NEAR(surface->left_out().error(17), 6.35, 1.5);
   EXPECT_LE(root_mean_square_error(*surface, unmodelled_left),
@@ -182,12 +182,12 @@ TEST(ScatteredFit, RepeatsThatDisagreeAreNamed) {
   again.z += 3.0;
   points.push_back(again);
   ScatteredOptions options = over_the_bed();
-  options.noise.knowledge = NoiseKnowledge::kExact;
+  options.noise.knowledge = NoiseKnowledge::exact;
   const auto surface = fit_scattered(points, options);
   ASSERT_TRUE(surface) << surface.error().sentence;
   std::vector<std::size_t> named;
   for (const PointFlag& flag : surface->flags()) {
-    if (flag.doubt == PointDoubt::kRepeatsDisagree) named.push_back(flag.index);
+    if (flag.doubt == PointDoubt::repeats_disagree) named.push_back(flag.index);
   }
   EXPECT_EQ(named, (std::vector<std::size_t>{3, 45}));
 }
@@ -222,16 +222,16 @@ TEST(ScatteredFit, RefusesGarbageByName) {
   const auto refusal = [](const std::vector<ScatteredPoint>& points,
                           ScatteredOptions options = {}) {
     const auto surface = fit_scattered(points, options);
-    return surface ? std::pair{ScatteredRefusal::kNotConverged, std::string("a surface")}
+    return surface ? std::pair{ScatteredFailure::Reason::not_converged, std::string("a surface")}
                    : std::pair{surface.error().reason, surface.error().sentence};
   };
   std::vector<ScatteredPoint> few = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 2}, {2, 3, 4}};
-  EXPECT_EQ(refusal(few).first, ScatteredRefusal::kTooFewPoints);
+  EXPECT_EQ(refusal(few).first, ScatteredFailure::Reason::too_few_points);
   EXPECT_EQ(refusal(few).second, "5 points are too few for a surface: 6 are the least");
 
   std::vector<ScatteredPoint> line;
   for (int i = 0; i < 20; ++i) line.push_back({i * 50.0, i * 20.0, 0.1 * i * i});
-  EXPECT_EQ(refusal(line).first, ScatteredRefusal::kOnALine);
+  EXPECT_EQ(refusal(line).first, ScatteredFailure::Reason::on_a_line);
   EXPECT_EQ(refusal(line).second,
             "all points lie on one line: they say nothing about the surface beside it");
 
@@ -243,10 +243,10 @@ TEST(ScatteredFit, RefusesGarbageByName) {
     wild.push_back({random.uniform(0, 1), random.uniform(0, 1), random.normal(), 1e-6});
   }
   ScatteredOptions exact;
-  exact.noise.knowledge = NoiseKnowledge::kExact;
+  exact.noise.knowledge = NoiseKnowledge::exact;
   exact.robust = false;
   const auto [reason, sentence] = refusal(wild, exact);
-  EXPECT_EQ(reason, ScatteredRefusal::kUntrustworthy) << sentence;
+  EXPECT_EQ(reason, ScatteredFailure::Reason::untrustworthy) << sentence;
   EXPECT_NE(sentence.find("it swings between the points"), std::string::npos) << sentence;
 }
 

@@ -54,17 +54,17 @@ double reference_1d(const std::vector<double>& x,
   }
   const auto end = [&](EndCondition condition, Eigen::Index cell, Eigen::Index inner, double t) {
     switch (condition) {
-      case EndCondition::kNotAKnot:
+      case EndCondition::not_a_knot:
         derivative(cell, 0.0, 3, 1.0);
         derivative(inner, 0.0, 3, -1.0);
         break;
-      case EndCondition::kNatural:
+      case EndCondition::natural:
         derivative(cell, t, 2, 1.0);
         break;
-      case EndCondition::kParabolic:
+      case EndCondition::parabolic:
         derivative(cell, t, 3, 1.0);
         break;
-      case EndCondition::kClamped:
+      case EndCondition::clamped:
         derivative(cell, t, 1, 1.0);
         break;
     }
@@ -100,10 +100,10 @@ TEST(TensorSpline, AnswersTheProposalsOwnExample) {
   EXPECT_NEAR(surface.value(100, 200), 2665.422998, 1e-6);
   EXPECT_NEAR(truths::proposal(100, 200) - surface.value(100, 200), -0.231343, 1e-6);
   // ALGLIB 3.19 and GSL 2.7.1 on the same grid.
-  const TensorEnds parabolic = {{EndCondition::kParabolic, EndCondition::kParabolic},
-                                {EndCondition::kParabolic, EndCondition::kParabolic}};
-  const TensorEnds natural = {{EndCondition::kNatural, EndCondition::kNatural},
-                              {EndCondition::kNatural, EndCondition::kNatural}};
+  const TensorEnds parabolic = {{EndCondition::parabolic, EndCondition::parabolic},
+                                {EndCondition::parabolic, EndCondition::parabolic}};
+  const TensorEnds natural = {{EndCondition::natural, EndCondition::natural},
+                              {EndCondition::natural, EndCondition::natural}};
   const Eigen::MatrixXd z = sample(x, y, truths::proposal);
   EXPECT_NEAR(TensorSpline(x, y, z, parabolic).value(100, 200), 2664.808680, 1e-6);
   EXPECT_NEAR(TensorSpline(x, y, z, natural).value(100, 200), 2659.051508, 1e-6);
@@ -112,10 +112,10 @@ TEST(TensorSpline, AnswersTheProposalsOwnExample) {
 TEST(TensorSpline, EqualsAnIndependentSolverForEveryPairOfEnds) {
   SCOPED_TRACE(kSeed);
   truths::Random random(kSeed);
-  const EndCondition all[] = {EndCondition::kNotAKnot,
-                              EndCondition::kNatural,
-                              EndCondition::kParabolic,
-                              EndCondition::kClamped};
+  const EndCondition all[] = {EndCondition::not_a_knot,
+                              EndCondition::natural,
+                              EndCondition::parabolic,
+                              EndCondition::clamped};
   for (const EndCondition low : all) {
     for (const EndCondition high : all) {
       const auto x = random.nodes(7, -1.2, 1.2);
@@ -143,8 +143,8 @@ TEST(TensorSpline, ParabolicEndsAreAlglibs) {
     const auto x = random.nodes(nx, kBed.x_min, kBed.x_max);
     const auto y = random.nodes(ny, kBed.y_min, kBed.y_max);
     const Eigen::MatrixXd z = sample(x, y, [&](double, double) { return random.uniform(0, 3000); });
-    const TensorEnds ends = {{EndCondition::kParabolic, EndCondition::kParabolic},
-                             {EndCondition::kParabolic, EndCondition::kParabolic}};
+    const TensorEnds ends = {{EndCondition::parabolic, EndCondition::parabolic},
+                             {EndCondition::parabolic, EndCondition::parabolic}};
     const TensorSpline surface(x, y, z, ends);
     alglib::real_1d_array ax, ay, az;
     ax.setcontent(nx, x.data());
@@ -205,8 +205,8 @@ TEST(TensorSpline, ClampedWithItsOwnSlopesReproducesEveryBicubic) {
   slopes.x_high = along(fx, true, x.back());
   slopes.y_low = along(fy, false, y.front());
   slopes.y_high = along(fy, false, y.back());
-  const TensorEnds ends = {{EndCondition::kClamped, EndCondition::kClamped},
-                           {EndCondition::kClamped, EndCondition::kClamped}};
+  const TensorEnds ends = {{EndCondition::clamped, EndCondition::clamped},
+                           {EndCondition::clamped, EndCondition::clamped}};
   const TensorSpline surface(x, y, sample(x, y, f), ends, slopes);
   for (double px = -1; px <= 1.1; px += 0.13) {
     for (double py = -0.5; py <= 0.9; py += 0.11) {

@@ -74,7 +74,7 @@ TEST_P(CompiledMap, FindsThePointThatTheMapFinds) {
   for (const model::BedPoint p : {model::BedPoint{0, 0}, {-1100, -500}, {900, 400}}) {
     const auto lengths = map.lengths(p).value().lengths;
     const auto found = table->inverse({lengths.left_mm, lengths.right_mm}, {0.0, 0.0});
-    EXPECT_EQ(found.status, interp::InverseStatus::kConverged);
+    EXPECT_EQ(found.status, interp::InverseStatus::converged);
     // The chains meet at more than 20 degrees on the bed: at most three times their error.
     EXPECT_NEAR(found.x, p.x_mm, 3.0 * table->error().bound);
     EXPECT_NEAR(found.y, p.y_mm, 3.0 * table->error().bound);

@@ -70,10 +70,10 @@ TEST(DirectFit, EstimatesTheErrorBetweenItsLines) {
 }
 
 TEST(DirectFit, TakesEveryKindOfEnd) {
-  for (const auto end : {interp::EndCondition::kNotAKnot,
-                         interp::EndCondition::kNatural,
-                         interp::EndCondition::kParabolic,
-                         interp::EndCondition::kClamped}) {
+  for (const auto end : {interp::EndCondition::not_a_knot,
+                         interp::EndCondition::natural,
+                         interp::EndCondition::parabolic,
+                         interp::EndCondition::clamped}) {
     SCOPED_TRACE(static_cast<int>(end));
     grid::FitOptions options = direct();
     options.ends = {{end, end}, {end, end}};

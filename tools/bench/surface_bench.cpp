@@ -11,7 +11,6 @@
 #include "interp/bspline_basis.hpp"
 #include "interp/compiled_pair.hpp"
 #include "interp/reml.hpp"
-#include "interp/scattered_fit.hpp"
 #include "interp/tensor_spline.hpp"
 
 namespace {
@@ -93,13 +92,13 @@ std::vector<PlanePoint> path_points(std::size_t count) {
   return points;
 }
 
-enum class Order { kRandom, kPath };
+enum class Order { random, path };
 
 void value_gradient(
-    benchmark::State& state, int nx, int ny, bool plain, Order order = Order::kRandom) {
+    benchmark::State& state, int nx, int ny, bool plain, Order order = Order::random) {
   const CompiledPair surfaces = table(sample(nx, ny));
   const auto points =
-      order == Order::kRandom ? random_points(64 * kBlock) : path_points(64 * kBlock);
+      order == Order::random ? random_points(64 * kBlock) : path_points(64 * kBlock);
   std::vector<PairGradient> results(kBlock);
   force_plain_instructions(plain);
   state.SetLabel(compiled_pair_instructions());
@@ -190,10 +189,15 @@ void inverse(benchmark::State& state) {
 
 double smooth(double x, double y) { return 0.8 * std::sin(x / 500 + 0.3) * std::cos(y / 400); }
 
-std::vector<ScatteredPoint> scattered_points(std::size_t count) {
+struct NoisyPoint {
+  double x, y, z;
+  double sigma;
+};
+
+std::vector<NoisyPoint> noisy_points(std::size_t count) {
   std::mt19937_64 random(2);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  std::vector<ScatteredPoint> points;
+  std::vector<NoisyPoint> points;
   for (const PlanePoint& p : random_points(count)) {
     // A sum of twelve uniform numbers less six is nearly normal: noise of 0.3.
     double noise = -6.0;
@@ -203,58 +207,14 @@ std::vector<ScatteredPoint> scattered_points(std::size_t count) {
   return points;
 }
 
-// One surface, with the choice of smoothing, the covariance and the left-out error of every point.
-void scattered(benchmark::State& state, std::size_t count) {
-  const auto points = scattered_points(count);
-  ScatteredOptions options;
-  options.rectangle = kBed;
-  options.noise.knowledge = NoiseKnowledge::kExact;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(fit_scattered(points, options));
-  }
-  const auto surface = fit_scattered(points, options).value();
-  double square = 0.0;
-  for (int i = 0; i < 400; ++i) {
-    const double x = kBed.x_min + kBed.width() * (i % 20 + 0.5) / 20;
-    const double y = kBed.y_min + kBed.height() * (static_cast<double>(i / 20) + 0.5) / 20;
-    const double off = surface.at(x, y).value - smooth(x, y);
-    square += off * off / 400;
-  }
-  state.counters["rms_um"] = 1000 * std::sqrt(square);
-}
-
-void alglib_scattered(benchmark::State& state, std::size_t count) {
-  const auto points = scattered_points(count);
-  alglib::real_2d_array xyz;
-  xyz.setlength(static_cast<alglib::ae_int_t>(count), 3);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto row = static_cast<alglib::ae_int_t>(i);
-    xyz(row, 0) = points[i].x;
-    xyz(row, 1) = points[i].y;
-    xyz(row, 2) = points[i].z;
-  }
-  for (auto _ : state) {
-    alglib::spline2dbuilder builder;
-    alglib::spline2dinterpolant spline;
-    alglib::spline2dfitreport report;
-    alglib::spline2dbuildercreate(1, builder);
-    alglib::spline2dbuildersetpoints(builder, xyz, static_cast<alglib::ae_int_t>(count));
-    alglib::spline2dbuildersetgrid(builder, 12, 6);
-    // Its smoothing is the user's to choose; one try of one value.
-    alglib::spline2dbuildersetalgoblocklls(builder, 0.1);
-    alglib::spline2dfit(builder, spline, report);
-    benchmark::DoNotOptimize(report.rmserror);
-  }
-}
-
 // Two fields and eight shared settings, as a machine's two chains: what the joint fit asks of REML.
 void joint_reml(benchmark::State& state, std::size_t count, bool corrected) {
   constexpr Eigen::Index kShared = 8;
   const BsplineBasis basis(kBed, 8, 4);
   const Eigen::Index m = basis.size();
-  const auto points = scattered_points(count);
+  const auto points = noisy_points(count);
   PenalisedProblem problem(2 * m + kShared);
-  for (const ScatteredPoint& p : points) {
+  for (const NoisyPoint& p : points) {
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, 2 * m + kShared);
     for (Eigen::Index k = 0; k < 2; ++k) {
       rows.row(k).segment(k * m, m) = basis.row(p.x, p.y).transpose() / p.sigma;
@@ -293,7 +253,7 @@ const bool registered = [] {
     add("surface/value_gradient/" + name,
         [=](benchmark::State& s) { value_gradient(s, nx, ny, false); });
     add("surface/value_gradient_path/" + name,
-        [=](benchmark::State& s) { value_gradient(s, nx, ny, false, Order::kPath); });
+        [=](benchmark::State& s) { value_gradient(s, nx, ny, false, Order::path); });
     add("surface/value_gradient_plain/" + name,
         [=](benchmark::State& s) { value_gradient(s, nx, ny, true); });
     add("surface/alglib/value_gradient/" + name,
@@ -302,13 +262,6 @@ const bool registered = [] {
     add("surface/alglib/build/" + name, [=](benchmark::State& s) { alglib_build(s, nx, ny); });
   }
   benchmark::RegisterBenchmark("surface/inverse/100x50", inverse);
-  for (const std::size_t count : {200U, 2000U}) {
-    const std::string points = std::to_string(count) + "_points";
-    benchmark::RegisterBenchmark(("surface/scattered/" + points).c_str(),
-                                 [=](benchmark::State& s) { scattered(s, count); });
-    benchmark::RegisterBenchmark(("surface/alglib/scattered/" + points).c_str(),
-                                 [=](benchmark::State& s) { alglib_scattered(s, count); });
-  }
   for (const bool corrected : {false, true}) {
     const std::string name =
         corrected ? "surface/joint_reml_averaged/28_points" : "surface/joint_reml/28_points";

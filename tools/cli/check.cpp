@@ -52,19 +52,21 @@ std::string in_words(const grid::MapCheck& check) {
 
 int run_check(const CheckCommand& command) {
   const grid::CompensationMap map = read_map_input(command.map);
-  std::vector<grid::MeasuredFile> files;
+  grid::Measured measured;
   std::vector<std::string> names = {command.input.grid};
   names.insert(names.end(), command.with.begin(), command.with.end());
   for (const std::string& name : names) {
     GridInput input = command.input;
     input.grid = name;
-    files.push_back({grid::files::name_in_messages(name),
-                     read_measured_input(input, command.tape, MeasuredUse::check)});
+    measured.add({grid::files::name_in_messages(name),
+                  read_measured_input(input, command.tape, MeasuredUse::check)});
   }
-  const auto check = grid::check_map(map, files);
+  const auto check = grid::check_map(map, measured);
   if (!check) {
-    fmt::print(
-        stderr, "{}: {}\n", grid::files::name_in_messages(command.input.grid), check.error());
+    fmt::print(stderr,
+               "{}: {}\n",
+               grid::files::name_in_messages(command.input.grid),
+               check.error().sentence);
     return kBadInput;
   }
   write_output(command.output, command.json ? grid::files::write_check(*check) : in_words(*check));

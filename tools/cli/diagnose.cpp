@@ -115,8 +115,8 @@ std::string sentence_of(const std::string& path, const grid::diagnosis::Diagnosi
 std::string counted(const grid::Measured& measured) {
   std::size_t points = 0;
   std::size_t distances = 0;
-  for (const auto& own : measured.grids) points += own.points.size();
-  for (const auto& set : measured.holes) distances += set.distances.size();
+  for (const auto* own : measured.grids()) points += own->points.size();
+  for (const auto* set : measured.holes()) distances += set->distances.size();
   if (distances == 0) return fmt::format("{} points", points);
   if (points == 0) return fmt::format("{} distances", distances);
   return fmt::format("{} points and {} distances", points, distances);
@@ -129,8 +129,8 @@ constexpr std::size_t kMostDiagnosed = 600;
 /// Empty where there are not too many.
 std::string too_many(const grid::Measured& measured) {
   std::size_t units = 0;
-  for (const auto& own : measured.grids) units += own.points.size();
-  for (const auto& set : measured.holes) units += set.distances.size();
+  for (const auto* own : measured.grids()) units += own->points.size();
+  for (const auto* set : measured.holes()) units += set->distances.size();
   if (units <= kMostDiagnosed) return {};
   return fmt::format(
       "{} are more than a diagnosis takes ({}): leave some out, evenly over the bed, and keep "
@@ -142,12 +142,12 @@ std::string too_many(const grid::Measured& measured) {
 /// Readings better than the simulation is computed over a bed.
 void note_fine_readings(const grid::Measured& measured, Diagnosis& found) {
   constexpr double kFinestMm = 0.01;
-  for (const auto& own : measured.grids) {
-    if (!own.noise || own.noise->length_mm >= kFinestMm) continue;
+  for (const auto* own : measured.grids()) {
+    if (!own->noise || own->noise->length_mm >= kFinestMm) continue;
     found.notes.push_back(fmt::format(
         "The readings are stated to {} mm, which is finer than the simulation is computed over a "
         "bed; they were taken to be good to {} mm.",
-        own.noise->length_mm,
+        own->noise->length_mm,
         kFinestMm));
   }
 }
@@ -165,17 +165,17 @@ Outcome diagnosis_of(const DiagnoseCommand& command, const grid::Measured& measu
 
 /// What one grid by itself allows for.
 void refuse_for_others(const DiagnoseCommand& command, const grid::Measured& measured) {
-  if (measured.holes.empty() && measured.grids.size() == 1) return;
+  if (measured.holes().empty() && measured.grids().size() == 1) return;
   OptionProblems problems;
   const auto refuse = [&](const char* option, const std::string& value, const char* why) {
     if (value.empty()) return;
-    const char* of = measured.grids.empty() ? "holes" : "several files";
+    const char* of = measured.grids().empty() ? "holes" : "several files";
     problems.add(option, value, fmt::format("to be left out of {}: {}", of, why));
   };
   refuse(
       "--corrected-grid", command.corrected_grid, "a tape's distances are no marks and readings");
   refuse("--held-out", command.held_out, "each set of holes is diagnosed by itself");
-  if (measured.grids.empty()) {
+  if (measured.grids().empty()) {
     refuse("--assume-order", command.assume_order, "distances do not know the order of the cuts");
   }
   problems.throw_if_any();
@@ -197,7 +197,7 @@ tl::expected<grid::diagnosis::Transfer, std::string> held_out(const DiagnoseComm
 
 Outcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
   refuse_for_others(command, measured);
-  if (!measured.grids.empty()) assume_order(command, measured.grids.front());
+  if (grid::MeasuredGrid* own = measured.first_grid()) assume_order(command, *own);
   if (const std::string sentence = too_many(measured); !sentence.empty()) {
     return tl::unexpected(
         fmt::format("{}: {}", files::name_in_messages(command.input.grid), sentence));
@@ -212,7 +212,7 @@ Outcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
                                     command.assume_order));
   }
   if (command.held_out.empty()) return found;
-  auto transferred = held_out(command, measured.grids.front(), *found);
+  auto transferred = held_out(command, *measured.first_grid(), *found);
   if (!transferred) return tl::unexpected(transferred.error());
   found->transferred = *std::move(transferred);
   return found;
@@ -235,7 +235,7 @@ int run_diagnose(const DiagnoseCommand& command) {
   add(command.report, [&] { return report::render(diagnosis_page(*found, source)); });
   add(command.extended_machine, [&] { return extended_machine_text(*found, source); });
   add(command.corrected_grid, [&] {
-    return corrected_grid_text(*found, input.grids.front(), !command.assume_order.empty());
+    return corrected_grid_text(*found, *input.first_grid(), !command.assume_order.empty());
   });
   const bool is_stdout_taken = std::any_of(
       outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "grid/chain_rows.hpp"
 #include "grid/diagnosis/periodogram.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/report/bed_chart.hpp"
@@ -14,18 +15,21 @@
 namespace chaintrue::cli {
 namespace {
 
+using grid::row_of;
 using grid::diagnosis::Diagnosis;
 using grid::diagnosis::NormalPlot;
 using grid::diagnosis::Periodogram;
 using grid::diagnosis::PointPicture;
 using grid::diagnosis::Removal;
+using model::Side;
 using report::Chart;
 using report::DataTable;
 using report::Paragraph;
 using report::Section;
 using report::Table;
 
-constexpr const char* kChains[] = {"left", "right"};
+const char* chain_name(Side side) { return side == Side::left ? "left" : "right"; }
+
 /// From this chance down something is said to stand out.
 constexpr double kSurprising = 0.01;
 
@@ -142,13 +146,13 @@ struct Series {
   std::vector<double> lengths_mm, before_mm, after_mm;
 };
 
-Series series_of(const Diagnosis& found, int chain) {
+Series series_of(const Diagnosis& found, Side chain) {
   Series series;
   for (const PointPicture& point : found.points) {
     if (point.bad) continue;
-    series.lengths_mm.push_back(chain == 0 ? point.lengths.left_mm : point.lengths.right_mm);
-    series.before_mm.push_back(point.chain_before_mm[chain]);
-    series.after_mm.push_back(point.chain_after_mm[chain]);
+    series.lengths_mm.push_back(point.lengths[chain]);
+    series.before_mm.push_back(point.chain_before_mm[row_of(chain)]);
+    series.after_mm.push_back(point.chain_after_mm[row_of(chain)]);
   }
   return series;
 }
@@ -200,13 +204,14 @@ std::vector<std::size_t> runs(const Waves& waves) {
   return chosen;
 }
 
-Chart waves_chart(const Diagnosis& found, const Waves& waves, int chain) {
+Chart waves_chart(const Diagnosis& found, const Waves& waves, Side chain) {
   const bool has_after = !found.causes.empty();
   Chart chart{.specification = "periodogram",
-              .title = fmt::format("Waves along the {} chain", kChains[chain]),
-              .caption = chain == 0 ? "Noise alone passes the broken line, anywhere, in one of a "
-                                      "hundred sessions. Long waves are any smooth error."
-                                    : ""};
+              .title = fmt::format("Waves along the {} chain", chain_name(chain)),
+              .caption = chain == Side::left
+                             ? "Noise alone passes the broken line, anywhere, in one of a "
+                               "hundred sessions. Long waves are any smooth error."
+                             : ""};
   DataTable table{"waves", {"period_mm", "before", "after"}, {}};
   double top = waves.level;
   for (const std::size_t k : runs(waves)) {
@@ -230,7 +235,7 @@ Chart waves_chart(const Diagnosis& found, const Waves& waves, int chain) {
 }
 
 /// What is left at the two periods that a sprocket and a link have, in a sentence.
-std::string at_known_periods(const Diagnosis& found, const Series& series, int chain) {
+std::string at_known_periods(const Diagnosis& found, const Series& series, Side chain) {
   const Periodogram periodogram(series.lengths_mm, shortest_mm(found));
   const auto part = [&](double period_mm) {
     const double power = periodogram.power_at(period_mm, series.after_mm);
@@ -241,7 +246,7 @@ std::string at_known_periods(const Diagnosis& found, const Series& series, int c
   return fmt::format(
       "Of what is left of the {} chain, a wave of one sprocket turn ({:g} mm) takes {} (as much by "
       "chance: {}), one of a link ({:g} mm) {} ({}).",
-      kChains[chain],
+      chain_name(chain),
       turn_mm(found),
       share_percent(turn),
       share_percent(turn_chance),
@@ -269,7 +274,7 @@ Section stability_section(const Diagnosis& found) {
 
 bool waves_can_be_sought(const Diagnosis& found) {
   constexpr std::size_t kFewestPoints = 16;
-  for (int chain = 0; chain < 2; ++chain) {
+  for (const Side chain : model::kSides) {
     const Series series = series_of(found, chain);
     if (series.lengths_mm.size() < kFewestPoints) return false;
     const auto [low, high] =
@@ -282,7 +287,7 @@ bool waves_can_be_sought(const Diagnosis& found) {
 Section waves_section(const Diagnosis& found) {
   Section section{.title = "Waves along the chains", .is_folded = true};
   report::ChartRow row;
-  for (int chain = 0; chain < 2; ++chain) {
+  for (const Side chain : model::kSides) {
     const Series series = series_of(found, chain);
     const Waves waves = waves_of(found, series);
     const bool stands_out =
@@ -291,7 +296,7 @@ Section waves_section(const Diagnosis& found) {
       row.charts.push_back(waves_chart(found, waves, chain));
     } else {
       section.blocks.emplace_back(Paragraph{fmt::format(
-          "No wave along the {} chain, of any period, stands out of noise.", kChains[chain])});
+          "No wave along the {} chain, of any period, stands out of noise.", chain_name(chain))});
     }
     section.blocks.emplace_back(Paragraph{at_known_periods(found, series, chain)});
   }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "grid/chain_rows.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/report/bed_chart.hpp"
@@ -15,17 +16,19 @@
 namespace chaintrue::cli {
 namespace {
 
+using grid::row_of;
 using grid::diagnosis::Diagnosis;
 using grid::diagnosis::PointPicture;
+using model::Side;
 using report::Chart;
 using report::DataTable;
 
 constexpr const char* kPaidOutColor = "#009e73";
 constexpr const char* kTakenInColor = "#cc79a7";
-constexpr const char* kChains[] = {"left", "right"};
+const char* chain_name(Side side) { return side == Side::left ? "left" : "right"; }
 
-/// A number of a point, for one of the chains (0 left, 1 right).
-using OfChain = std::function<double(const PointPicture&, int chain)>;
+/// A number of a point, for one of the chains.
+using OfChain = std::function<double(const PointPicture&, Side chain)>;
 
 /// What a scatter plot shows: where a dot stands along x, and to which of two groups it belongs.
 struct Scatter {
@@ -33,7 +36,7 @@ struct Scatter {
   std::string caption;
   std::string x_title;
   OfChain x;
-  int chain = 0;
+  Side chain = Side::left;
   bool by_direction = false;
   /// Of the dots that the first colour bears.
   Eigen::Vector2d PointPicture::*first = &PointPicture::chain_before_mm;
@@ -65,7 +68,7 @@ DataTable means_of(const Diagnosis& found, const Scatter& scatter, const Span& s
     const auto bin = std::min(
         bins - 1, static_cast<std::size_t>(std::max(0.0, share) * static_cast<double>(bins)));
     x[bin] += at;
-    y[bin] += point.chain_before_mm[scatter.chain];
+    y[bin] += point.chain_before_mm[row_of(scatter.chain)];
     count[bin] += 1.0;
   }
   for (std::size_t i = 0; i < bins; ++i) {
@@ -85,9 +88,9 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
     along.take(scatter.x(point, scatter.chain));
     if (point.bad) continue;
     // Both chains at one scale, so that the noise of one does not look like the error of the other.
-    for (int chain = 0; chain < 2; ++chain) {
-      up.take((point.*scatter.first)[chain]);
-      if (has_after) up.take(point.chain_after_mm[chain]);
+    for (const Side side : model::kSides) {
+      up.take((point.*scatter.first)[row_of(side)]);
+      if (has_after) up.take(point.chain_after_mm[row_of(side)]);
     }
   }
   const Span x_window = along.widened(0.03, 1e-6), y_window = up.widened(0.08, kLeastSpanMm);
@@ -101,9 +104,12 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
                            point.bad});
   };
   for (const PointPicture& point : found.points) {
-    const int direction = scatter.chain == 0 ? point.direction_left : point.direction_right;
-    add(point, (point.*scatter.first)[scatter.chain], !scatter.by_direction || direction > 0);
-    if (has_after) add(point, point.chain_after_mm[scatter.chain], false);
+    const int direction =
+        scatter.chain == Side::left ? point.direction_left : point.direction_right;
+    add(point,
+        (point.*scatter.first)[row_of(scatter.chain)],
+        !scatter.by_direction || direction > 0);
+    if (has_after) add(point, point.chain_after_mm[row_of(scatter.chain)], false);
   }
   DataTable curve{"curve", {"x", "y_mm"}, {}};
   if (!scatter.by_direction) curve = means_of(found, scatter, along);
@@ -124,9 +130,7 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
   return chart;
 }
 
-double length_mm(const PointPicture& point, int chain) {
-  return chain == 0 ? point.lengths.left_mm : point.lengths.right_mm;
-}
+double length_mm(const PointPicture& point, Side chain) { return point.lengths[chain]; }
 
 }  // namespace
 
@@ -134,8 +138,8 @@ std::vector<report::ChartRow> length_charts(const Diagnosis& found) {
   const model::Sprocket& sprocket = found.extended_machine.sprocket;
   const double turn_mm = sprocket.teeth * sprocket.pitch_mm;
   std::vector<report::ChartRow> rows;
-  for (int chain = 0; chain < 2; ++chain) {
-    Scatter plain{.title = fmt::format("Against the {} chain's length", kChains[chain]),
+  for (const Side chain : model::kSides) {
+    Scatter plain{.title = fmt::format("Against the {} chain's length", chain_name(chain)),
                   .caption = "",
                   .x_title = "chain length, mm",
                   .x = length_mm,
@@ -144,12 +148,12 @@ std::vector<report::ChartRow> length_charts(const Diagnosis& found) {
                    .caption = "",
                    .x_title = "mm past a full turn",
                    .x =
-                       [turn_mm](const PointPicture& point, int side) {
+                       [turn_mm](const PointPicture& point, Side side) {
                          const double length = length_mm(point, side);
                          return length - turn_mm * std::floor(length / turn_mm);
                        },
                    .chain = chain};
-    if (chain == 1) {
+    if (chain == Side::right) {
       plain.caption =
           "A slope is a chain too long or short; a step is a skipped link. The line runs through "
           "the means of the dots before.";
@@ -162,16 +166,17 @@ std::vector<report::ChartRow> length_charts(const Diagnosis& found) {
 
 report::ChartRow angle_charts(const Diagnosis& found) {
   report::ChartRow row;
-  for (int chain = 0; chain < 2; ++chain) {
+  for (const Side chain : model::kSides) {
     row.charts.push_back(scatter_chart(
         found,
-        {.title = fmt::format("Against the {} chain's angle", kChains[chain]),
-         .caption =
-             chain == 0 ? "A bend at some angle is a chain that touches something below it." : "",
+        {.title = fmt::format("Against the {} chain's angle", chain_name(chain)),
+         .caption = chain == Side::left
+                        ? "A bend at some angle is a chain that touches something below it."
+                        : "",
          .x_title = "degrees below the horizontal at the sprocket",
          .x =
-             [](const PointPicture& point, int side) {
-               return (side == 0 ? point.angle_left_rad : point.angle_right_rad) * 180.0 /
+             [](const PointPicture& point, Side side) {
+               return (side == Side::left ? point.angle_left_rad : point.angle_right_rad) * 180.0 /
                       std::numbers::pi;
              },
          .chain = chain}));
@@ -195,16 +200,18 @@ report::ChartRow order_charts(const Diagnosis& found) {
       });
   const bool shows_rest = !of_the_visit && !found.causes.empty();
   report::ChartRow row;
-  for (int chain = 0; chain < 2; ++chain) {
+  for (const Side chain : model::kSides) {
     row.charts.push_back(scatter_chart(
         found,
-        {.title = fmt::format(
-             "The {} chain, visit by visit{}", kChains[chain], shows_rest ? ": what is left" : ""),
-         .caption = chain == 0 ? "Two layers of colour are friction or play; a slope is drift; a "
-                                 "step is a skipped link."
-                               : "",
+        {.title = fmt::format("The {} chain, visit by visit{}",
+                              chain_name(chain),
+                              shows_rest ? ": what is left" : ""),
+         .caption = chain == Side::left
+                        ? "Two layers of colour are friction or play; a slope is drift; a "
+                          "step is a skipped link."
+                        : "",
          .x_title = "number of the visit",
-         .x = [](const PointPicture& point, int) { return static_cast<double>(*point.order); },
+         .x = [](const PointPicture& point, Side) { return static_cast<double>(*point.order); },
          .chain = chain,
          .by_direction = true,
          .first = shows_rest ? &PointPicture::chain_after_mm : &PointPicture::chain_before_mm}));

@@ -36,10 +36,10 @@ struct FitCommand {
 
 const std::map<std::string, interp::EndCondition>& end_conditions() {
   static const std::map<std::string, interp::EndCondition> kByName = {
-      {"not_a_knot", interp::EndCondition::kNotAKnot},
-      {"natural", interp::EndCondition::kNatural},
-      {"parabolic", interp::EndCondition::kParabolic},
-      {"clamped", interp::EndCondition::kClamped}};
+      {"not_a_knot", interp::EndCondition::not_a_knot},
+      {"natural", interp::EndCondition::natural},
+      {"parabolic", interp::EndCondition::parabolic},
+      {"clamped", interp::EndCondition::clamped}};
   return kByName;
 }
 
@@ -92,23 +92,23 @@ int fit_all(const FitCommand& command,
                "out\n");
     return kUsage;
   }
-  std::vector<grid::MeasuredFile> files;
-  files.push_back({grid::files::name_in_messages(command.input.grid), std::move(first)});
+  grid::Measured measured;
+  measured.add({grid::files::name_in_messages(command.input.grid), std::move(first)});
   for (const std::string& name : command.with) {
     GridInput input = command.input;
     input.grid = name;
-    files.push_back({grid::files::name_in_messages(name),
-                     read_measured_input(input, command.tape, MeasuredUse::fit)});
+    measured.add({grid::files::name_in_messages(name),
+                  read_measured_input(input, command.tape, MeasuredUse::fit)});
   }
-  const auto fit = grid::fit_together(files);
+  const auto fit = grid::fit_together(measured);
   if (!fit) {
     fmt::print(stderr, "chaintrue fit: {}\n", fit.error().sentence);
     return kBadInput;
   }
   std::string words;
   for (const grid::HolesAmongFiles& one : fit->holes) {
-    words += fmt::format("\n{}:", files[one.file].name) +
-             distances_in_words(std::get<grid::MeasuredHoles>(files[one.file].measured), one.fit);
+    const grid::MeasuredFile& file = measured.files()[one.file];
+    words += fmt::format("\n{}:", file.name) + distances_in_words(*file.holes(), one.fit);
   }
   if (!fit->holes.empty()) words += distances_legend(fit->estimate.knowledge);
   grid::CompensationMap map = fit->map;

@@ -11,10 +11,10 @@
 #include "grid/files/machine_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/holes/sets_together.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 
@@ -46,10 +46,6 @@ void add_grid_options(CLI::App& verb, GridInput& input) {
 namespace {
 
 namespace files = grid::files;
-
-void print_warnings(const std::vector<files::Warning>& warnings) {
-  for (const files::Warning& warning : warnings) fmt::print(stderr, "{}\n", warning.message());
-}
 
 grid::MeasuredGrid grid_of(const std::string& text,
                            const GridInput& input,
@@ -135,40 +131,28 @@ std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(const 
   return std::move(read.holes);
 }
 
-namespace {
-
-const std::optional<model::Machine>& machine_of(
-    const std::variant<grid::MeasuredGrid, grid::MeasuredHoles>& file) {
-  return std::visit(
-      [](const auto& own) -> const std::optional<model::Machine>& { return own.machine; }, file);
-}
-
-}  // namespace
-
 grid::Measured read_measured(const GridInput& input,
                              const TapeInput& tape,
                              const std::vector<std::string>& with,
                              MeasuredUse use) {
   grid::Measured measured;
-  const auto add = [&](auto file) {
-    std::visit([&](auto& own) { measured.add(std::move(own)); }, file);
-  };
-  add(read_measured_input(input, tape, use));
+  measured.add({files::name_in_messages(input.grid), read_measured_input(input, tape, use)});
   OptionProblems problems;
   for (const std::string& path : with) {
     GridInput other = input;
     other.grid = path;
     // A few more readings are welcome beside enough of them.
-    auto file = read_measured_input(other, tape, MeasuredUse::check);
-    const auto& machine = machine_of(file);
-    if (machine && measured.machine) {
-      const std::string difference = grid::difference_of_settings(*measured.machine, *machine);
+    grid::MeasuredFile file{files::name_in_messages(path),
+                            read_measured_input(other, tape, MeasuredUse::check)};
+    const auto& machine = file.machine();
+    if (machine && measured.machine()) {
+      const std::string difference = grid::difference_of_settings(*measured.machine(), *machine);
       if (!difference.empty()) {
         problems.add(
             "--with", path, fmt::format("a file of the same machine as the first: {}", difference));
       }
     }
-    add(std::move(file));
+    measured.add(std::move(file));
   }
   problems.throw_if_any();
   return measured;

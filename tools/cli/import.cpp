@@ -17,6 +17,7 @@
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -38,10 +39,6 @@ const std::map<std::string, files::VisitOrder>& orders() {
       {"serpentine_rows", files::VisitOrder::serpentine_rows},
       {"serpentine_columns", files::VisitOrder::serpentine_columns}};
   return by_name;
-}
-
-void print_warnings(const std::vector<files::Warning>& warnings) {
-  for (const files::Warning& warning : warnings) fmt::print(stderr, "{}\n", warning.message());
 }
 
 int import_optical(const OpticalCommand& command) {

@@ -5,6 +5,7 @@
 
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/warnings.hpp"
 #include "grid/printing.hpp"
 
 namespace chaintrue::cli {
@@ -25,7 +26,7 @@ const std::string& map_on_trust() { return trusted(); }
 grid::CompensationMap parse_map_input(const std::string& text, const std::string& file) {
   std::vector<files::Warning> warnings;
   grid::CompensationMap map = files::parse_map(text, file, &warnings);
-  for (const files::Warning& warning : warnings) fmt::print(stderr, "{}\n", warning.message());
+  print_warnings(warnings);
   if (!warnings.empty()) trusted() = file;
   return map;
 }

@@ -21,6 +21,7 @@
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -70,10 +71,10 @@ std::string ending(const grid::HolesPass& last, double worthwhile_mm, std::size_
 
 int simulate(const PassesCommand& command) {
   const files::ReadMachine read = files::read_machine_with_warnings(command.machine);
-  for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+  print_warnings(read.warnings);
   const auto result = grid::simulate_passes(read.machine, command.request);
   if (!result) {
-    fmt::print(stderr, "chaintrue passes: {}\n", result.error());
+    fmt::print(stderr, "chaintrue passes: {}\n", result.error().sentence);
     return kNotSupportedOrOutside;
   }
   std::string text =
@@ -95,8 +96,7 @@ int follow(const PassesCommand& command) {
   std::vector<grid::MeasuredHoles> sets;
   for (const std::string& path : command.sets) {
     files::ReadHoles read = files::read_holes(path, options);
-    for (const files::Warning& warning : read.warnings)
-      fmt::print(stderr, "{}\n", warning.message());
+    print_warnings(read.warnings);
     sets.push_back(std::move(read.holes));
   }
   if (!sets.front().machine) {

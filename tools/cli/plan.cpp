@@ -30,6 +30,7 @@
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/plan_holes.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -128,12 +129,19 @@ int made_from_others(const PlanOptions& options, const std::string& file, std::s
   return kBadInput;
 }
 
+grid::diagnosis::Diagnosis read_diagnosis_to_follow(const std::string& path) {
+  std::vector<files::Warning> warnings;
+  grid::diagnosis::Diagnosis found = files::read_diagnosis(path, &warnings);
+  print_warnings(warnings);
+  return found;
+}
+
 int run_holes_follow_up(const PlanOptions& options, const std::string& text) {
   const std::string file = files::name_in_messages(options.grid);
   files::HolesOptions holes_options;
   if (!options.machine.empty()) holes_options.machine = files::read_machine(options.machine);
   const grid::MeasuredHoles set = files::parse_holes(text, file, holes_options).holes;
-  const grid::diagnosis::Diagnosis found = files::read_diagnosis(options.after);
+  const grid::diagnosis::Diagnosis found = read_diagnosis_to_follow(options.after);
   if (!is_of_these(found, set)) return made_from_others(options, file, "holes");
   std::vector<files::OutputFile> outputs;
   if (!options.drawing.empty()) {
@@ -167,7 +175,7 @@ int run_follow_up(const PlanOptions& options) {
   files::GridOptions grid_options;
   if (!options.machine.empty()) grid_options.machine = files::read_machine(options.machine);
   const grid::MeasuredGrid measured = files::parse_grid(text, file, grid_options).grid;
-  const grid::diagnosis::Diagnosis found = files::read_diagnosis(options.after);
+  const grid::diagnosis::Diagnosis found = read_diagnosis_to_follow(options.after);
   if (!is_of(found, measured)) return made_from_others(options, file, "points");
   std::vector<files::OutputFile> outputs;
   if (!options.drawing.empty()) outputs.push_back({options.drawing, draw_next(found, measured)});
@@ -203,7 +211,7 @@ int run_plan(PlanOptions options) {
   if (!options.after.empty()) return run_follow_up(options);
   if (!options.check.map.empty()) return run_check_plan(std::move(options));
   const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
-  for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+  print_warnings(read.warnings);
   if (options.holes.request.holes != 0) {
     take(options.margin_mm, options.holes.request.margin_mm);
     return plan_the_holes(options.holes, read.machine, options.output, options.drawing);

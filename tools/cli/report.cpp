@@ -20,6 +20,7 @@
 #include "tools/cli/map_report.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
 #include "tools/report/map_report.hpp"
 
 namespace chaintrue::cli {
@@ -59,7 +60,10 @@ report::Page certificate_of_map(const std::string& text,
 report::Page page_of_diagnosis(const std::string& text,
                                const std::string& file,
                                std::string_view source) {
-  return diagnosis_page(files::parse_diagnosis(text, file), source);
+  std::vector<files::Warning> warnings;
+  const grid::diagnosis::Diagnosis found = files::parse_diagnosis(text, file, &warnings);
+  print_warnings(warnings);
+  return diagnosis_page(found, source);
 }
 
 constexpr std::array kReportables = {

@@ -21,6 +21,7 @@
 #include "tools/cli/places.hpp"
 #include "tools/cli/simulate_options.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -75,7 +76,7 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
 
 int run_simulate(const SimulateOptions& options) {
   const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
-  for (const files::Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+  print_warnings(read.warnings);
   if (options.holes.plan.holes != 0) {
     synthetic::HolesSpec spec;
     OptionProblems problems;

@@ -39,7 +39,7 @@ int simulate_the_holes(const HolesOptions& options,
   with.rounding_mm = options.rounding_mm;
   const auto made = grid::synthetic::simulate_holes(design, with, truth);
   if (!made) {
-    fmt::print(stderr, "chaintrue simulate: {}\n", made.error());
+    fmt::print(stderr, "chaintrue simulate: {}\n", made.error().sentence);
     return kNotSupportedOrOutside;
   }
   write_output(output, grid::files::write_holes(made->set));

@@ -22,6 +22,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/cli/sweep_page.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -114,6 +115,7 @@ int run_sweep_verb(const SweepOptions& options) {
     }
     problems.throw_if_any();
     read = files::read_sweep(options.specification);
+    if (processes.rank() == 0) print_warnings(read->warnings);
     refuse_old_results(options);
   } catch (...) {
     failure = std::current_exception();

@@ -8,17 +8,18 @@
 namespace chaintrue::gcode {
 namespace {
 
-TargetFailure from(grid::MapFailure failure) {
-  switch (failure) {
+CorrectionFailure from(const grid::MapFailure& failure) {
+  switch (failure.reason) {
     case grid::MapFailure::outside_map:
-      return TargetFailure::outside;
+      return CorrectionFailure::outside_map;
     case grid::MapFailure::unreachable:
-      return TargetFailure::unreachable;
+      return {CorrectionFailure::unreachable, failure.pose};
     case grid::MapFailure::not_converged:
+      return CorrectionFailure::not_converged;
     case grid::MapFailure::wave_along_chain:
       break;
   }
-  return TargetFailure::not_converged;
+  return CorrectionFailure::wave_along_chain;
 }
 
 TargetStatus from(grid::MapStatus status) {
@@ -34,14 +35,15 @@ TargetStatus from(grid::MapStatus status) {
 
 }  // namespace
 
-tl::expected<model::ChainLengths, TargetFailure> CompensationTarget::lengths(
+tl::expected<model::ChainLengths, CorrectionFailure> CompensationTarget::lengths(
     model::BedPoint point) const {
   const auto found = map_.lengths(point, frame_);
   if (!found) return tl::unexpected(from(found.error()));
   return found->lengths;
 }
 
-tl::expected<TargetAnswer, TargetFailure> CompensationTarget::query(model::BedPoint point) const {
+tl::expected<TargetAnswer, CorrectionFailure> CompensationTarget::query(
+    model::BedPoint point) const {
   const auto found = map_.query(point, frame_);
   if (!found) return tl::unexpected(from(found.error()));
   return TargetAnswer{found->lengths, found->sigma, from(found->status)};
@@ -51,7 +53,7 @@ TargetStatus CompensationTarget::status(model::BedPoint point) const {
   return from(map_.status(point, frame_));
 }
 
-tl::expected<model::BedPoint, TargetFailure> CompensationTarget::tool(
+tl::expected<model::BedPoint, CorrectionFailure> CompensationTarget::tool(
     model::ChainLengths lengths) const {
   const auto found = map_.inverse(lengths, frame_);
   if (!found) return tl::unexpected(from(found.error()));

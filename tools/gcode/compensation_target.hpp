@@ -19,12 +19,12 @@ class CompensationTarget final : public TargetMap {
                               grid::Frame frame = grid::Frame::marks)
       : map_(map), frame_(frame) {}
 
-  [[nodiscard]] tl::expected<model::ChainLengths, TargetFailure> lengths(
+  [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> lengths(
       model::BedPoint point) const override;
-  [[nodiscard]] tl::expected<TargetAnswer, TargetFailure> query(
+  [[nodiscard]] tl::expected<TargetAnswer, CorrectionFailure> query(
       model::BedPoint point) const override;
   [[nodiscard]] TargetStatus status(model::BedPoint point) const override;
-  [[nodiscard]] tl::expected<model::BedPoint, TargetFailure> tool(
+  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(
       model::ChainLengths lengths) const override;
   [[nodiscard]] BedRectangle bounds() const override;
 

@@ -31,8 +31,9 @@ void Findings::add(Note note) {
 void Compensator::object(const Move& move, CorrectionFailure failure, double x_mm, double y_mm) {
   if (objected_line_ == move.line) return;
   objected_line_ = move.line;
-  findings_.add(Problem{failure == CorrectionFailure::controller ? ProblemName::outside_controller
-                                                                 : ProblemName::outside_map,
+  findings_.add(Problem{failure.reason == CorrectionFailure::controller
+                            ? ProblemName::outside_controller
+                            : ProblemName::outside_map,
                         {move.line, 0},
                         fmt::format("X{:.3f} Y{:.3f} {}", x_mm, y_mm, explain(failure))});
 }

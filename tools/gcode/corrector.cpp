@@ -3,6 +3,8 @@
 /// Map and controller, one behind the other.
 #include "tools/gcode/corrector.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,38 +12,28 @@
 namespace chaintrue::gcode {
 namespace {
 
-CorrectionFailure from(TargetFailure failure) {
-  switch (failure) {
-    case TargetFailure::outside:
-      return CorrectionFailure::outside_map;
-    case TargetFailure::unreachable:
-      return CorrectionFailure::unreachable;
-    case TargetFailure::not_converged:
-      break;
-  }
-  return CorrectionFailure::not_converged;
-}
-
 bool finite(model::BedPoint point) {
   return std::isfinite(point.x_mm) && std::isfinite(point.y_mm);
 }
 
 }  // namespace
 
-std::string_view explain(TargetFailure failure) { return explain(from(failure)); }
-
-std::string_view explain(CorrectionFailure failure) {
-  switch (failure) {
+std::string explain(const CorrectionFailure& failure) {
+  const std::string cause = failure.pose ? fmt::format(": {}", model::explain(*failure.pose)) : "";
+  switch (failure.reason) {
     case CorrectionFailure::outside_map:
       return "lies outside the map";
     case CorrectionFailure::unreachable:
-      return "cannot be reached by the machine";
+      return "cannot be reached by the machine" + cause;
     case CorrectionFailure::not_converged:
       return "has no answer in the map: the iteration did not settle";
+    case CorrectionFailure::wave_along_chain:
+      return "has no answer in a table of the map: an eccentric sprocket makes a wave along the "
+             "chain that is shorter than its cells";
     case CorrectionFailure::controller:
       break;
   }
-  return "cannot be reached by the controller's own kinematics";
+  return "cannot be reached by the controller's own kinematics" + cause;
 }
 
 tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(model::BedPoint target) const {
@@ -51,18 +43,23 @@ tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(model::BedPo
 tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(
     model::BedPoint target, model::ChainLengths half_play_mm, ChainDirections directions) const {
   auto lengths = map_.lengths(target);
-  if (!lengths) return tl::unexpected(from(lengths.error()));
+  if (!lengths) return tl::unexpected(lengths.error());
   lengths->left_mm += directions.left * half_play_mm.left_mm;
   lengths->right_mm += directions.right * half_play_mm.right_mm;
   const auto result = kinematics_.command(*lengths);
-  if (!result || !finite(*result)) return tl::unexpected(CorrectionFailure::controller);
+  if (!result) {
+    return tl::unexpected(CorrectionFailure(CorrectionFailure::controller, result.error()));
+  }
+  if (!finite(*result)) return tl::unexpected(CorrectionFailure::controller);
   return *result;
 }
 
 tl::expected<model::ChainLengths, CorrectionFailure> Corrector::paid_out(
     model::BedPoint command) const {
   const auto lengths = kinematics_.lengths(command);
-  if (!lengths) return tl::unexpected(CorrectionFailure::controller);
+  if (!lengths) {
+    return tl::unexpected(CorrectionFailure(CorrectionFailure::controller, lengths.error()));
+  }
   return *lengths;
 }
 
@@ -70,9 +67,8 @@ tl::expected<model::BedPoint, CorrectionFailure> Corrector::tool(model::BedPoint
   const auto lengths = paid_out(command);
   if (!lengths) return tl::unexpected(lengths.error());
   const auto point = map_.tool(*lengths);
-  if (!point || !finite(*point)) {
-    return tl::unexpected(point ? CorrectionFailure::not_converged : from(point.error()));
-  }
+  if (!point) return tl::unexpected(point.error());
+  if (!finite(*point)) return tl::unexpected(CorrectionFailure::not_converged);
   return *point;
 }
 

@@ -2,8 +2,8 @@
 /// \file
 /// From where the tool shall be to what the controller must be told, and back.
 ///
-///   command(p) = controller.command( map.lengths(p) + play )        tool(c) = map.tool(
-///   controller.lengths(c) )
+///   command(p) = controller.command(map.lengths(p) + play)
+///   tool(c)    = map.tool(controller.lengths(c))
 ///
 /// play is zero unless a direction_hysteresis was named: half its width, with the sign of the
 /// direction in which each chain runs.
@@ -16,9 +16,6 @@
 #include "tools/gcode/target_map.hpp"
 
 namespace chaintrue::gcode {
-
-enum class CorrectionFailure { outside_map, unreachable, not_converged, controller };
-[[nodiscard]] std::string_view explain(CorrectionFailure failure);
 
 /// Signs of the chains' running directions: +1 paying out, -1 reeling in.
 struct ChainDirections {

@@ -26,10 +26,9 @@ enum class MoveKind { rapid, feed, arc, probe };
 [[nodiscard]] std::string_view name(MoveKind kind);
 
 /// An arc or helix about an axis of a plane:
-///   p(t) = centre + r(t) (cos(a(t)) first + sin(a(t)) second) + h(t) (first x second),   t = 0 ..
-///   1
-/// with r, a and h linear in t. r changes within the tolerance that controllers grant to rounded
-/// words.
+///   p(t) = centre + r(t) (cos(a(t)) first + sin(a(t)) second) + h(t) (first x second)
+/// with t from 0 to 1 and r, a and h linear in t. r changes within the tolerance that controllers
+/// grant to rounded words.
 struct Arc {
   Point centre;
   /// Unit vectors of the plane; XY unless G18 or G19.

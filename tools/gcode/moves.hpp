@@ -6,8 +6,7 @@
 /// \code
 ///   const auto moves = read_moves("fixtures/gcode/bracket.nc");
 ///   if (!moves) fmt::print("{}\n", moves.error().message());
-///   else for (const auto& move : *moves) fmt::print("{} {} {}\n", move.line, move.to.x_mm,
-///   move.to.y_mm);
+///   else for (const auto& move : *moves) use(move.line, move.to);
 /// \endcode
 #pragma once
 

@@ -22,7 +22,7 @@ constexpr double kShortestChainMm = 400.0;
 double xy_distance(Point a, Point b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm); }
 
 tl::unexpected<Problem> no_place(CorrectionFailure failure, Point command, std::size_t line) {
-  const bool controller = failure == CorrectionFailure::controller;
+  const bool controller = failure.reason == CorrectionFailure::controller;
   return refuse(
       controller ? ProblemName::outside_controller : ProblemName::outside_map,
       {line, 0},

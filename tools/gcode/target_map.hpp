@@ -6,18 +6,35 @@
 /// compensation_target.hpp makes one of a compensation map; tests make them of formulas.
 #pragma once
 
+#include <optional>
 #include <string>
-#include <string_view>
 #include <tl/expected.hpp>
 
-#include "model/coordinates.hpp"
+#include "model/kinematics.hpp"
 
 namespace chaintrue::gcode {
 
 enum class TargetStatus { inside, edge, extrapolated };
-enum class TargetFailure { outside, unreachable, not_converged };
-/// A clause: "lies outside the map", ...
-[[nodiscard]] std::string_view explain(TargetFailure failure);
+/// Why there is no chain length, tool or command for a point.
+struct CorrectionFailure {
+  enum class Reason {
+    outside_map,
+    unreachable,  ///< the machine has no pose there
+    not_converged,
+    wave_along_chain,  ///< too short for the table that answers
+    controller,        ///< out of reach of the controller's own kinematics
+  };
+  using enum Reason;
+  CorrectionFailure(Reason why, std::optional<model::PoseFailure> from = std::nullopt)  // NOLINT
+      : reason(why), pose(from) {}
+
+  Reason reason;
+  /// Of `unreachable` and `controller`, where it is known.
+  std::optional<model::PoseFailure> pose;
+  friend bool operator==(const CorrectionFailure&, const CorrectionFailure&) = default;
+};
+/// A clause: "lies outside the map", ...; with the pose's own cause behind it.
+[[nodiscard]] std::string explain(const CorrectionFailure& failure);
 
 struct TargetAnswer {
   model::ChainLengths lengths;
@@ -36,13 +53,13 @@ struct BedRectangle {
 class TargetMap {
  public:
   virtual ~TargetMap() = default;
-  [[nodiscard]] virtual tl::expected<model::ChainLengths, TargetFailure> lengths(
+  [[nodiscard]] virtual tl::expected<model::ChainLengths, CorrectionFailure> lengths(
       model::BedPoint point) const = 0;
-  [[nodiscard]] virtual tl::expected<TargetAnswer, TargetFailure> query(
+  [[nodiscard]] virtual tl::expected<TargetAnswer, CorrectionFailure> query(
       model::BedPoint point) const = 0;
   [[nodiscard]] virtual TargetStatus status(model::BedPoint point) const = 0;
   /// Where the tool stands when the chains have these lengths.
-  [[nodiscard]] virtual tl::expected<model::BedPoint, TargetFailure> tool(
+  [[nodiscard]] virtual tl::expected<model::BedPoint, CorrectionFailure> tool(
       model::ChainLengths lengths) const = 0;
   /// Where lengths() may answer.
   [[nodiscard]] virtual BedRectangle bounds() const = 0;

@@ -9,8 +9,8 @@
 /// \code
 ///   MapReport report{.name = "workshop grid", .verdict = "Expect 0.21 mm at the tool."};
 ///   report.points.push_back({.name = "point 1", .x_mm = -1200, .y_mm = -600, .before = {1.9, 0.4},
-///   .after = {0.1, 0.0}, .held_out = {{0.2, 0.1}}}); write_file("report.html",
-///   render(page_of(report)));
+///                            .after = {0.1, 0.0}, .held_out = {{0.2, 0.1}}});
+///   write_file("report.html", render(page_of(report)));
 /// \endcode
 #pragma once
 

@@ -8,9 +8,10 @@
 /// declares without values; hovering or tapping a mark shows the object of its `tooltip`.
 ///
 /// \code
-///   Page page{.title = "Compensation map", .verdict = "The machine is true to 0.21 mm.", .tone =
-///   Tone::good}; page.sections.push_back({"Settings", {Table{.columns = {{"setting"}, {"stated",
-///   true}}, .rows = {{{"motor x", "1489.2"}}}}}}); std::string html = render(page);
+///   Page page{.title = "Compensation map", .verdict = "True to 0.21 mm.", .tone = Tone::good};
+///   page.sections.push_back({"Settings", {Table{.columns = {{"setting"}, {"stated", true}},
+///                                               .rows = {{{"motor x", "1489.2"}}}}}});
+///   std::string html = render(page);
 /// \endcode
 ///
 /// Pure functions of their arguments: safe from any thread.

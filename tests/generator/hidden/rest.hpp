@@ -11,8 +11,11 @@
 /// place, as the product has it.
 ///
 /// Notation, per chain, frame at the sled, u towards the sprocket, y up, both in the bed's plane
-///   H, V    horizontal and vertical pull of the chain on the ring [N]      w  weight [N/mm]
-///   S       free unstretched chain [mm]        c  strain per newton        rho  ring radius [mm]
+///   H, V    horizontal and vertical pull of the chain on the ring [N]
+///   w       weight [N/mm]
+///   S       free unstretched chain [mm]
+///   c       strain per newton
+///   rho     ring radius [mm]
 ///   psi     turn of the point where the chain leaves the sprocket, from 12 o'clock [rad]
 ///
 /// Thread safe: nothing is shared.

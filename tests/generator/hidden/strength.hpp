@@ -7,7 +7,8 @@
 ///   g      reading less what the machine without the effect reads at the mark as written, per
 ///          visit and chain, whitened by C = s_L^2 + s_xy^2 J J', J = d(L, R)/d(x, y)
 ///   A      what the six settings do, whitened alike, and their stated sigmas as further rows
-///   M      projection orthogonal to A;    delta = |M g|
+///   M      projection orthogonal to A
+///   delta  |M g|
 ///   rho    |cosine| of M g of two effects
 ///
 /// Derivatives are differences on the drum: the teeth's ripple of 0.02 mm is in the readings and

@@ -4,24 +4,26 @@
 /// each pass visible. An oracle for the solver, which it reaches by another road, and a measure of
 /// what stopping early costs.
 ///
-///  1  the sled with its ring is one lump of mass;
-///  2  the lump is divided between the chains, at first by the lever rule from the sled's position;
-///  3  each part is replaced by a length of the same chain that weighs as much;
-///  4  each real chain with its substitute is a catenary of its own, both with the same horizontal
-///  tension, 5  at first that of straight lines; 6  each catenary is flat where its substitute ends
-///  (its lowest point), and its arc from there gives 7  the highest point, on the sprocket's
-///  tangent, and the tip of the real chain (with its stretch); 8  the angles there give the tangent
-///  point and the ring's end. What does not fit between the sprockets mends the
-///     tension (by the ratio of the distances) and the division (by the gap in height over its
-///     slope).
+///   1  the sled with its ring is one lump of mass;
+///   2  the lump is divided between the chains, at first by the lever rule from its position;
+///   3  each part is replaced by a length of the same chain that weighs as much;
+///   4  each real chain with its substitute is a catenary of its own, both with the same horizontal
+///      tension,
+///   5  at first that of straight lines;
+///   6  each catenary is flat where its substitute ends (its lowest point), and its arc from there
+///      gives
+///   7  the highest point, on the sprocket's tangent, and the tip of the real chain (with its
+///      stretch);
+///   8  the angles there give the tangent point and the ring's end. What does not fit between the
+///      sprockets mends the tension (by the ratio of the distances) and the division (by the gap in
+///      height over its slope).
 ///
 /// The steps leave the update open; with this one the passes settle linearly, a few hundred at most
 /// over the bed. Ring sled only. Stateless; allocates its list of passes.
 ///
 /// \code
 ///   const auto result = lever_rule_pose(equilibrium_parameters(machine), {1701.7, 1701.7});
-///   for (const LeverRulePass& pass : result->passes) fmt::print("{} {}\n", pass.gap_across_mm,
-///   pass.gap_in_height_mm);
+///   for (const LeverRulePass& pass : result->passes) say(pass.gap_across_mm);
 /// \endcode
 #pragma once
 

@@ -5,13 +5,19 @@
 /// catalogue's angular_kink, as a straight line beyond a knee.
 ///
 /// Notation
-///   R, r     belt line's radius on the pulley and on the drive gear;  a distance of their axes
-///   C, Q     the slice's corner, at the critical angle and `beyond` farther;  D the belt's tangent
-///   point on the gear l0       straight belt at the critical angle, sqrt(a^2 - (R - r)^2);  l
-///   straight belt now, sqrt(|SQ|^2 - r^2) psi      turn of the belt's direction since, which winds
-///   r psi more on the gear
+///   R, r   belt line's radius on the pulley and on the drive gear
+///   a      distance of their axes
+///   C, Q   the slice's corner, at the critical angle and `beyond` farther
+///   S      the drive gear's axis
+///   D      the belt's tangent point on the gear
+///   l0     straight belt at the critical angle, sqrt(a^2 - (R - r)^2)
+///   l      straight belt now, sqrt(|SQ|^2 - r^2)
+///   psi    turn of the belt's direction since, which winds r psi more on the gear
 ///
-/// Belt travel beyond the critical angle: l - l0 + r psi, against R * beyond on a round pulley (1)
+/// Belt travel beyond the critical angle, against R * beyond on a round pulley:
+///
+///   l - l0 + r psi                                                                          (1)
+///
 /// Source: FirePick Delta wiki, "Sliced Pulley Error" (27 September 2015), which keeps the tangent
 /// at D fixed; (1) lets it turn. Stateless, thread safe.
 ///

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/holes/sets_together.hpp"
+#include "tests/holes/sets_together.hpp"
 
 #include <fmt/format.h>
 
 #include <stdexcept>
 
-#include "model/calibration/setting.hpp"
+#include "grid/measured.hpp"
 #include "model/controllers/payout.hpp"
 
 namespace chaintrue::grid {
@@ -56,17 +56,6 @@ tl::expected<std::vector<model::BedPoint>, std::string> commands(
 }
 
 }  // namespace
-
-std::string difference_of_settings(const model::Machine& first, const model::Machine& other) {
-  for (const model::Setting setting : model::kMachineSettings) {
-    if (model::stated_value(first, setting) == model::stated_value(other, setting)) continue;
-    return fmt::format("{} is {} in this file and {} in the first",
-                       model::name(setting),
-                       model::stated_value(other, setting),
-                       model::stated_value(first, setting));
-  }
-  return {};
-}
 
 tl::expected<MeasuredHoles, std::string> sets_together(const std::vector<MeasuredHoles>& sets) {
   if (sets.empty()) throw std::invalid_argument("no sets of holes to put together");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "interp/scattered_fit.hpp"
+#include "tests/interp/oracle/scattered_fit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 6;
 
-tl::unexpected<ScatteredFailure> refuse(ScatteredRefusal reason, std::string sentence) {
+tl::unexpected<ScatteredFailure> refuse(ScatteredFailure::Reason reason, std::string sentence) {
   return tl::unexpected(ScatteredFailure{reason, std::move(sentence)});
 }
 
@@ -103,7 +103,7 @@ class ScatteredFitter {
     // Each round the weights follow from the errors of the round before; four settle them to a
     // twentieth, and with no contradicted point the first round is the last.
     constexpr int kMostRounds = 5;
-    tl::expected<PenalisedFit, FitRefusal> fit = solve();
+    tl::expected<PenalisedFit, FitFailure> fit = solve();
     bool judged = false;
     for (int round = 1; fit && options_.robust && round < kMostRounds; ++round) {
       leave_out_each(*fit);
@@ -114,9 +114,9 @@ class ScatteredFitter {
       fit = solve();
     }
     if (!fit) {
-      return refuse(fit.error().reason == FitFailure::kRankDeficient
-                        ? ScatteredRefusal::kRankDeficient
-                        : ScatteredRefusal::kNotConverged,
+      return refuse(fit.error().reason == FitFailure::Reason::rank_deficient
+                        ? ScatteredFailure::Reason::rank_deficient
+                        : ScatteredFailure::Reason::not_converged,
                     fit.error().sentence);
     }
     if (!judged) {
@@ -129,7 +129,7 @@ class ScatteredFitter {
     // far above the residual and above a plane's says that the surface swings between its points.
     if (e.rms > e.plane_rms && e.rms > 3.0 * e.residual_rms) {
       return refuse(
-          ScatteredRefusal::kUntrustworthy,
+          ScatteredFailure::Reason::untrustworthy,
           fmt::format("the surface passes the points within {:.3g} but misses a point left "
                       "out by {:.3g}, a plane by {:.3g}: it swings between the points",
                       e.residual_rms,
@@ -142,7 +142,7 @@ class ScatteredFitter {
   }
 
  private:
-  tl::expected<PenalisedFit, FitRefusal> solve() {
+  tl::expected<PenalisedFit, FitFailure> solve() {
     PenalisedProblem problem(basis_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double scale = weight_[i] / (points_[i].sigma * points_[i].sigma);
@@ -226,7 +226,7 @@ class ScatteredFitter {
     for (const LeftOut& e : left_out_) {
       t.push_back(e.error / e.sigma);
     }
-    if (options_.noise.knowledge == NoiseKnowledge::kUnknown) {
+    if (options_.noise.knowledge == NoiseKnowledge::unknown) {
       std::vector<double> size;
       for (const double value : t) size.push_back(std::abs(value));
       // 0.6745 is the median of |t| for a normal t. A tiny median means data without noise.
@@ -261,7 +261,7 @@ class ScatteredFitter {
       const double e = left_out_[i].error;
       errors.error(static_cast<Eigen::Index>(i)) = e;
       if (std::abs(t[i]) > options_.contradicted_from) {
-        surface.flags_.push_back({i, PointDoubt::kContradicted, t[i], weight_[i]});
+        surface.flags_.push_back({i, PointDoubt::contradicted, t[i], weight_[i]});
         if (options_.robust) {
           continue;
         }
@@ -328,7 +328,7 @@ class ScatteredFitter {
         if (std::abs(t) > options_.contradicted_from) {
           for (const std::size_t index : {order[a], order[b]}) {
             surface.flags_.push_back(
-                {index, PointDoubt::kRepeatsDisagree, index == order[a] ? -t : t, weight_[index]});
+                {index, PointDoubt::repeats_disagree, index == order[a] ? -t : t, weight_[index]});
           }
         }
       }
@@ -366,12 +366,12 @@ tl::expected<ScatteredSurface, ScatteredFailure> fit_scattered(
   check(points, options);
   if (points.size() < kFewestPoints) {
     return refuse(
-        ScatteredRefusal::kTooFewPoints,
+        ScatteredFailure::Reason::too_few_points,
         fmt::format(
             "{} points are too few for a surface: {} are the least", points.size(), kFewestPoints));
   }
   if (narrowness(points) < 1e-3) {
-    return refuse(ScatteredRefusal::kOnALine,
+    return refuse(ScatteredFailure::Reason::on_a_line,
                   "all points lie on one line: they say nothing about the surface beside it");
   }
   ScatteredOptions filled = options;

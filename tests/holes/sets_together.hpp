@@ -3,7 +3,8 @@
 /// Several sets of holes that one machine cut, with other controller settings in force, as one set:
 /// what they share is learnt from all of them, a bend of the bed that no setting has included.
 ///
-/// A hole is where its chain lengths put it. So each later set's holes get the commands by which
+/// Another road than fit_together's, which keeps each set its own sheet and controller. A hole is
+/// where its chain lengths put it. So each later set's holes get the commands by which
 /// the first one's controller would have paid out the same lengths; distances stay what they are.
 ///
 /// \code
@@ -29,9 +30,5 @@ namespace chaintrue::grid {
 /// without a set.
 [[nodiscard]] tl::expected<MeasuredHoles, std::string> sets_together(
     const std::vector<MeasuredHoles>& sets);
-
-/// The first setting that two machines do not share, in words; empty where they share all.
-[[nodiscard]] std::string difference_of_settings(const model::Machine& first,
-                                                 const model::Machine& other);
 
 }  // namespace chaintrue::grid

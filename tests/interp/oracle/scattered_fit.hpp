@@ -40,15 +40,15 @@ struct ScatteredOptions {
   std::optional<Rectangle> rectangle;  ///< of the basis; empty: the points' bounding box
   int intervals_x = 0;                 ///< 0: chosen from the number of points and the shape
   int intervals_y = 0;
-  NoiseScale noise = {NoiseKnowledge::kUnknown, 0.0};
+  NoiseScale noise = {NoiseKnowledge::unknown, 0.0};
   bool robust = true;               ///< give points the others contradict less weight
   double contradicted_from = 4.0;   ///< |t_i| from which on a point counts as contradicted
   double same_place_within = 1e-6;  ///< points nearer than this are repeats of one another
 };
 
 enum class PointDoubt {
-  kContradicted,     ///< the surface through the others misses it by more than it should
-  kRepeatsDisagree,  ///< lies where another point lies, and differs by more than the noise allows
+  contradicted,      ///< the surface through the others misses it by more than it should
+  repeats_disagree,  ///< lies where another point lies, and differs by more than the noise allows
 };
 
 /// A point that the fit doubts.
@@ -59,16 +59,14 @@ struct PointFlag {
   double weight;        ///< what the point counted in the fit: 1 fully, less the more it is off
 };
 
-enum class ScatteredRefusal {
-  kTooFewPoints,   ///< fewer than six
-  kOnALine,        ///< wider across than 1/1000 of its length is asked for
-  kRankDeficient,  ///< the points leave some of the surface free
-  kNotConverged,   ///< the choice of smoothing did not settle
-  kUntrustworthy,  ///< left-out points are predicted worse than by a plane
-};
-
 struct ScatteredFailure {
-  ScatteredRefusal reason;
+  enum class Reason {
+    too_few_points,  ///< fewer than six
+    on_a_line,       ///< wider across than 1/1000 of its length is asked for
+    rank_deficient,  ///< the points leave some of the surface free
+    not_converged,   ///< the choice of smoothing did not settle
+    untrustworthy,   ///< left-out points are predicted worse than by a plane
+  } reason;
   std::string sentence;
 };
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Where a chain stands in a pair of rows or numbers: left, right.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "model/coordinates.hpp"
+
+namespace chaintrue::grid {
+
+[[nodiscard]] constexpr Eigen::Index row_of(model::Side side) {
+  return side == model::Side::left ? 0 : 1;
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Every file format with its version, and which older ones are still read.
+///
+/// Versions are "major.minor". A file of an older version that stands here is read, and what is
+/// assumed in place of what it does not say is a warning. A newer one is refused with both versions
+/// named: what it holds beyond this version would be lost unseen.
+///
+/// A format that grows gets its next minor version here, the one before it among the older ones
+/// with the sentence of what is then assumed, and a sample of that one in
+/// tests/contracts/formats_contract_test.cpp.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "grid/files/json_text.hpp"
+
+namespace chaintrue::grid::files {
+
+/// A version that is still read.
+struct OlderVersion {
+  std::string_view version;
+  std::string_view assumed;  ///< sentence of what is then taken for granted
+};
+
+struct Format {
+  std::string_view file_type;
+  std::string_view version;  ///< that is written; the newest that is read
+  std::span<const OlderVersion> older = {};
+  bool is_read = true;  ///< some are for other programs alone
+};
+
+inline constexpr std::array kOlderMaps = {OlderVersion{
+    "1.0", "written before maps carried a hash of their content; taken to be undamaged"}};
+
+inline constexpr Format kMachineFormat{"chaintrue_machine", "1.0"};
+inline constexpr Format kGridFormat{"chaintrue_grid", "1.0"};
+inline constexpr Format kHolesFormat{"chaintrue_holes", "1.0"};
+inline constexpr Format kMapFormat{"chaintrue_map", "1.1", kOlderMaps};
+inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.0"};
+inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};
+inline constexpr Format kSweepSummaryFormat{"chaintrue_sweep_summary", "1.0", {}, false};
+inline constexpr Format kAnswerFormat{"chaintrue_answer", "1.0", {}, false};
+inline constexpr Format kCheckFormat{"chaintrue_check", "1.0", {}, false};
+inline constexpr Format kEffectsFormat{"chaintrue_effects", "1.0", {}, false};
+inline constexpr Format kEffectPictureFormat{"chaintrue_effect_picture", "1.0", {}, false};
+
+inline constexpr std::array<const Format*, 11> kFormats = {&kMachineFormat,
+                                                           &kGridFormat,
+                                                           &kHolesFormat,
+                                                           &kMapFormat,
+                                                           &kDiagnosisFormat,
+                                                           &kSweepFormat,
+                                                           &kSweepSummaryFormat,
+                                                           &kAnswerFormat,
+                                                           &kCheckFormat,
+                                                           &kEffectsFormat,
+                                                           &kEffectPictureFormat};
+
+/// An object that begins as such a file begins.
+[[nodiscard]] Json headed(const Format& format);
+
+/// What a file of that older version lacks; null where no such version is read.
+[[nodiscard]] const OlderVersion* find_older(const Format& format, const Json& version);
+
+/// What is expected in place of a version that is not read; where it is newer, in a sentence that
+/// names both.
+[[nodiscard]] std::string expected_version(const Format& format, const Json& found);
+
+}  // namespace chaintrue::grid::files

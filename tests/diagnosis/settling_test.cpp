@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whether calibrating came to rest, and what is said where it did not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "grid/diagnosis/estimate.hpp"
+#include "grid/diagnosis/findings.hpp"
+#include "tests/diagnosis/sessions.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+using testing_support::session_of;
+using testing_support::verdict_alone;
+
+constexpr const char* kUnsettled = "Calibrating had not come to rest";
+
+Analysis analysis_of(const MeasuredGrid& grid) {
+  return analyse(make_session(grid).value(), verdict_alone()).value();
+}
+
+TEST(Settling, WhatDidNotComeToRestIsSaid) {
+  Analysis a = analysis_of(session_of({}, 1, 5, 4));
+  Diagnosis settled;
+  put_into_words(a, settled);
+  EXPECT_THAT(settled.notes, Not(Contains(HasSubstr(kUnsettled))));
+  a.settled = false;
+  Diagnosis unsettled;
+  put_into_words(a, unsettled);
+  EXPECT_THAT(unsettled.notes, Contains(HasSubstr(kUnsettled)));
+}
+
+TEST(Settling, ATurnOfTheSheetCountsAsItsEdgeMoves) {
+  // A turn of 1e-4 rad is 0.12 mm at the edge of the bed: at rest it is far below that.
+  MeasuredGrid grid = session_of({}, 2, 5, 4);
+  grid.sheet = SheetUncertainty{20.0, 10.0};
+  const Analysis a = analysis_of(grid);
+  ASSERT_TRUE(a.settled);
+  auto again = linearise(a.session, a.state, a.options.steps).value();
+  again.g.resize(a.session.rows, 0);
+  Steps projected = a.options.steps;
+  projected.project_settings = true;
+  const auto marginalised =
+      marginalise(again, a.comparison.marginalised_systems.front().outliers, projected);
+  const Eigen::VectorXd change = estimate(again, marginalised, {}, -1).setting_change;
+  const double edge_mm = 0.5 * a.session.stated.bed.width_mm;
+  const Eigen::Index turn = Session::sheet_column(0) + 2;
+  // One more pass moves nothing by more than the last one was allowed to, 1e-4 mm.
+  EXPECT_LT(edge_mm * std::abs(change(turn)), 1e-4);
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Why a machine cannot hold the tool reaches the message about the line that asked for it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "grid/map/compensation_map.hpp"
+#include "tools/gcode/corrector.hpp"
+#include "tools/gcode/path_lengths.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+using model::PoseFailure;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+constexpr PoseFailure kPoseFailures[] = {PoseFailure::outside_verticals,
+                                         PoseFailure::above_sprockets,
+                                         PoseFailure::link_does_not_fit,
+                                         PoseFailure::slack,
+                                         PoseFailure::too_short,
+                                         PoseFailure::not_converged};
+
+/// A machine that can hold the tool nowhere.
+class NoPose final : public TargetMap {
+ public:
+  explicit NoPose(PoseFailure why) : failure_(CorrectionFailure::unreachable, why) {}
+  [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> lengths(
+      model::BedPoint) const override {
+    return tl::unexpected(failure_);
+  }
+  [[nodiscard]] tl::expected<TargetAnswer, CorrectionFailure> query(
+      model::BedPoint) const override {
+    return tl::unexpected(failure_);
+  }
+  [[nodiscard]] TargetStatus status(model::BedPoint) const override { return TargetStatus::inside; }
+  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(
+      model::ChainLengths) const override {
+    return tl::unexpected(failure_);
+  }
+  [[nodiscard]] BedRectangle bounds() const override { return {-1000.0, 1000.0, -500.0, 500.0}; }
+
+ private:
+  CorrectionFailure failure_;
+};
+
+/// A controller that pays out nothing.
+class NoCommand final : public model::ControllerKinematics {
+ public:
+  explicit NoCommand(PoseFailure why) : why_(why) {}
+  [[nodiscard]] tl::expected<model::ChainLengths, PoseFailure> lengths(
+      model::BedPoint) const override {
+    return tl::unexpected(why_);
+  }
+  [[nodiscard]] tl::expected<model::BedPoint, PoseFailure> command(
+      model::ChainLengths) const override {
+    return tl::unexpected(why_);
+  }
+
+ private:
+  PoseFailure why_;
+};
+
+TEST(FailureWords, APosesOwnCauseEndsTheSentence) {
+  for (const PoseFailure why : kPoseFailures) {
+    const std::string cause(model::explain(why));
+    const CorrectionFailure pose(CorrectionFailure::unreachable, why);
+    EXPECT_EQ(explain(pose), "cannot be reached by the machine: " + cause);
+    EXPECT_THAT(grid::explain(grid::MapFailure(why)), EndsWith(": " + cause));
+    const NoCommand controller(why);
+    const NoPose map(why);
+    const Corrector corrector(map, controller, firmware(model::ControllerKind::ideal));
+    EXPECT_EQ(corrector.command({0.0, 0.0}).error(), pose);
+    EXPECT_EQ(explain(corrector.tool({0.0, 0.0}).error()),
+              "cannot be reached by the controller's own kinematics: " + cause);
+  }
+}
+
+TEST(FailureWords, EveryReasonHasWordsOfItsOwn) {
+  std::set<std::string> words;
+  for (const CorrectionFailure::Reason reason : {CorrectionFailure::outside_map,
+                                                 CorrectionFailure::unreachable,
+                                                 CorrectionFailure::not_converged,
+                                                 CorrectionFailure::wave_along_chain,
+                                                 CorrectionFailure::controller})
+    words.insert(explain(CorrectionFailure(reason)));
+  EXPECT_EQ(words.size(), 5u);
+  EXPECT_THAT(explain(CorrectionFailure(CorrectionFailure::wave_along_chain)),
+              HasSubstr("wave along the chain"));
+}
+
+TEST(FailureWords, TheMessageAboutALineNamesTheCause) {
+  const NoPose map(PoseFailure::slack);
+  LineSource source = LineSource::from_text("G21 G90\nG1 X10 Y20 F500\n");
+  Findings findings;
+  ASSERT_TRUE(path_lengths(
+      source, {}, map, {}, 50.0, [](const PathLengths&) {}, findings));
+  ASSERT_FALSE(findings.problems.empty());
+  EXPECT_THAT(findings.problems.front().message(),
+              HasSubstr(std::string(model::explain(PoseFailure::slack))));
+}
+
+}  // namespace
+}  // namespace chaintrue::gcode
