@@ -12,17 +12,20 @@
 namespace chaintrue::grid::diagnosis {
 
 #ifdef CHAINTRUE_VARY_CONSTANTS
-#define CHAINTRUE_CONSTANT(name, value, meaning, source) inline double name = value;
+#define CHAINTRUE_MAY_VARY
 #else
-#define CHAINTRUE_CONSTANT(name, value, meaning, source) inline constexpr double name = value;
+#define CHAINTRUE_MAY_VARY constexpr
 #endif
+#define CHAINTRUE_CONSTANT(name, value, meaning, source) \
+  inline CHAINTRUE_MAY_VARY double name = value;
 #include "grid/diagnosis/constants.def"
 #undef CHAINTRUE_CONSTANT
 
 /// Beside the stated noise, one of these multiples of it, each alike: what hurried or careless
 /// measuring makes of a tape.
-inline constexpr std::array kLargerNoise = {1.5, 2.0, 2.7};
+inline CHAINTRUE_MAY_VARY std::array kLargerNoise = {1.5, 2.0, 2.7};
 /// Strengths at which a discrepancy is tried: a quarter of a decade apart where it is hard to see.
-inline constexpr std::array kDiscrepancyStrengths = {4.0, 6.5, 10.0, 16.0, 25.0, 60.0};
+inline CHAINTRUE_MAY_VARY std::array kDiscrepancyStrengths = {4.0, 6.5, 10.0, 16.0, 25.0, 60.0};
+#undef CHAINTRUE_MAY_VARY
 
 }  // namespace chaintrue::grid::diagnosis

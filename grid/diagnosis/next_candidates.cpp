@@ -156,9 +156,7 @@ NextCandidates next_candidates(const Analysis& a) {
     }
     if (!a.session.parts[part].reads_chains()) take(candidate_distances(a, part));
   }
-  // Readings of the machine part the chains' causes in readings of the chains; distances alone are
-  // told apart by more distances.
-  if (chains_read) take(candidate_readings(a.session));
+  take(candidate_readings(a.session));
   return {with_observations(a.session, std::move(observations)), std::move(all)};
 }
 

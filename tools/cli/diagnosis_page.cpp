@@ -11,6 +11,7 @@
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/distance_charts.hpp"
+#include "tools/cli/follow_up.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -232,29 +233,43 @@ Section separation_section(const Diagnosis& found) {
   return section;
 }
 
+std::string_view where_it_goes(const Diagnosis& found) {
+  switch (found.observations) {
+    case grid::diagnosis::Observations::points:
+      return "Points go into the grid's file, readings into its \"readings\"";
+    case grid::diagnosis::Observations::distances:
+      return "Holes and distances go into the holes' file, readings into its \"readings\"";
+    case grid::diagnosis::Observations::both:
+      break;
+  }
+  return "Points go into the grid's file, holes and distances into the holes' file, readings into "
+         "the \"readings\" of either";
+}
+
 Section next_section(const Diagnosis& found) {
   Section section{"What to measure next", {}};
   Table table{{{"no.", true}, {"what"}, {"a single right name then", true}}, {}, ""};
-  bool has_places = false;
   const std::vector<std::string> sentences = follow_ups_in_words(found);
   for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
-    const auto& next = found.next_measurements[i];
-    has_places = has_places || next.mark.has_value();
-    table.rows.push_back(
-        {{fmt::format("{}", i + 1), sentences[i], percent(next.raises_probability_to)}, false});
+    table.rows.push_back({{fmt::format("{}", i + 1),
+                           sentences[i],
+                           percent(found.next_measurements[i].raises_probability_to)},
+                          false});
   }
   table.caption = fmt::format(
-      "In this order; the probability is that of all up to this one done. {}",
-      is_of_distances(found)
-          ? "Holes and distances go into the holes' file; chaintrue plan HOLES --after prints the "
-            "lines."
-          : "Points go into the grid's file, readings into its \"readings\"; chaintrue plan GRID "
-            "--after prints the lines.");
+      "In this order; the probability is that of all up to this one done. {}; chaintrue plan {} "
+      "--after prints the lines.",
+      where_it_goes(found),
+      files_in_words(found));
   section.blocks.emplace_back(std::move(table));
-  if (is_of_distances(found)) {
-    section.blocks.emplace_back(next_distances_chart(found));
-  } else if (has_places) {
+  const bool has_places = std::any_of(found.next_measurements.begin(),
+                                      found.next_measurements.end(),
+                                      [](const auto& next) { return next.mark.has_value(); });
+  if (has_places && !is_of_distances(found)) {
     section.blocks.emplace_back(next_points_chart(found));
+  }
+  if (proposes(found, grid::diagnosis::MeasurementKind::distance)) {
+    section.blocks.emplace_back(next_distances_chart(found));
   }
   return section;
 }

@@ -107,7 +107,7 @@ void write_gain(Text& text, const Diagnosis& found) {
 void write_follow_up(Text& text, const Diagnosis& found) {
   if (found.next_measurements.empty()) return;
   text.heading(fmt::format("What to measure next (chaintrue plan {} --after diagnosis.json)",
-                           is_of_distances(found) ? "HOLES" : "GRID"));
+                           files_in_words(found)));
   const std::vector<std::string> sentences = follow_ups_in_words(found);
   for (std::size_t i = 0; i < sentences.size(); ++i) {
     text.line("  {:>2}. {} A single right name then has probability {}.",

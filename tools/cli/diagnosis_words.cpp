@@ -106,6 +106,18 @@ bool is_of_distances(const grid::diagnosis::Diagnosis& found) {
   return found.observations == grid::diagnosis::Observations::distances;
 }
 
+std::string_view files_in_words(const grid::diagnosis::Diagnosis& found) {
+  switch (found.observations) {
+    case grid::diagnosis::Observations::points:
+      return "GRID";
+    case grid::diagnosis::Observations::distances:
+      return "HOLES";
+    case grid::diagnosis::Observations::both:
+      break;
+  }
+  return "GRID --with HOLES";
+}
+
 std::string reading_name(const grid::diagnosis::Diagnosis& found, std::size_t index) {
   if (!is_of_distances(found)) return point_name(index);
   for (const auto& distance : found.distances) {

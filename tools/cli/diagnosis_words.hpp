@@ -43,6 +43,9 @@ namespace chaintrue::cli {
 [[nodiscard]] bool is_surprising(const grid::diagnosis::LeftOver& left_over);
 /// What is left over once the causes named are in the model, in a sentence.
 [[nodiscard]] std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over);
+/// The files of a diagnosis as a command names them: GRID, HOLES or both.
+[[nodiscard]] std::string_view files_in_words(const grid::diagnosis::Diagnosis& found);
+
 /// The next measurements as sentences: what to do, where, and how well.
 [[nodiscard]] std::vector<std::string> follow_ups_in_words(
     const grid::diagnosis::Diagnosis& diagnosis);

@@ -14,6 +14,7 @@ namespace {
 
 using grid::MeasuredGrid;
 using grid::diagnosis::Diagnosis;
+using grid::diagnosis::MeasurementKind;
 using grid::diagnosis::NextMeasurement;
 
 /// The number of the next visit; empty where visits are not numbered.
@@ -28,6 +29,10 @@ std::optional<int> next_visit(const MeasuredGrid& measured) {
 /// Points of this grid give commands in place of lengths.
 bool gives_commands(const MeasuredGrid& measured) {
   return !measured.points.empty() && !measured.points.front().lengths;
+}
+
+bool is_point(const NextMeasurement& next) {
+  return next.kind == MeasurementKind::point || next.kind == MeasurementKind::revisit;
 }
 
 }  // namespace
@@ -48,42 +53,38 @@ std::string follow_up_list(const Diagnosis& found) {
   return text;
 }
 
-std::string follow_up_json(const Diagnosis& found, const MeasuredGrid& measured) {
+bool proposes(const Diagnosis& found, MeasurementKind kind) {
+  return std::any_of(found.next_measurements.begin(),
+                     found.next_measurements.end(),
+                     [&](const NextMeasurement& next) { return next.kind == kind; });
+}
+
+std::string points_json(const Diagnosis& found, const MeasuredGrid& measured) {
   const std::string_view values = gives_commands(measured)
                                       ? R"("commanded_x_mm": null, "commanded_y_mm": null)"
                                       : R"("left_mm": null, "right_mm": null)";
   std::optional<int> visit = next_visit(measured);
-  std::string points, readings;
+  std::string points;
   for (const NextMeasurement& next : found.next_measurements) {
-    if (next.mark) {
-      fmt::format_to(std::back_inserter(points),
-                     "  {{\"x_mm\": {:.1f}, \"y_mm\": {:.1f}, {}{}}},\n",
-                     next.mark->x_mm + 0.0,
-                     next.mark->y_mm + 0.0,
-                     values,
-                     visit ? fmt::format(", \"order\": {}", (*visit)++) : "");
-    } else {
-      fmt::format_to(std::back_inserter(readings),
-                     "  {{\"what\": \"{}\"{}, \"value\": null, \"sigma\": {}}},\n",
-                     next.what,
-                     next.side.empty() ? "" : fmt::format(", \"side\": \"{}\"", next.side),
-                     next.sigma > 0.0 ? fmt::format("{:g}", next.sigma) : "null");
-    }
+    if (!is_point(next)) continue;
+    fmt::format_to(std::back_inserter(points),
+                   "  {{\"x_mm\": {:.1f}, \"y_mm\": {:.1f}, {}{}}},\n",
+                   next.mark->x_mm + 0.0,
+                   next.mark->y_mm + 0.0,
+                   values,
+                   visit ? fmt::format(", \"order\": {}", (*visit)++) : "");
   }
-  std::string text;
-  if (!points.empty()) text += "\"points\": add, each null filled in\n" + points;
-  if (!readings.empty()) text += "\"readings\": add, each null filled in\n" + readings;
-  return text;
+  return points.empty() ? points : "\"points\": add, each null filled in\n" + points;
 }
 
-std::string follow_up_csv(const Diagnosis& found, const MeasuredGrid& measured) {
+std::string points_csv(const Diagnosis& found, const MeasuredGrid& measured) {
   std::optional<int> visit = next_visit(measured);
   const bool commands = gives_commands(measured);
   std::string text = fmt::format("x_mm,y_mm,{}{}\n",
                                  commands ? "commanded_x_mm,commanded_y_mm" : "left_mm,right_mm",
                                  visit ? ",order" : "");
   for (const NextMeasurement& next : found.next_measurements) {
-    if (!next.mark) continue;
+    if (!is_point(next)) continue;
     fmt::format_to(std::back_inserter(text),
                    "{:.1f},{:.1f},,{}\n",
                    next.mark->x_mm + 0.0,
@@ -91,6 +92,19 @@ std::string follow_up_csv(const Diagnosis& found, const MeasuredGrid& measured) 
                    visit ? fmt::format(",{}", (*visit)++) : "");
   }
   return text;
+}
+
+std::string readings_json(const Diagnosis& found) {
+  std::string readings;
+  for (const NextMeasurement& next : found.next_measurements) {
+    if (next.kind != MeasurementKind::reading) continue;
+    fmt::format_to(std::back_inserter(readings),
+                   "  {{\"what\": \"{}\"{}, \"value\": null, \"sigma\": {}}},\n",
+                   next.what,
+                   next.side.empty() ? "" : fmt::format(", \"side\": \"{}\"", next.side),
+                   next.sigma > 0.0 ? fmt::format("{:g}", next.sigma) : "null");
+  }
+  return readings.empty() ? readings : "\"readings\": add, each null filled in\n" + readings;
 }
 
 }  // namespace chaintrue::cli

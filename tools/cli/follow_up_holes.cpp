@@ -39,29 +39,61 @@ class FreeNames {
   int number_ = 0;
 };
 
-Lines lines_of(const Diagnosis& found, const MeasuredHoles& set) {
+/// A hole as the diagnosis calls it.
+std::string name_in_diagnosis(const grid::Hole& hole, std::size_t position) {
+  return position == 0 ? hole.name : fmt::format("{} ({})", hole.name, position + 1);
+}
+
+/// As the set's own file calls it; an edge keeps its name. Empty where the set has no such hole.
+std::string name_in_file(const MeasuredHoles& set, std::size_t position, const std::string& name) {
+  for (const grid::Hole& hole : set.holes) {
+    if (name_in_diagnosis(hole, position) == name) return hole.name;
+  }
+  const bool edge = std::any_of(std::begin(grid::kSheetEdges),
+                                std::end(grid::kSheetEdges),
+                                [&](grid::SheetEdge e) { return grid::name(e) == name; });
+  return edge ? name : "";
+}
+
+Lines lines_of(const Diagnosis& found,
+               const std::vector<MeasuredHoles>& sets,
+               std::size_t position) {
+  const MeasuredHoles& set = sets[position];
   Lines lines;
   FreeNames names(set);
   for (const NextMeasurement& next : found.next_measurements) {
-    std::string from = next.from;
+    if (next.kind != grid::diagnosis::MeasurementKind::distance) continue;
+    // A new hole has no name yet; the holes to which it is measured say whose it is.
+    std::string from = name_in_file(set, position, next.mark ? next.to.front() : next.from);
+    if (from.empty()) continue;
     if (next.mark) {
       from = names.next();
       lines.holes.push_back({from, *next.mark});
     }
-    for (const std::string& to : next.to) lines.distances.emplace_back(from, to);
+    for (const std::string& to : next.to) {
+      lines.distances.emplace_back(from, name_in_file(set, position, to));
+    }
   }
   return lines;
 }
 
 }  // namespace
 
-bool is_of_these(const Diagnosis& found, const MeasuredHoles& set) {
+bool is_of_these(const Diagnosis& found, const std::vector<MeasuredHoles>& sets) {
   constexpr double kSamePlaceMm = 1e-3;
-  return found.distances.size() == set.distances.size() &&
+  std::vector<grid::Hole> holes;
+  std::size_t distances = 0;
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    for (const grid::Hole& hole : sets[k].holes) {
+      holes.push_back({name_in_diagnosis(hole, k), hole.commanded});
+    }
+    distances += sets[k].distances.size();
+  }
+  return found.distances.size() == distances &&
          std::equal(found.holes.begin(),
                     found.holes.end(),
-                    set.holes.begin(),
-                    set.holes.end(),
+                    holes.begin(),
+                    holes.end(),
                     [&](const auto& pictured, const grid::Hole& hole) {
                       return pictured.name == hole.name &&
                              std::hypot(pictured.commanded.x_mm - hole.commanded.x_mm,
@@ -70,8 +102,10 @@ bool is_of_these(const Diagnosis& found, const MeasuredHoles& set) {
                     });
 }
 
-std::string holes_follow_up_json(const Diagnosis& found, const MeasuredHoles& set) {
-  const Lines lines = lines_of(found, set);
+std::string distances_json(const Diagnosis& found,
+                           const std::vector<MeasuredHoles>& sets,
+                           std::size_t position) {
+  const Lines lines = lines_of(found, sets, position);
   std::string text;
   if (!lines.holes.empty()) text += "\"holes\": cut and add\n";
   for (const grid::Hole& hole : lines.holes) {
@@ -91,8 +125,10 @@ std::string holes_follow_up_json(const Diagnosis& found, const MeasuredHoles& se
   return text;
 }
 
-std::string holes_follow_up_csv(const Diagnosis& found, const MeasuredHoles& set) {
-  const Lines lines = lines_of(found, set);
+std::string distances_csv(const Diagnosis& found,
+                          const std::vector<MeasuredHoles>& sets,
+                          std::size_t position) {
+  const Lines lines = lines_of(found, sets, position);
   std::string text = "hole,x_mm,y_mm\n";
   for (const grid::Hole& hole : lines.holes) {
     fmt::format_to(std::back_inserter(text),

@@ -14,18 +14,12 @@
 #include <string>
 #include <utility>
 
-#include "grid/files/diagnosis_file.hpp"
-#include "grid/files/grid_file.hpp"
-#include "grid/files/holes_file.hpp"
 #include "grid/files/machine_file.hpp"
-#include "grid/files/whole_file.hpp"
 #include "grid/map/measurement_plan.hpp"
-#include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/effect_argument.hpp"
-#include "tools/cli/follow_up.hpp"
-#include "tools/cli/follow_up_holes.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/plan_after.hpp"
 #include "tools/cli/plan_check.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/plan_holes.hpp"
@@ -36,12 +30,10 @@ namespace chaintrue::cli {
 namespace {
 
 namespace files = grid::files;
-using grid::diagnosis::MeasurementKind;
 
 struct PlanOptions {
-  std::string grid;
-  std::string after;
   std::string machine;
+  PlanAfterOptions follow_up;
   grid::PlanRequest request;
   HolesPlanOptions holes;
   CheckPlanOptions check;
@@ -92,107 +84,11 @@ std::string in_words(const grid::MeasurementPlan& plan,
   return text;
 }
 
-/// The diagnosis is of these points: the same marks in the same order.
-bool is_of(const grid::diagnosis::Diagnosis& found, const grid::MeasuredGrid& measured) {
-  const auto same_place = [](double first_mm, double second_mm) {
-    return std::abs(first_mm - second_mm) < 1e-3;
-  };
-  return std::equal(found.points.begin(),
-                    found.points.end(),
-                    measured.points.begin(),
-                    measured.points.end(),
-                    [&](const auto& pictured, const grid::MeasuredPoint& point) {
-                      return same_place(pictured.mark.x_mm, point.mark.x_mm) &&
-                             same_place(pictured.mark.y_mm, point.mark.y_mm);
-                    });
-}
-
-std::string draw_next(const grid::diagnosis::Diagnosis& found, const grid::MeasuredGrid& measured) {
-  FollowUpDrawing drawing;
-  for (const auto& point : measured.points) drawing.measured.push_back(point.mark);
-  for (const FollowUpPlace& place : follow_up_places(found))
-    drawing.next.push_back({place.numbers, place.mark});
-  return draw_follow_up(drawing, found.extended_machine.bed);
-}
-
-bool is_json(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  return begin != std::string::npos && text[begin] == '{';
-}
-
-int made_from_others(const PlanOptions& options, const std::string& file, std::string_view what) {
-  fmt::print(stderr,
-             "{} was made from other {} than those of {}: diagnose these first.\n",
-             options.after,
-             what,
-             file);
-  return kBadInput;
-}
-
-grid::diagnosis::Diagnosis read_diagnosis_to_follow(const std::string& path) {
-  std::vector<files::Warning> warnings;
-  grid::diagnosis::Diagnosis found = files::read_diagnosis(path, &warnings);
-  print_warnings(warnings);
-  return found;
-}
-
-int run_holes_follow_up(const PlanOptions& options, const std::string& text) {
-  const std::string file = files::name_in_messages(options.grid);
-  files::HolesOptions holes_options;
-  if (!options.machine.empty()) holes_options.machine = files::read_machine(options.machine);
-  const grid::MeasuredHoles set = files::parse_holes(text, file, holes_options).holes;
-  const grid::diagnosis::Diagnosis found = read_diagnosis_to_follow(options.after);
-  if (!is_of_these(found, set)) return made_from_others(options, file, "holes");
-  std::vector<files::OutputFile> outputs;
-  if (!options.drawing.empty()) {
-    FollowUpDrawing drawing;
-    for (const grid::Hole& hole : set.holes) drawing.measured.push_back(hole.commanded);
-    for (const FollowUpPlace& place : follow_up_places(found))
-      drawing.next.push_back({place.numbers, place.mark});
-    outputs.push_back({options.drawing, draw_follow_up(drawing, found.extended_machine.bed)});
-  }
-  outputs.push_back(
-      {options.output,
-       is_json(text) ? holes_follow_up_json(found, set) : holes_follow_up_csv(found, set)});
-  write_outputs(outputs);
-  fmt::print(stderr, "{}", follow_up_list(found));
-  const bool has_readings = std::any_of(
-      found.next_measurements.begin(), found.next_measurements.end(), [](const auto& next) {
-        return next.kind == MeasurementKind::reading;
-      });
-  if (has_readings) {
-    fmt::print(stderr,
-               "A holes file holds no readings of the chain: where it reads long, diagnose again "
-               "with --accept-class.\n");
-  }
-  return kDone;
-}
-
-int run_follow_up(const PlanOptions& options) {
-  const std::string text = files::read_whole_file(options.grid);
-  if (files::looks_like_holes(text)) return run_holes_follow_up(options, text);
-  const std::string file = files::name_in_messages(options.grid);
-  files::GridOptions grid_options;
-  if (!options.machine.empty()) grid_options.machine = files::read_machine(options.machine);
-  const grid::MeasuredGrid measured = files::parse_grid(text, file, grid_options).grid;
-  const grid::diagnosis::Diagnosis found = read_diagnosis_to_follow(options.after);
-  if (!is_of(found, measured)) return made_from_others(options, file, "points");
-  std::vector<files::OutputFile> outputs;
-  if (!options.drawing.empty()) outputs.push_back({options.drawing, draw_next(found, measured)});
-  outputs.push_back(
-      {options.output,
-       is_json(text) ? follow_up_json(found, measured) : follow_up_csv(found, measured)});
-  write_outputs(outputs);
-  fmt::print(stderr, "{}", follow_up_list(found));
-  const bool has_readings = std::any_of(found.next_measurements.begin(),
-                                        found.next_measurements.end(),
-                                        [](const auto& next) { return !next.mark.has_value(); });
-  if (!is_json(text) && has_readings) {
-    fmt::print(stderr,
-               "A CSV holds no readings: make the grid a chaintrue_grid (JSON), which has a list "
-               "of them.\n");
-  }
-  return kDone;
+int run_follow_up(PlanOptions options) {
+  options.follow_up.machine = options.machine;
+  options.follow_up.output = options.output;
+  options.follow_up.drawing = options.drawing;
+  return plan_after(options.follow_up);
 }
 
 /// What was said on the command line takes the place of a plan's own usual values.
@@ -208,7 +104,7 @@ int run_check_plan(PlanOptions options) {
 }
 
 int run_plan(PlanOptions options) {
-  if (!options.after.empty()) return run_follow_up(options);
+  if (!options.follow_up.after.empty()) return run_follow_up(std::move(options));
   if (!options.check.map.empty()) return run_check_plan(std::move(options));
   const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
   print_warnings(read.warnings);
@@ -246,13 +142,21 @@ void add_plan(CLI::App& app, Run& run) {
             options->machine,
             "chaintrue_machine file; - is standard input. With --after only where the grid "
             "names none, with --check not at all");
-  auto* grid = add_input(*verb, "grid", options->grid, "With --after: the points measured so far");
+  auto* grid = add_input(*verb,
+                         "grid",
+                         options->follow_up.file,
+                         "With --after: the points, or the holes, measured so far");
+  auto* after = add_input(*verb,
+                          "--after",
+                          options->follow_up.after,
+                          "A chaintrue_diagnosis of them: what to measure next, and the lines to "
+                          "add to the file");
+  after->needs(grid);
   add_input(*verb,
-            "--after",
-            options->after,
-            "A chaintrue_diagnosis of them: what to measure next, and the lines to add to "
-            "the grid's file")
-      ->needs(grid);
+            "--with",
+            options->follow_up.with,
+            "With --after: the other files of the same diagnosis, as diagnose --with had them")
+      ->needs(after);
   const grid::PlanRequest usual;
   const grid::CheckPlanRequest usual_check;
   auto* points = add_number(*verb,
@@ -319,8 +223,9 @@ void add_plan(CLI::App& app, Run& run) {
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue plan --check map.json -o five.csv --svg five.svg");
   verb->callback([options, &run] {
-    if (options->after.empty() && !options->grid.empty()) throw CLI::RequiredError("--after");
-    if (options->after.empty() && options->check.map.empty() && options->machine.empty())
+    if (options->follow_up.after.empty() && !options->follow_up.file.empty())
+      throw CLI::RequiredError("--after");
+    if (options->follow_up.after.empty() && options->check.map.empty() && options->machine.empty())
       throw CLI::RequiredError("--machine");
     run = [options] { return run_plan(*options); };
   });

@@ -57,6 +57,7 @@ Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
   trial.points = options.recipe.points;
   const grid::MeasuredGrid grid = grid::files::parse_grid(set.grid_text, "sealed.json").grid;
   grid::diagnosis::DiagnosisOptions how;
+  how.stability = options.stability;
   how.gain = options.gain;
   how.next_measurements = options.follow_up;
   how.steps = options.steps;

@@ -17,6 +17,7 @@ namespace chaintrue::sealed {
 struct TrialOptions {
   generator::Recipe recipe;
   grid::diagnosis::Steps steps;
+  bool stability = true;   ///< naming without each reading, and no name that one reading makes
   bool gain = false;       ///< held-out errors, reported and true
   bool follow_up = false;  ///< measures what the diagnosis asks for, where it leaves a set
   int follow_up_measurements = 8;

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/outlook.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/normal.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr std::size_t kMostGroups = 6;
+constexpr double kLeastProbability = 0.01;  ///< of a group among all, and of a member in its group
+
+/// A cause by its class and its position there.
+using Member = std::pair<std::size_t, std::size_t>;
+
+Member member_of(const Analysis& a, const CauseId& cause) {
+  for (std::size_t k = 0; k < a.decision.classes.size(); ++k) {
+    const CauseClass& members = a.decision.classes[k];
+    const auto found = std::find(members.begin(), members.end(), cause);
+    if (found != members.end()) return {k, static_cast<std::size_t>(found - members.begin())};
+  }
+  return {a.decision.classes.size(), 0};
+}
+
+struct Group {
+  double probability = 0.0;
+  std::map<std::vector<Member>, Alternative> members;
+};
+
+/// By the classes of the causes, and in each group by the causes.
+std::vector<Group> groups_of(const Analysis& a) {
+  std::map<std::vector<std::size_t>, Group> groups;
+  const std::size_t together = std::max<std::size_t>(a.decision.regressors.size(), 1);
+  for (const CandidateModel& model : a.comparison.models) {
+    if (model.regressors.size() != together) continue;
+    std::vector<Member> causes;
+    for (const int k : model.regressors) causes.push_back(member_of(a, regressor(a, k).cause));
+    std::sort(causes.begin(), causes.end());
+    std::vector<std::size_t> classes;
+    for (const Member& cause : causes) classes.push_back(cause.first);
+    Group& group = groups[classes];
+    Alternative& one = group.members[causes];
+    if (one.probability == 0.0) one.regressors = model.regressors;
+    one.probability += a.comparison.probability(model);
+    group.probability += a.comparison.probability(model);
+  }
+  std::vector<Group> result;
+  for (auto& [classes, group] : groups) result.push_back(std::move(group));
+  return result;
+}
+
+std::vector<Alternative> leading(const Analysis& a) {
+  std::vector<Group> groups = groups_of(a);
+  double all = 0.0;
+  for (const Group& group : groups) all += group.probability;
+  std::erase_if(groups, [&](const Group& g) { return g.probability < kLeastProbability * all; });
+  std::stable_sort(groups.begin(), groups.end(), [](const Group& x, const Group& y) {
+    return x.probability > y.probability;
+  });
+  if (groups.size() > kMostGroups) groups.resize(kMostGroups);
+  std::vector<Alternative> result;
+  for (std::size_t number = 0; number < groups.size(); ++number) {
+    for (auto& [causes, one] : groups[number].members) {
+      if (one.probability < kLeastProbability * groups[number].probability) continue;
+      one.group = number;
+      result.push_back(std::move(one));
+    }
+  }
+  double sum = 0.0;
+  for (const Alternative& one : result) sum += one.probability;
+  for (Alternative& one : result) one.probability /= sum;
+  return result;
+}
+
+/// What an alternative expects of every candidate.
+void predict(const Analysis& a,
+             const Session& next,
+             const LinearisedSystem& system,
+             Alternative& h) {
+  const Estimate fitted = estimate_of(a, h.regressors);
+  // Holes that are not cut yet have columns of their own, after all others.
+  const Eigen::Index settings = fitted.setting_change.size();
+  const Eigen::Index to_come = system.by_setting.cols() - settings;
+  h.mean = system.by_setting.leftCols(settings) * fitted.setting_change;
+  const auto free = static_cast<Eigen::Index>(fitted.free.size());
+  Eigen::MatrixXd design(system.by_setting.rows(), settings + free);
+  design.leftCols(settings) = system.by_setting.leftCols(settings);
+  Eigen::Index column = settings;
+  for (std::size_t k = 0; k < fitted.regressors.size(); ++k) {
+    const Regressor& d = a.system.regressors[static_cast<std::size_t>(fitted.regressors[k])];
+    const auto g = signature(next, a.state, system, d.cause, d.values);
+    const Eigen::VectorXd column_of =
+        g ? *g : Eigen::VectorXd(Eigen::VectorXd::Zero(system.by_setting.rows()));
+    h.mean += column_of * fitted.coefficient(static_cast<Eigen::Index>(k));
+    if (std::find(fitted.free.begin(), fitted.free.end(), k) != fitted.free.end()) {
+      design.col(column++) = column_of;
+    }
+  }
+  const Eigen::LLT<Eigen::MatrixXd> llt(fitted.covariance);
+  h.spread.resize(design.rows(), design.cols() + to_come);
+  h.spread.leftCols(design.cols()) = design * Eigen::MatrixXd(llt.matrixL());
+  h.spread.rightCols(to_come) =
+      system.by_setting.rightCols(to_come) * system.sigma.tail(to_come).asDiagonal();
+}
+
+/// D over these rows, for two alternatives.
+double distance(const Alternative& k, const Alternative& l, const std::vector<Eigen::Index>& rows) {
+  const Eigen::VectorXd difference = k.mean(rows) - l.mean(rows);
+  const Eigen::MatrixXd of_k = k.spread(rows, Eigen::all);
+  const Eigen::MatrixXd of_l = l.spread(rows, Eigen::all);
+  Eigen::MatrixXd covariance = 0.5 * (of_k * of_k.transpose() + of_l * of_l.transpose());
+  covariance.diagonal().array() += 1.0;
+  return difference.dot(covariance.llt().solve(difference));
+}
+
+/// D between all alternatives.
+Eigen::MatrixXd distances(const std::vector<Alternative>& alternatives,
+                          const std::vector<Eigen::Index>& rows) {
+  const auto count = static_cast<Eigen::Index>(alternatives.size());
+  Eigen::MatrixXd d = Eigen::MatrixXd::Zero(count, count);
+  if (rows.empty()) return d;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    for (Eigen::Index l = 0; l < k; ++l) {
+      d(k, l) = d(l, k) = distance(alternatives[static_cast<std::size_t>(k)],
+                                   alternatives[static_cast<std::size_t>(l)],
+                                   rows);
+    }
+  }
+  return d;
+}
+
+/// First and last but one alternative of each group.
+std::vector<std::pair<Eigen::Index, Eigen::Index>> groups_in(
+    const std::vector<Alternative>& alternatives) {
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> result;
+  for (std::size_t k = 0; k < alternatives.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    if (k == 0 || alternatives[k].group != alternatives[k - 1].group) result.emplace_back(at, at);
+    result.back().second = at + 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<std::vector<Alternative>> alternatives_about(const Analysis& a, const Session& next) {
+  const auto system = linearise(next, a.state, {});
+  if (!system) return std::nullopt;
+  std::vector<Alternative> alternatives = leading(a);
+  for (Alternative& one : alternatives) predict(a, next, *system, one);
+  return alternatives;
+}
+
+Outlook outlook(const std::vector<Alternative>& alternatives,
+                const std::vector<Eigen::Index>& rows) {
+  const Eigen::MatrixXd d = distances(alternatives, rows);
+  const auto groups = groups_in(alternatives);
+  const auto p = [&](Eigen::Index k) {
+    return alternatives[static_cast<std::size_t>(k)].probability;
+  };
+  const auto sum = [](const auto& group, const auto& term) {
+    double total = 0.0;
+    for (Eigen::Index k = group.first; k < group.second; ++k) total += term(k);
+    return total;
+  };
+  const double odds = std::log(kNamedAlone / (1.0 - kNamedAlone));
+  Outlook result;
+  for (const auto& own : groups) {
+    for (const auto& other : groups) {
+      if (other.first >= own.first) break;
+      const double mean = sum(own, [&](Eigen::Index k) {
+        return sum(other, [&](Eigen::Index l) { return p(k) * p(l) * std::exp(-d(k, l) / 8.0); });
+      });
+      result.confusion += mean / std::sqrt(sum(own, p) * sum(other, p));
+    }
+    result.named_alone += sum(own, [&](Eigen::Index k) {
+      const double weight =
+          sum(own, [&](Eigen::Index j) { return p(j) * std::exp(-0.5 * d(k, j)); });
+      double named = p(k);
+      for (const auto& other : groups) {
+        if (other.first == own.first) continue;
+        const auto against = [&](Eigen::Index l) { return 0.5 * d(k, l) - std::log(p(l)); };
+        Eigen::Index l = other.first;
+        for (Eigen::Index i = l; i < other.second; ++i) l = against(i) < against(l) ? i : l;
+        const double rival =
+            sum(other, [&](Eigen::Index i) { return p(i) * std::exp(-0.5 * (d(k, i) - d(k, l))); });
+        const double ahead = 0.5 * d(k, l) + std::log(weight / rival) - odds;
+        named *= d(k, l) > 1e-9 ? 1.0 - normal_upper(ahead / std::sqrt(d(k, l)))
+                                : (ahead > 0.0 ? 1.0 : 0.0);
+      }
+      return named;
+    });
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

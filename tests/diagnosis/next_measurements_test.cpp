@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What to measure next: what is foretold is what the readings would bring.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/next_candidates.hpp"
+#include "grid/diagnosis/next_measurements.hpp"
+#include "grid/diagnosis/outlook.hpp"
+#include "grid/synthetic/random.hpp"
+#include "tests/diagnosis/sessions.hpp"
+#include "tests/holes/hole_sets.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using Rows = std::vector<Eigen::Index>;
+
+Analysis analysis_of(const Measured& measured) {
+  return analyse(make_session(measured).value(), testing_support::verdict_alone()).value();
+}
+
+MeasuredHoles holes_with(const model::AppliedEffect& hidden, std::uint64_t seed) {
+  synthetic::HolesSpec spec;
+  spec.draw_settings = true;
+  spec.seed = seed;
+  spec.hidden = {hidden};
+  return synthetic::simulate_holes(chaintrue::testing_support::nine_holes(), spec)->set;
+}
+
+/// What no alternative moves, and no setting.
+bool is_silent(const std::vector<Alternative>& alternatives, const Rows& rows) {
+  return std::all_of(alternatives.begin(), alternatives.end(), [&](const Alternative& one) {
+    return one.mean(rows).isZero(0.0) && one.spread(rows, Eigen::all).isZero(0.0);
+  });
+}
+
+// A chain's weight, a beam that gives or a chain that gives: no link and no tape has a part in it.
+TEST(NextMeasurements, AReadingThatNoContestedCauseTouchesChangesNothing) {
+  int sets = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    const Analysis a = analysis_of(holes_with({"chain_sag", "", {{"relative_weight", 0.2}}}, seed));
+    if (a.decision.verdict != Verdict::named_set) continue;
+    const NextCandidates next = next_candidates(a);
+    const auto alternatives = alternatives_about(a, next.session);
+    ASSERT_TRUE(alternatives);
+    std::set<std::string> silent;
+    for (const Candidate& candidate : next.all) {
+      if (!is_silent(*alternatives, candidate.rows)) continue;
+      silent.insert(candidate.measurement.what);
+      Rows with_it = next.all.front().rows;
+      const Outlook without = outlook(*alternatives, with_it);
+      with_it.insert(with_it.end(), candidate.rows.begin(), candidate.rows.end());
+      const Outlook with = outlook(*alternatives, with_it);
+      // A row of zeros more: the same sums in other blocks.
+      EXPECT_NEAR(with.confusion, without.confusion, 1e-12) << candidate.measurement.what;
+      EXPECT_NEAR(with.named_alone, without.named_alone, 1e-12) << candidate.measurement.what;
+    }
+    for (const NextMeasurement& proposed : next_measurements(a)) {
+      EXPECT_EQ(silent.count(proposed.what), 0u) << proposed.what;
+    }
+    if (silent.count("tape_error_mm_per_m") > 0) ++sets;
+  }
+  EXPECT_GT(sets, 0) << "no session asks the question";
+}
+
+/// Posterior probability of each group from readings at `rows`, by the whole densities.
+std::vector<double> posterior(const std::vector<Alternative>& alternatives,
+                              const Rows& rows,
+                              const Eigen::VectorXd& read) {
+  std::vector<double> logs;
+  for (const Alternative& one : alternatives) {
+    const Eigen::MatrixXd spread = one.spread(rows, Eigen::all);
+    Eigen::MatrixXd covariance = spread * spread.transpose();
+    covariance.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
+    const Eigen::VectorXd off = read - one.mean(rows);
+    double log = std::log(one.probability) - 0.5 * off.dot(llt.solve(off));
+    for (Eigen::Index i = 0; i < off.size(); ++i) log -= std::log(llt.matrixLLT()(i, i));
+    logs.push_back(log);
+  }
+  const double highest = *std::max_element(logs.begin(), logs.end());
+  std::vector<double> groups(alternatives.back().group + 1, 0.0);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    const double weight = std::exp(logs[k] - highest);
+    groups[alternatives[k].group] += weight;
+    sum += weight;
+  }
+  for (double& group : groups) group /= sum;
+  return groups;
+}
+
+/// How often the right group is then named alone, by drawing the readings.
+double drawn_named_alone(const std::vector<Alternative>& alternatives,
+                         const Rows& rows,
+                         std::uint64_t seed) {
+  synthetic::Random random(seed, 1);
+  constexpr int kDraws = 2000;
+  double named = 0.0;
+  for (const Alternative& truth : alternatives) {
+    const Eigen::MatrixXd spread = truth.spread(rows, Eigen::all);
+    int right = 0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      Eigen::VectorXd read = truth.mean(rows);
+      for (Eigen::Index i = 0; i < read.size(); ++i) read(i) += random.normal();
+      for (Eigen::Index j = 0; j < spread.cols(); ++j) read += spread.col(j) * random.normal();
+      right += posterior(alternatives, rows, read)[truth.group] >= kNamedAlone ? 1 : 0;
+    }
+    named += truth.probability * right / kDraws;
+  }
+  return named;
+}
+
+// Both chains long or the tape long is one class to distances. A reading of the one says nothing of
+// the other, whichever of them fits a little better.
+TEST(NextMeasurements, OfAClassEachCauseIsForetoldByItself) {
+  int sets = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    const Analysis a = analysis_of(holes_with({"tape_scale", "both", {{"scale", 0.0007}}}, seed));
+    if (a.decision.verdict != Verdict::named_set) continue;
+    ++sets;
+    const NextCandidates next = next_candidates(a);
+    const auto alternatives = alternatives_about(a, next.session);
+    ASSERT_TRUE(alternatives);
+    Rows all;
+    for (const Candidate& candidate : next.all) {
+      const std::string& what = candidate.measurement.what;
+      if (what != "tape_error_mm_per_m" && what != "link_pitch_mm") continue;
+      all.push_back(candidate.rows.front());
+      // Foretold with Gaussian log odds and rivals by themselves; 2000 draws are good to 0.01.
+      EXPECT_NEAR(outlook(*alternatives, candidate.rows).named_alone,
+                  drawn_named_alone(*alternatives, candidate.rows, seed),
+                  0.1)
+          << what;
+    }
+    ASSERT_EQ(all.size(), 4u);
+    EXPECT_NEAR(outlook(*alternatives, all).named_alone,
+                drawn_named_alone(*alternatives, all, seed),
+                0.1);  // as above
+  }
+  EXPECT_GT(sets, 0) << "no session asks the question";
+}
+
+/// What was measured, and a candidate as an alternative expects it to be read.
+class WithCandidate {
+ public:
+  WithCandidate(const Measured& measured, const Analysis& a, const NextCandidates& next)
+      : measured_(measured), next_(next), system_(linearise(next.session, a.state, {}).value()) {
+    for (const SessionPart& part : next.session.parts) {
+      const Eigen::VectorXd own = part.observation->predicted(a.state.view(part)).value();
+      predicted_.conservativeResize(part.first_row + own.size());
+      predicted_.tail(own.size()) = own;
+    }
+  }
+
+  [[nodiscard]] Measured read(const Candidate& candidate, const Alternative& truth) const {
+    const NextMeasurement& what = candidate.measurement;
+    const Eigen::VectorXd read = readings(candidate.rows, truth);
+    Measured more = measured_;
+    if (what.kind == MeasurementKind::reading) {
+      more.grids.front().readings.push_back({what.what, what.side, read(0), what.sigma});
+    } else if (what.kind == MeasurementKind::distance) {
+      add_distances(what, read, more.holes.front());
+    } else {
+      std::vector<MeasuredPoint>& points = more.grids.front().points;
+      const auto visit = static_cast<int>(points.size());
+      points.push_back({*what.mark, model::ChainLengths{read(0), read(1)}, std::nullopt, visit});
+    }
+    return more;
+  }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd readings(const Rows& rows, const Alternative& truth) const {
+    const int number = system_.unit_of_row[static_cast<std::size_t>(rows.front())];
+    if (number < 0) {
+      const double sigma = system_.reading_sigma(rows.front() - system_.observed_rows());
+      return predicted_(rows) + sigma * truth.mean(rows);
+    }
+    Eigen::VectorXd off(static_cast<Eigen::Index>(rows.size()));
+    for (Eigen::Index i = 0; i < off.size();) {
+      const int unit =
+          system_.unit_of_row[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])];
+      const SystemUnit& own = system_.units[static_cast<std::size_t>(unit)];
+      off.segment(i, own.rows) = own.unwhitened(truth.mean).head(own.rows);
+      i += own.rows;
+    }
+    return predicted_(rows) + off;
+  }
+
+  static std::size_t hole_of(const MeasuredHoles& set, const std::string& name) {
+    const auto found = std::find_if(
+        set.holes.begin(), set.holes.end(), [&](const Hole& hole) { return hole.name == name; });
+    return static_cast<std::size_t>(found - set.holes.begin());
+  }
+
+  static void add_distances(const NextMeasurement& what,
+                            const Eigen::VectorXd& read,
+                            MeasuredHoles& set) {
+    if (what.mark) set.holes.push_back({"new", *what.mark});
+    const std::size_t from = hole_of(set, what.mark ? "new" : what.from);
+    for (std::size_t k = 0; k < what.to.size(); ++k) {
+      HoleDistance distance{.from = from, .to = hole_of(set, what.to[k])};
+      distance.distance_mm = read(static_cast<Eigen::Index>(k));
+      set.distances.push_back(distance);
+    }
+  }
+
+  const Measured& measured_;
+  const NextCandidates& next_;
+  LinearisedSystem system_;
+  Eigen::VectorXd predicted_;
+};
+
+/// What an analysis leaves of the confusion between groups of single causes that `alternatives` of
+/// another analysis names: the sum over pairs of the roots of their probabilities.
+double confusion_left(const Measured& measured,
+                      const Analysis& before,
+                      const std::vector<Alternative>& alternatives) {
+  const Analysis a = analysis_of(measured);
+  std::vector<double> groups(alternatives.back().group + 1, 0.0);
+  double sum = 0.0;
+  for (const CandidateModel& model : a.comparison.models) {
+    if (model.regressors.size() != 1) continue;
+    const CauseId& cause = regressor(a, model.regressors.front()).cause;
+    for (const Alternative& one : alternatives) {
+      if (!(regressor(before, one.regressors.front()).cause == cause)) continue;
+      groups[one.group] += a.comparison.probability(model);
+      sum += a.comparison.probability(model);
+    }
+  }
+  double confusion = 0.0;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    for (std::size_t l = 0; l < k; ++l) confusion += std::sqrt(groups[k] * groups[l]) / sum;
+  }
+  return confusion;
+}
+
+Measured mixed(const model::AppliedEffect& hidden, std::uint64_t seed) {
+  Measured measured(testing_support::session_of({hidden}, seed, 5, 3));
+  synthetic::HolesSpec spec;
+  spec.seed = seed + 1000;
+  spec.hidden = {hidden};
+  measured.add(synthetic::simulate_holes(chaintrue::testing_support::nine_holes(), spec)->set);
+  return measured;
+}
+
+/// Of each kind the candidate that is foretold to tell most, and the one that tells least; the best
+/// of all first.
+std::vector<std::size_t> ends_of_kinds(const NextCandidates& next,
+                                       const std::vector<Alternative>& alternatives) {
+  std::map<MeasurementKind, std::map<double, std::size_t>> by_kind;
+  for (std::size_t c = 0; c < next.all.size(); ++c) {
+    by_kind[next.all[c].measurement.kind].emplace(outlook(alternatives, next.all[c].rows).confusion,
+                                                  c);
+  }
+  std::map<double, std::size_t> ends;
+  for (const auto& [kind, candidates] : by_kind) {
+    ends.insert(*candidates.begin());
+    ends.insert(*candidates.rbegin());
+  }
+  std::vector<std::size_t> result;
+  for (const auto& [confusion, c] : ends) result.push_back(c);
+  return result;
+}
+
+// Of points and distances together the first of the list lowers the confusion more than the best of
+// any other kind, when what each alternative would have it read is added to the files and
+// everything is estimated anew.
+TEST(NextMeasurements, OfAMixTheChosenOneLowersTheConfusionMost) {
+  int sets = 0;
+  for (std::uint64_t seed = 2; seed <= 3; ++seed) {
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    const Measured measured = mixed({"beam_flex", "", {{"flexibility_mm_per_n", 0.005}}}, seed);
+    const Analysis a = analysis_of(measured);
+    if (a.decision.verdict != Verdict::named_set || a.decision.regressors.size() != 1) continue;
+    const NextCandidates next = next_candidates(a);
+    const auto alternatives = alternatives_about(a, next.session);
+    ASSERT_TRUE(alternatives);
+    const WithCandidate with(measured, a, next);
+    const std::vector<std::size_t> tried = ends_of_kinds(next, *alternatives);
+    const NextMeasurement chosen = next_measurements(a).front();
+    ASSERT_EQ(chosen.what, next.all[tried.front()].measurement.what);
+    std::vector<double> left;
+    for (const std::size_t c : tried) {
+      left.push_back(0.0);
+      for (const Alternative& truth : *alternatives) {
+        left.back() +=
+            truth.probability * confusion_left(with.read(next.all[c], truth), a, *alternatives);
+      }
+      // Each reading as expected stands for the mean over all that it could be.
+      const double foretold = outlook(*alternatives, next.all[c].rows).confusion;
+      EXPECT_NEAR(left.back(), foretold, 0.2 * foretold) << next.all[c].measurement.what;
+    }
+    // The same, where two are as good.
+    EXPECT_LE(left.front(), 1.02 * *std::min_element(left.begin(), left.end())) << chosen.what;
+    ++sets;
+  }
+  EXPECT_GT(sets, 0) << "no session asks the question";
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis

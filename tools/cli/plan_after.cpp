@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/plan_after.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "grid/files/diagnosis_file.hpp"
+#include "grid/files/grid_file.hpp"
+#include "grid/files/holes_file.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/follow_up.hpp"
+#include "tools/cli/follow_up_holes.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::MeasurementKind;
+
+/// A file as it was given, and which of the grids or of the sets of holes it is.
+struct Source {
+  std::string name;
+  bool json = false;
+  bool of_holes = false;
+  std::size_t position = 0;
+};
+
+struct Sources {
+  std::vector<Source> all;
+  std::vector<grid::MeasuredGrid> grids;
+  std::vector<grid::MeasuredHoles> sets;
+};
+
+bool is_json(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return begin != std::string::npos && text[begin] == '{';
+}
+
+/// `few`: beside other files a reading or two are enough.
+void read(const std::string& path,
+          const std::optional<model::Machine>& machine,
+          bool few,
+          Sources& sources) {
+  const std::string text = files::read_whole_file(path);
+  const std::string name = files::name_in_messages(path);
+  const bool of_holes = files::looks_like_holes(text);
+  sources.all.push_back(
+      {name, is_json(text), of_holes, of_holes ? sources.sets.size() : sources.grids.size()});
+  if (of_holes) {
+    files::HolesOptions options;
+    options.machine = machine;
+    if (few) options.fewest_distances = 1;
+    sources.sets.push_back(files::parse_holes(text, name, options).holes);
+  } else {
+    files::GridOptions options;
+    options.machine = machine;
+    if (few) options.fewest_points = 1;
+    sources.grids.push_back(files::parse_grid(text, name, options).grid);
+  }
+}
+
+Sources read_sources(const PlanAfterOptions& options) {
+  std::optional<model::Machine> machine;
+  if (!options.machine.empty()) machine = files::read_machine(options.machine);
+  Sources sources;
+  read(options.file, machine, false, sources);
+  for (const std::string& path : options.with) read(path, machine, true, sources);
+  return sources;
+}
+
+/// The diagnosis is of the points of these grids. A CSV may round them.
+bool is_of(const Diagnosis& found, const std::vector<grid::MeasuredGrid>& grids) {
+  constexpr double kSamePlaceMm = 1e-3;
+  std::vector<model::BedPoint> marks;
+  for (const grid::MeasuredGrid& measured : grids) {
+    for (const grid::MeasuredPoint& point : measured.points) marks.push_back(point.mark);
+  }
+  return std::equal(found.points.begin(),
+                    found.points.end(),
+                    marks.begin(),
+                    marks.end(),
+                    [&](const auto& pictured, const model::BedPoint& mark) {
+                      return std::abs(pictured.mark.x_mm - mark.x_mm) < kSamePlaceMm &&
+                             std::abs(pictured.mark.y_mm - mark.y_mm) < kSamePlaceMm;
+                    });
+}
+
+/// Empty where the diagnosis is of these files and of nothing else.
+std::string made_from_others(const PlanAfterOptions& options,
+                             const Diagnosis& found,
+                             const Sources& sources) {
+  const auto sentence = [&](std::string_view what) {
+    std::vector<std::string> names;
+    for (const Source& source : sources.all) names.push_back(source.name);
+    return fmt::format("{} was made from other {} than those of {}: diagnose these first.\n",
+                       options.after,
+                       what,
+                       fmt::join(names, " and "));
+  };
+  const bool points = is_of(found, sources.grids);
+  const bool distances = is_of_these(found, sources.sets);
+  if (points && distances) return {};
+  if ((points && sources.sets.empty()) || (distances && sources.grids.empty())) {
+    return fmt::format(
+        "{} was made from points and distances together: name its other files with --with.\n",
+        options.after);
+  }
+  return sentence(points || sources.grids.empty() ? "holes" : "points");
+}
+
+/// What goes into one of the files; readings of the machine into the first that holds any.
+std::string lines_for(const Source& source,
+                      const Diagnosis& found,
+                      const Sources& sources,
+                      bool takes_readings) {
+  std::string text;
+  if (source.of_holes) {
+    text = source.json ? distances_json(found, sources.sets, source.position)
+                       : distances_csv(found, sources.sets, source.position);
+  } else if (source.position == 0) {  // another point is set out on the first sheet
+    const grid::MeasuredGrid& measured = sources.grids.front();
+    text = source.json ? points_json(found, measured) : points_csv(found, measured);
+  }
+  return takes_readings ? text + readings_json(found) : text;
+}
+
+std::string lines_of(const Diagnosis& found, const Sources& sources) {
+  const auto holds_readings = [](const Source& source) { return source.json; };
+  const auto first = std::find_if(sources.all.begin(), sources.all.end(), holds_readings);
+  std::string text;
+  for (auto source = sources.all.begin(); source != sources.all.end(); ++source) {
+    const std::string lines = lines_for(*source, found, sources, source == first);
+    if (sources.all.size() > 1 && !lines.empty()) text += "# " + source->name + "\n";
+    text += lines;
+  }
+  return text;
+}
+
+std::string drawing_of(const Diagnosis& found, const Sources& sources) {
+  FollowUpDrawing drawing;
+  for (const grid::MeasuredGrid& measured : sources.grids) {
+    for (const auto& point : measured.points) drawing.measured.push_back(point.mark);
+  }
+  for (const grid::MeasuredHoles& set : sources.sets) {
+    for (const grid::Hole& hole : set.holes) drawing.measured.push_back(hole.commanded);
+  }
+  for (const FollowUpPlace& place : follow_up_places(found))
+    drawing.next.push_back({place.numbers, place.mark});
+  return draw_follow_up(drawing, found.extended_machine.bed);
+}
+
+}  // namespace
+
+int plan_after(const PlanAfterOptions& options) {
+  const Sources sources = read_sources(options);
+  const Diagnosis found = files::read_diagnosis(options.after);
+  const std::string others = made_from_others(options, found, sources);
+  if (!others.empty()) {
+    fmt::print(stderr, "{}", others);
+    return kBadInput;
+  }
+  std::vector<files::OutputFile> outputs;
+  if (!options.drawing.empty()) outputs.push_back({options.drawing, drawing_of(found, sources)});
+  outputs.push_back({options.output, lines_of(found, sources)});
+  write_outputs(outputs);
+  fmt::print(stderr, "{}", follow_up_list(found));
+  const bool none_holds_readings = std::none_of(
+      sources.all.begin(), sources.all.end(), [](const Source& source) { return source.json; });
+  if (none_holds_readings && proposes(found, MeasurementKind::reading)) {
+    fmt::print(stderr,
+               "A CSV holds no readings: make the {} (JSON), which has a list of them.\n",
+               sources.grids.empty() ? "holes a chaintrue_holes" : "grid a chaintrue_grid");
+  }
+  return kDone;
+}
+
+}  // namespace chaintrue::cli
