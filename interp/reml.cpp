@@ -395,6 +395,25 @@ tl::expected<double, FitRefusal> minus_two_log_reml(const PenalisedProblem& prob
   return rank_deficient();
 }
 
+namespace {
+
+// The Cholesky factor of I - H_gg.
+tl::expected<Eigen::LLT<Eigen::MatrixXd>, FitRefusal> without_group(
+    const Eigen::Ref<const Eigen::MatrixXd>& spread, double sigma2) {
+  const Eigen::Index m = spread.rows();
+  Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(m, m) - spread / sigma2);
+  // The rounding of covariance * gram leaves about 1e-12 of one.
+  constexpr double kSmallestPivot = 1e-9;
+  if (factor.info() != Eigen::Success ||
+      factor.matrixLLT().diagonal().array().square().minCoeff() < kSmallestPivot) {
+    return tl::unexpected(FitRefusal{FitFailure::kRankDeficient,
+                                     "the other points do not determine the fit without these"});
+  }
+  return factor;
+}
+
+}  // namespace
+
 tl::expected<HeldOut, FitRefusal> PenalisedFit::held_out(
     const Eigen::Ref<const Eigen::MatrixXd>& design,
     const Eigen::Ref<const Eigen::VectorXd>& response) const {
@@ -405,21 +424,30 @@ tl::expected<HeldOut, FitRefusal> PenalisedFit::held_out(
                                             response.size(),
                                             coefficients.size()));
   }
-  const Eigen::Index m = design.rows();
-  const Eigen::MatrixXd spread =
-      Eigen::MatrixXd::Identity(m, m) - design * covariance * design.transpose() / sigma2;
-  const Eigen::LLT<Eigen::MatrixXd> factor(spread);
-  // The rounding of covariance * gram leaves about 1e-12 of one.
-  constexpr double kSmallestPivot = 1e-9;
-  if (factor.info() != Eigen::Success ||
-      factor.matrixLLT().diagonal().array().square().minCoeff() < kSmallestPivot) {
-    return tl::unexpected(FitRefusal{FitFailure::kRankDeficient,
-                                     "the other points do not determine the fit without these"});
+  const auto factor = without_group(design * covariance * design.transpose(), sigma2);
+  if (!factor) {
+    return tl::unexpected(factor.error());
   }
   HeldOut result;
-  result.residual = factor.solve(response - design * coefficients);
-  result.covariance = sigma2 * factor.solve(Eigen::MatrixXd::Identity(m, m));
+  result.residual = factor->solve(response - design * coefficients);
+  result.covariance =
+      sigma2 * factor->solve(Eigen::MatrixXd::Identity(design.rows(), design.rows()));
   return result;
+}
+
+tl::expected<Eigen::VectorXd, FitRefusal> held_out_residual(
+    const Eigen::Ref<const Eigen::VectorXd>& residual,
+    const Eigen::Ref<const Eigen::MatrixXd>& spread,
+    double sigma2) {
+  if (spread.rows() != residual.size() || spread.cols() != residual.size()) {
+    throw std::invalid_argument(fmt::format("{} held-out residuals with a spread of {} x {}",
+                                            residual.size(),
+                                            spread.rows(),
+                                            spread.cols()));
+  }
+  return without_group(spread, sigma2).map([&](const Eigen::LLT<Eigen::MatrixXd>& factor) {
+    return Eigen::VectorXd(factor.solve(residual));
+  });
 }
 
 }  // namespace chaintrue::interp

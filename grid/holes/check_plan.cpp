@@ -42,7 +42,8 @@ std::vector<BedPoint> places_of(const CompensationMap& map, double margin_mm) {
 
 class Separation {
  public:
-  explicit Separation(const CheckReadings& readings) : readings_(readings) {}
+  explicit Separation(const CheckReadings& readings)
+      : readings_(readings), covariance_(readings.covariance.dense()) {}
 
   /// (1), both chains.
   [[nodiscard]] model::PerSide<double> told2(const std::vector<std::size_t>& points) const {
@@ -52,7 +53,7 @@ class Separation {
       rows.push_back(rows.back() + 1);
     }
     const auto count = static_cast<Eigen::Index>(rows.size());
-    Eigen::MatrixXd k = readings_.covariance(rows, rows);
+    Eigen::MatrixXd k = covariance_(rows, rows);
     for (Eigen::Index i = 0; i < count; ++i) {
       for (Eigen::Index j = i % 2; j < count; j += 2)
         k(i, j) += kZeroShiftSigmaMm * kZeroShiftSigmaMm;
@@ -71,6 +72,7 @@ class Separation {
 
  private:
   const CheckReadings& readings_;
+  Eigen::MatrixXd covariance_;
 };
 
 /// Exchanges points as long as one helps, from as many evenly taken ones.
