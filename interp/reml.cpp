@@ -450,4 +450,24 @@ tl::expected<Eigen::VectorXd, FitRefusal> held_out_residual(
   });
 }
 
+tl::expected<Eigen::VectorXd, FitRefusal> held_out_residual_by_root(
+    const Eigen::Ref<const Eigen::VectorXd>& residual,
+    const Eigen::Ref<const Eigen::MatrixXd>& root,
+    double sigma2) {
+  if (root.rows() != residual.size()) {
+    throw std::invalid_argument(
+        fmt::format("{} held-out residuals with a root of {} rows", residual.size(), root.rows()));
+  }
+  if (root.rows() <= root.cols()) {
+    return held_out_residual(residual, root * root.transpose(), sigma2);
+  }
+  // (I - W W' / s2)^-1 = I + W (s2 I - W' W)^-1 W', and both are positive where one is.
+  Eigen::MatrixXd inner = Eigen::MatrixXd::Zero(root.cols(), root.cols());
+  inner.selfadjointView<Eigen::Lower>().rankUpdate(root.transpose());
+  inner.triangularView<Eigen::StrictlyUpper>() = inner.transpose();
+  return without_group(inner, sigma2).map([&](const Eigen::LLT<Eigen::MatrixXd>& factor) {
+    return Eigen::VectorXd(residual + root * factor.solve(root.transpose() * residual) / sigma2);
+  });
+}
+
 }  // namespace chaintrue::interp

@@ -2,9 +2,9 @@
 #include "grid/estimation/left_out.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
+#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <utility>
+#include <stdexcept>
 
 namespace chaintrue::grid::estimation {
 namespace {
@@ -36,29 +36,25 @@ Eigen::VectorXd LeftOut::response_of(std::size_t unit) const {
 }
 
 void LeftOut::prepare_all() {
-  // Rows enough for a fast product, few enough for the processor's cache.
-  constexpr std::size_t kUnits = 128;
-  const std::vector<SystemUnit>& units = problem_.units();
-  spreads_.clear();
-  spreads_.reserve(units.size());
-  for (std::size_t first = 0; first < units.size(); first += kUnits) {
-    const std::size_t end = std::min(first + kUnits, units.size());
-    const Eigen::Index first_row = units[first].first_row;
-    const Eigen::Index rows = units[end - 1].first_row + units[end - 1].rows - first_row;
-    const auto design = problem_.design().middleRows(first_row, rows);
-    const Eigen::MatrixXd spread = design * fit_.covariance;
-    for (std::size_t u = first; u < end; ++u) {
-      const Eigen::Index row = units[u].first_row - first_row;
-      spreads_.emplace_back(spread.middleRows(row, units[u].rows)
-                                .lazyProduct(design.middleRows(row, units[u].rows).transpose()));
-    }
+  const Eigen::LLT<Eigen::MatrixXd> factor(fit_.covariance);
+  if (factor.info() == Eigen::Success) {
+    by_root_ = problem_.design() * factor.matrixL();
+    return;
   }
+  // Positive but for rounding.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(fit_.covariance);
+  by_root_ = problem_.design() * parts.eigenvectors() *
+             parts.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 Eigen::MatrixXd LeftOut::spread_of(std::size_t unit) const {
-  if (!spreads_.empty()) return spreads_[unit];
-  const Eigen::MatrixXd design = rows_of(unit);
-  return design * fit_.covariance * design.transpose();
+  if (by_root_.size() == 0) {
+    const Eigen::MatrixXd design = rows_of(unit);
+    return design * fit_.covariance * design.transpose();
+  }
+  const SystemUnit& own = problem_.units()[unit];
+  const auto root = by_root_.middleRows(own.first_row, own.rows);
+  return root.lazyProduct(root.transpose());
 }
 
 Eigen::VectorXd LeftOut::residual_of(std::size_t unit) const {
@@ -74,6 +70,7 @@ Eigen::VectorXd LeftOut::residual(std::size_t unit) const {
 }
 
 std::vector<Eigen::VectorXd> LeftOut::residuals(const UnitGroup& group) const {
+  if (by_root_.size() == 0) throw std::logic_error("groups left out before all was prepared");
   std::vector<Eigen::Index> rows;
   std::vector<double> roots;
   for (const std::size_t unit : group) {
@@ -92,12 +89,14 @@ std::vector<Eigen::VectorXd> LeftOut::residuals(const UnitGroup& group) const {
   }
   const auto count = static_cast<Eigen::Index>(rows.size());
   const Eigen::Map<const Eigen::VectorXd> root(roots.data(), count);
-  const Eigen::MatrixXd design = root.asDiagonal() * problem_.design()(rows, Eigen::all);
-  const Eigen::VectorXd residual =
-      root.cwiseProduct(problem_.response()(rows)) - design * fit_.coefficients;
-  const Eigen::MatrixXd by_unknown = design * fit_.covariance;
-  const auto held =
-      interp::held_out_residual(residual, by_unknown * design.transpose(), fit_.sigma2);
+  Eigen::VectorXd residual(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+    residual[i] =
+        root[i] * (problem_.response()[row] - problem_.design().row(row).dot(fit_.coefficients));
+  }
+  const auto held = interp::held_out_residual_by_root(
+      residual, root.asDiagonal() * by_root_(rows, Eigen::all), fit_.sigma2);
   Eigen::Index at = 0;
   for (const std::size_t unit : group) {
     const double weight = weights_[static_cast<Eigen::Index>(unit)];

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "grid/holes/check_readings.hpp"
+#include "grid/precondition.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -115,12 +116,11 @@ void check(const CompensationMap& map, const CheckPlanRequest& request) {
       machine == nullptr ||
       2.0 * request.margin_mm < std::min(machine->bed.width_mm, machine->bed.height_mm);
   if (sound && fits) return;
-  throw std::invalid_argument(
-      fmt::format("a check of {} points, {} mm from the edges, with noise of {} and {} mm",
-                  request.points,
-                  request.margin_mm,
-                  request.length_mm,
-                  request.position_mm));
+  throw precondition("a check of {} points, {} mm from the edges, with noise of {} and {} mm",
+                     request.points,
+                     request.margin_mm,
+                     request.length_mm,
+                     request.position_mm);
 }
 
 /// Readings that are what the map says.

@@ -29,8 +29,8 @@ struct CheckReadings {
 };
 
 /// A file of more would take more than some ten seconds, docs/reliability.md.
-inline constexpr std::size_t kMostCheckedPoints = 5000;
-inline constexpr std::size_t kMostCheckedDistances = 5000;
+inline constexpr std::size_t kMostCheckedPoints = 20000;
+inline constexpr std::size_t kMostCheckedDistances = 20000;
 inline constexpr std::size_t kMostCheckedHoles = 500;
 
 /// Of all files together: what the map does not know of itself they share. Readings at one and the

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/precondition.hpp"
+
 namespace chaintrue::grid {
 namespace {
 
@@ -16,10 +18,9 @@ namespace {
 Eigen::MatrixXd whitening_of_unit(const Eigen::MatrixXd& own) {
   const Eigen::LLT<Eigen::MatrixXd> factor(own);
   if (factor.info() != Eigen::Success || !(own.diagonal().minCoeff() > 0.0)) {
-    throw std::invalid_argument(
-        fmt::format("{} readings of one unit whose least variance is {:g} mm^2",
-                    own.rows(),
-                    own.size() > 0 ? own.diagonal().minCoeff() : 0.0));
+    throw precondition("{} readings of one unit whose least variance is {:g} mm^2",
+                       own.rows(),
+                       own.size() > 0 ? own.diagonal().minCoeff() : 0.0);
   }
   return factor.matrixL().solve(Eigen::MatrixXd::Identity(own.rows(), own.cols()));
 }
@@ -70,11 +71,10 @@ FactoredCovariance::FactoredCovariance(const ReadingCovariance& covariance) {
     rows += white.rows();
   }
   if (rows != covariance.rows() || rows != covariance.shared.rows()) {
-    throw std::invalid_argument(
-        fmt::format("readings of {} rows in units, {} of shared errors, {} of the map",
-                    rows,
-                    covariance.shared.rows(),
-                    covariance.rows()));
+    throw precondition("readings of {} rows in units, {} of shared errors, {} of the map",
+                       rows,
+                       covariance.shared.rows(),
+                       covariance.rows());
   }
   white_.resize(rows, rows);
   white_.setFromTriplets(entries.begin(), entries.end());
