@@ -147,6 +147,25 @@ tl::expected<double, FitFailure> minus_two_log_reml(const PenalisedProblem& prob
   return rank_deficient();
 }
 
+namespace {
+
+// The Cholesky factor of I - H_gg.
+tl::expected<Eigen::LLT<Eigen::MatrixXd>, FitFailure> without_group(
+    const Eigen::Ref<const Eigen::MatrixXd>& spread, double sigma2) {
+  const Eigen::Index m = spread.rows();
+  Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(m, m) - spread / sigma2);
+  // The rounding of covariance * gram leaves about 1e-12 of one.
+  constexpr double kSmallestPivot = 1e-9;
+  if (factor.info() != Eigen::Success ||
+      factor.matrixLLT().diagonal().array().square().minCoeff() < kSmallestPivot) {
+    return tl::unexpected(FitFailure{FitFailure::Reason::rank_deficient,
+                                     "the other points do not determine the fit without these"});
+  }
+  return factor;
+}
+
+}  // namespace
+
 tl::expected<HeldOut, FitFailure> PenalisedFit::held_out(
     const Eigen::Ref<const Eigen::MatrixXd>& design,
     const Eigen::Ref<const Eigen::VectorXd>& response) const {
@@ -157,21 +176,50 @@ tl::expected<HeldOut, FitFailure> PenalisedFit::held_out(
                                             response.size(),
                                             coefficients.size()));
   }
-  const Eigen::Index m = design.rows();
-  const Eigen::MatrixXd spread =
-      Eigen::MatrixXd::Identity(m, m) - design * covariance * design.transpose() / sigma2;
-  const Eigen::LLT<Eigen::MatrixXd> factor(spread);
-  // The rounding of covariance * gram leaves about 1e-12 of one.
-  constexpr double kSmallestPivot = 1e-9;
-  if (factor.info() != Eigen::Success ||
-      factor.matrixLLT().diagonal().array().square().minCoeff() < kSmallestPivot) {
-    return tl::unexpected(FitFailure{FitFailure::Reason::rank_deficient,
-                                     "the other points do not determine the fit without these"});
+  const auto factor = without_group(design * covariance * design.transpose(), sigma2);
+  if (!factor) {
+    return tl::unexpected(factor.error());
   }
   HeldOut result;
-  result.residual = factor.solve(response - design * coefficients);
-  result.covariance = sigma2 * factor.solve(Eigen::MatrixXd::Identity(m, m));
+  result.residual = factor->solve(response - design * coefficients);
+  result.covariance =
+      sigma2 * factor->solve(Eigen::MatrixXd::Identity(design.rows(), design.rows()));
   return result;
+}
+
+tl::expected<Eigen::VectorXd, FitFailure> held_out_residual(
+    const Eigen::Ref<const Eigen::VectorXd>& residual,
+    const Eigen::Ref<const Eigen::MatrixXd>& spread,
+    double sigma2) {
+  if (spread.rows() != residual.size() || spread.cols() != residual.size()) {
+    throw std::invalid_argument(fmt::format("{} held-out residuals with a spread of {} x {}",
+                                            residual.size(),
+                                            spread.rows(),
+                                            spread.cols()));
+  }
+  return without_group(spread, sigma2).map([&](const Eigen::LLT<Eigen::MatrixXd>& factor) {
+    return Eigen::VectorXd(factor.solve(residual));
+  });
+}
+
+tl::expected<Eigen::VectorXd, FitFailure> held_out_residual_by_root(
+    const Eigen::Ref<const Eigen::VectorXd>& residual,
+    const Eigen::Ref<const Eigen::MatrixXd>& root,
+    double sigma2) {
+  if (root.rows() != residual.size()) {
+    throw std::invalid_argument(
+        fmt::format("{} held-out residuals with a root of {} rows", residual.size(), root.rows()));
+  }
+  if (root.rows() <= root.cols()) {
+    return held_out_residual(residual, root * root.transpose(), sigma2);
+  }
+  // (I - W W' / s2)^-1 = I + W (s2 I - W' W)^-1 W', and both are positive where one is.
+  Eigen::MatrixXd inner = Eigen::MatrixXd::Zero(root.cols(), root.cols());
+  inner.selfadjointView<Eigen::Lower>().rankUpdate(root.transpose());
+  inner.triangularView<Eigen::StrictlyUpper>() = inner.transpose();
+  return without_group(inner, sigma2).map([&](const Eigen::LLT<Eigen::MatrixXd>& factor) {
+    return Eigen::VectorXd(residual + root * factor.solve(root.transpose() * residual) / sigma2);
+  });
 }
 
 }  // namespace chaintrue::interp

@@ -146,6 +146,20 @@ struct PenalisedFit {
       const Eigen::Ref<const Eigen::VectorXd>& response) const;
 };
 
+/// The residual alone, from the group's residuals y_g - X_g b (m of them) and their spread X_g A^-1
+/// X_g' (m x m): who leaves out many groups finds many spreads in one product.
+[[nodiscard]] tl::expected<Eigen::VectorXd, FitFailure> held_out_residual(
+    const Eigen::Ref<const Eigen::VectorXd>& residual,
+    const Eigen::Ref<const Eigen::MatrixXd>& spread,
+    double sigma2);
+
+/// The same of a group of many rows, with W W' its spread (W m x q): costs m q^2 + q^3, not m^3,
+/// where m is the larger.
+[[nodiscard]] tl::expected<Eigen::VectorXd, FitFailure> held_out_residual_by_root(
+    const Eigen::Ref<const Eigen::VectorXd>& residual,
+    const Eigen::Ref<const Eigen::MatrixXd>& root,
+    double sigma2);
+
 /// What is assumed of lambda and, where it is unknown, of sigma2 before the data.
 enum class SmoothingPrior {
   none,             ///< plain REML

@@ -9,6 +9,7 @@
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
 #include "grid/diagnosis/set_search.hpp"
+#include "grid/precondition.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -44,6 +45,15 @@ std::vector<std::vector<int>> first_hypotheses(const LinearisedSystem& system,
 }
 
 }  // namespace
+
+const CandidateModel& ModelComparison::best() const {
+  if (models.empty()) {
+    throw precondition("the best of no models, of {} systems, total weight {}",
+                       marginalised_systems.size(),
+                       log_total);
+  }
+  return models.front();
+}
 
 double ModelComparison::probability(const CandidateModel& model) const {
   return std::exp(model.log_weight - log_total);

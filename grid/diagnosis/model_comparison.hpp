@@ -30,7 +30,8 @@ struct ModelComparison {
   std::vector<MarginalisedSystem> marginalised_systems;
   std::vector<CandidateModel> models;  ///< those that matter, best first
   double log_total = 0.0;              ///< logarithm of the sum of weights
-  [[nodiscard]] const CandidateModel& best() const { return models.front(); }
+  /// \throws std::invalid_argument where no model is finite: there is none to name.
+  [[nodiscard]] const CandidateModel& best() const;
   [[nodiscard]] double probability(const CandidateModel& model) const;
 };
 

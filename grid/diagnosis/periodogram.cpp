@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "grid/precondition.hpp"
 #include "grid/synthetic/random.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -59,7 +60,7 @@ Eigen::VectorXd about_mean(const std::vector<double>& values) {
 
 void require_as_many(std::size_t values, std::size_t places) {
   if (values != places) {
-    throw std::invalid_argument(fmt::format("{} values for {} places", values, places));
+    throw precondition("{} values for {} places", values, places);
   }
 }
 
@@ -68,14 +69,12 @@ void require_as_many(std::size_t values, std::size_t places) {
 Periodogram::Periodogram(std::vector<double> places_mm, double shortest_mm)
     : places_mm_(std::move(places_mm)) {
   if (places_mm_.size() < kFewest) {
-    throw std::invalid_argument(
-        fmt::format("a periodogram of {} values: at least {}", places_mm_.size(), kFewest));
+    throw precondition("a periodogram of {} values: at least {}", places_mm_.size(), kFewest);
   }
   const auto [low, high] = std::minmax_element(places_mm_.begin(), places_mm_.end());
   const double span_mm = *high - *low;
   if (!(shortest_mm > 0.0) || !(span_mm > shortest_mm)) {
-    throw std::invalid_argument(
-        fmt::format("periods from {} mm down to {} mm", span_mm, shortest_mm));
+    throw precondition("periods from {} mm down to {} mm", span_mm, shortest_mm);
   }
   for (double per_span = 1.0; span_mm / per_span >= shortest_mm; per_span += 1.0 / kPerSpan) {
     periods_mm_.push_back(span_mm / per_span);

@@ -138,7 +138,8 @@ std::optional<std::size_t> Estimator::worst_alone() const {
 
 /// True where the weights changed enough to fit again.
 bool Estimator::update_weights(int pass) {
-  const LeftOut left_out(*problem_, fit_, weights_);
+  LeftOut left_out(*problem_, fit_, weights_);
+  left_out.prepare_all();
   for (Eigen::Index u = 0; u < distances_.size(); ++u)
     distances_[u] = left_out.distance(static_cast<std::size_t>(u));
   if (input_.fixed_weights) return false;
@@ -233,7 +234,8 @@ tl::expected<void, EstimationFailure> Estimator::choose_surface() {
 }
 
 void Estimator::fill_units(Estimate& estimate) const {
-  const LeftOut left_out(*problem_, fit_, weights_);
+  LeftOut left_out(*problem_, fit_, weights_);
+  left_out.prepare_all();
   for (std::size_t u = 0; u < problem_->units().size(); ++u) {
     const SystemUnit& unit = problem_->units()[u];
     const auto at = static_cast<Eigen::Index>(u);
@@ -242,7 +244,7 @@ void Estimator::fill_units(Estimate& estimate) const {
     UnitEstimate own{unit.observation, unit.unit, weights_[at], distances_[at], {}, {}, {}, {}};
     own.residual = back * (problem_->response().segment(unit.first_row, unit.rows) -
                            rows * fit_.coefficients);
-    own.left_out = back * left_out.residuals({u}).front();
+    own.left_out = back * left_out.residual(u);
     own.left_out_covariance = back * left_out.covariance(u) * back.transpose();
     estimate.units.push_back(std::move(own));
   }

@@ -2,7 +2,9 @@
 #include "grid/estimation/left_out.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <stdexcept>
 
 namespace chaintrue::grid::estimation {
 namespace {
@@ -33,46 +35,87 @@ Eigen::VectorXd LeftOut::response_of(std::size_t unit) const {
   return problem_.response().segment(own.first_row, own.rows);
 }
 
-std::vector<Eigen::VectorXd> LeftOut::residuals(const UnitGroup& group) const {
-  Eigen::Index rows = 0;
-  for (const std::size_t unit : group) {
-    if (weights_[static_cast<Eigen::Index>(unit)] > 0.0) rows += problem_.units()[unit].rows;
+void LeftOut::prepare_all() {
+  const Eigen::LLT<Eigen::MatrixXd> factor(fit_.covariance);
+  if (factor.info() == Eigen::Success) {
+    by_root_ = problem_.design() * factor.matrixL();
+    return;
   }
-  Eigen::MatrixXd design(rows, problem_.unknowns().total());
-  Eigen::VectorXd response(rows);
-  rows = 0;
+  // Positive but for rounding.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(fit_.covariance);
+  by_root_ = problem_.design() * parts.eigenvectors() *
+             parts.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+Eigen::MatrixXd LeftOut::spread_of(std::size_t unit) const {
+  if (by_root_.size() == 0) {
+    const Eigen::MatrixXd design = rows_of(unit);
+    return design * fit_.covariance * design.transpose();
+  }
+  const SystemUnit& own = problem_.units()[unit];
+  const auto root = by_root_.middleRows(own.first_row, own.rows);
+  return root.lazyProduct(root.transpose());
+}
+
+Eigen::VectorXd LeftOut::residual_of(std::size_t unit) const {
+  return response_of(unit) - rows_of(unit) * fit_.coefficients;
+}
+
+Eigen::VectorXd LeftOut::residual(std::size_t unit) const {
+  const double weight = weights_[static_cast<Eigen::Index>(unit)];
+  Eigen::VectorXd residual = residual_of(unit);
+  if (weight == 0.0) return residual;
+  const auto held = interp::held_out_residual(residual, weight * spread_of(unit), fit_.sigma2);
+  return held ? *held : residual;
+}
+
+std::vector<Eigen::VectorXd> LeftOut::residuals(const UnitGroup& group) const {
+  if (by_root_.size() == 0) throw std::logic_error("groups left out before all was prepared");
+  std::vector<Eigen::Index> rows;
+  std::vector<double> roots;
   for (const std::size_t unit : group) {
     const double weight = weights_[static_cast<Eigen::Index>(unit)];
     if (weight == 0.0) continue;
-    const double root = std::sqrt(weight);
-    const Eigen::Index count = problem_.units()[unit].rows;
-    design.middleRows(rows, count) = root * rows_of(unit);
-    response.segment(rows, count) = root * response_of(unit);
-    rows += count;
+    const SystemUnit& own = problem_.units()[unit];
+    for (Eigen::Index i = 0; i < own.rows; ++i) {
+      rows.push_back(own.first_row + i);
+      roots.push_back(std::sqrt(weight));
+    }
   }
-  const auto held = rows == 0 ? tl::expected<interp::HeldOut, interp::FitFailure>(interp::HeldOut{})
-                              : fit_.held_out(design, response);
   std::vector<Eigen::VectorXd> residuals;
+  if (rows.empty()) {
+    for (const std::size_t unit : group) residuals.push_back(residual_of(unit));
+    return residuals;
+  }
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  const Eigen::Map<const Eigen::VectorXd> root(roots.data(), count);
+  Eigen::VectorXd residual(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+    residual[i] =
+        root[i] * (problem_.response()[row] - problem_.design().row(row).dot(fit_.coefficients));
+  }
+  const auto held = interp::held_out_residual_by_root(
+      residual, root.asDiagonal() * by_root_(rows, Eigen::all), fit_.sigma2);
   Eigen::Index at = 0;
   for (const std::size_t unit : group) {
     const double weight = weights_[static_cast<Eigen::Index>(unit)];
     if (held && weight > 0.0) {
-      const Eigen::Index count = problem_.units()[unit].rows;
-      residuals.emplace_back(held->residual.segment(at, count) / std::sqrt(weight));
-      at += count;
+      const Eigen::Index own = problem_.units()[unit].rows;
+      residuals.emplace_back(held->segment(at, own) / std::sqrt(weight));
+      at += own;
     } else {
-      residuals.emplace_back(response_of(unit) - rows_of(unit) * fit_.coefficients);
+      residuals.push_back(residual_of(unit));
     }
   }
   return residuals;
 }
 
 Eigen::MatrixXd LeftOut::covariance(std::size_t unit) const {
-  const Eigen::MatrixXd design = rows_of(unit);
   const double weight = weights_[static_cast<Eigen::Index>(unit)];
-  Eigen::MatrixXd spread = design * fit_.covariance * design.transpose();
+  Eigen::MatrixXd spread = spread_of(unit);
   const Eigen::MatrixXd noise =
-      fit_.sigma2 * Eigen::MatrixXd::Identity(design.rows(), design.rows());
+      fit_.sigma2 * Eigen::MatrixXd::Identity(spread.rows(), spread.rows());
   if (weight > 0.0) {
     const Eigen::MatrixXd kept = noise - weight * spread;
     const Eigen::LLT<Eigen::MatrixXd> factor(kept);
@@ -82,7 +125,7 @@ Eigen::MatrixXd LeftOut::covariance(std::size_t unit) const {
 }
 
 double LeftOut::distance(std::size_t unit) const {
-  const Eigen::VectorXd residual = residuals({unit}).front();
+  const Eigen::VectorXd residual = this->residual(unit);
   return std::sqrt(residual.dot(covariance(unit).ldlt().solve(residual)));
 }
 

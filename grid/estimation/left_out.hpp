@@ -26,9 +26,14 @@ class LeftOut {
           const interp::PenalisedFit& fit,
           const Eigen::VectorXd& weights)
       : problem_(problem), fit_(fit), weights_(weights) {}
+  /// Who asks for all units, or for groups, has their X C X' found together first, in a fraction of
+  /// the time.
+  void prepare_all();
 
-  /// Whitened residuals of a group of units with all of them left out. What is set aside is not in
-  /// the fit.
+  /// The whitened residual of a unit with it left out. What is set aside is not in the fit.
+  [[nodiscard]] Eigen::VectorXd residual(std::size_t unit) const;
+  /// Those of a group of units with all of them left out. \throws std::logic_error before
+  /// prepare_all().
   [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const UnitGroup& group) const;
   /// (1), whitened, the unit's noise at its full weight.
   [[nodiscard]] Eigen::MatrixXd covariance(std::size_t unit) const;
@@ -36,11 +41,15 @@ class LeftOut {
 
  private:
   [[nodiscard]] Eigen::MatrixXd rows_of(std::size_t unit) const;
+  /// X C X'.
+  [[nodiscard]] Eigen::MatrixXd spread_of(std::size_t unit) const;
+  [[nodiscard]] Eigen::VectorXd residual_of(std::size_t unit) const;
   [[nodiscard]] Eigen::VectorXd response_of(std::size_t unit) const;
 
   const JointProblem& problem_;
   const interp::PenalisedFit& fit_;
   const Eigen::VectorXd& weights_;
+  Eigen::MatrixXd by_root_;  ///< X R of all units, C = R R'; empty before prepare_all()
 };
 
 /// What happens to a unit at a distance.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "grid/files/number_text.hpp"
+#include "grid/precondition.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -252,7 +253,7 @@ std::string scalar(const Json& value) {
   if (value.is_number_float()) {
     const double number = value.get<double>();
     if (!std::isfinite(number)) {
-      throw std::logic_error(fmt::format("a JSON writer was given the number {}", number));
+      throw precondition("a JSON writer was given the number {}", number);
     }
     return fmt::format("{}", number);
   }

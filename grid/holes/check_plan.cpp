@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "grid/holes/check_readings.hpp"
+#include "grid/precondition.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -42,7 +43,8 @@ std::vector<BedPoint> places_of(const CompensationMap& map, double margin_mm) {
 
 class Separation {
  public:
-  explicit Separation(const CheckReadings& readings) : readings_(readings) {}
+  explicit Separation(const CheckReadings& readings)
+      : readings_(readings), covariance_(readings.covariance.dense()) {}
 
   /// (1), both chains.
   [[nodiscard]] model::PerSide<double> told2(const std::vector<std::size_t>& points) const {
@@ -52,7 +54,7 @@ class Separation {
       rows.push_back(rows.back() + 1);
     }
     const auto count = static_cast<Eigen::Index>(rows.size());
-    Eigen::MatrixXd k = readings_.covariance(rows, rows);
+    Eigen::MatrixXd k = covariance_(rows, rows);
     for (Eigen::Index i = 0; i < count; ++i) {
       for (Eigen::Index j = i % 2; j < count; j += 2)
         k(i, j) += kZeroShiftSigmaMm * kZeroShiftSigmaMm;
@@ -71,6 +73,7 @@ class Separation {
 
  private:
   const CheckReadings& readings_;
+  Eigen::MatrixXd covariance_;
 };
 
 /// Exchanges points as long as one helps, from as many evenly taken ones.
@@ -113,12 +116,11 @@ void check(const CompensationMap& map, const CheckPlanRequest& request) {
       machine == nullptr ||
       2.0 * request.margin_mm < std::min(machine->bed.width_mm, machine->bed.height_mm);
   if (sound && fits) return;
-  throw std::invalid_argument(
-      fmt::format("a check of {} points, {} mm from the edges, with noise of {} and {} mm",
-                  request.points,
-                  request.margin_mm,
-                  request.length_mm,
-                  request.position_mm));
+  throw precondition("a check of {} points, {} mm from the edges, with noise of {} and {} mm",
+                     request.points,
+                     request.margin_mm,
+                     request.length_mm,
+                     request.position_mm);
 }
 
 /// Readings that are what the map says.

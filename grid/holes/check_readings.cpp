@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "grid/map/length_points.hpp"
@@ -31,13 +34,19 @@ constexpr std::array kMotors = {model::Setting::motor_left_x_mm,
                                 model::Setting::motor_right_x_mm,
                                 model::Setting::motor_right_y_mm};
 
-/// The map at N places: d(lengths)/d(mark), and what it does not know of its lengths there, all
-/// places together.
+/// No reading of a workshop is nearer.
+constexpr double kLeastVarianceMm2 = observation::kKnownNuisanceMm * observation::kKnownNuisanceMm;
+
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+/// The map at N places: d(lengths)/d(mark), and what it does not know of its lengths there: F F',
+/// all places together, or each for itself.
 struct MapAt {
   std::vector<ChainLengths> lengths;
   std::vector<Eigen::Matrix2d> by_mark;
-  Eigen::MatrixXd covariance;  ///< 2 N squared
-  Eigen::MatrixXd by_motor;    ///< 2 N x 4 or x 0
+  Eigen::MatrixXd factor;                   ///< F, 2 N x any
+  std::vector<Eigen::Matrix2d> covariance;  ///< of each place; empty where F has it
+  Eigen::MatrixXd by_motor;                 ///< 2 N x 4 or x 0
 };
 
 /// Columns of d(lengths)/d(settings) at a mark, in the order of the surface's settings.
@@ -61,43 +70,49 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
                                          const std::vector<BedPoint>& marks) {
   const auto count = static_cast<Eigen::Index>(marks.size());
   MapAt at;
-  at.covariance = Eigen::MatrixXd::Zero(2 * count, 2 * count);
   const auto* surface = std::get_if<ModelSurface>(&map.contents().surface);
   // A lattice's doubt is no linear function of the unknowns: its points stand for themselves.
   const bool is_joint = surface != nullptr && !surface->lattice;
-  at.by_motor.resize(2 * count, surface != nullptr ? kMotors.size() : 0);
-  Eigen::MatrixXd factor;
-  if (is_joint) factor.resize(2 * count, surface->columns.total());
+  at.by_motor.resize(2 * count, surface != nullptr ? static_cast<Eigen::Index>(kMotors.size()) : 0);
+  Eigen::MatrixXd design(2 * count, is_joint ? surface->columns.total() : 0);
   std::optional<model::ReadingModel> model;
   if (surface != nullptr) model.emplace(surface->machine);
   for (Eigen::Index i = 0; i < count; ++i) {
     const BedPoint mark = marks[static_cast<std::size_t>(i)];
-    const auto answer = map.query(mark);
-    if (!answer) {
-      return fail(
-          Reason::unreachable,
-          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(answer.error())));
+    const auto refused = [&mark](const MapFailure& failure) {
+      return fail(Reason::unreachable,
+                  fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(failure)));
+    };
+    if (is_joint) {
+      const auto here = map.lengths(mark);
+      if (!here) return refused(here.error());
+      at.lengths.push_back(here->lengths);
+      at.by_mark.push_back(here->mark_jacobian);
+    } else {
+      const auto answer = map.query(mark);
+      if (!answer) return refused(answer.error());
+      at.lengths.push_back(answer->lengths);
+      at.by_mark.push_back(answer->mark_jacobian);
+      at.covariance.push_back(answer->covariance);
     }
-    at.lengths.push_back(answer->lengths);
-    at.by_mark.push_back(answer->mark_jacobian);
-    at.covariance.block<2, 2>(2 * i, 2 * i) = answer->covariance;
     if (surface == nullptr) continue;
     Eigen::Matrix2Xd by_motor;
-    const auto design = design_at(*surface, *model, mark, by_motor);
-    if (!design) {
+    const auto rows = design_at(*surface, *model, mark, by_motor);
+    if (!rows) {
       return fail(
           Reason::unreachable,
           fmt::format(
               "({:.1f}, {:.1f}): the calibrated machine has no pose there", mark.x_mm, mark.y_mm));
     }
     at.by_motor.middleRows(2 * i, 2) = by_motor;
-    if (is_joint) factor.middleRows(2 * i, 2) = *design * surface->covariance_factor;
+    if (is_joint) design.middleRows(2 * i, 2) = *rows;
   }
-  if (is_joint) at.covariance = factor * factor.transpose();
+  at.factor = is_joint ? Eigen::MatrixXd(design * surface->covariance_factor)
+                       : Eigen::MatrixXd(2 * count, 0);
   return at;
 }
 
-/// Readings at one mark are as good as their mean, and a check costs the cube of their number.
+/// Readings at one mark are as good as their mean.
 struct Repeated {
   LengthPoint point;  ///< the first of them, with the mean of all lengths
   double count = 0.0;
@@ -114,6 +129,34 @@ std::vector<Repeated> merged(const std::vector<LengthPoint>& points) {
     one.count += 1.0;
     one.point.lengths.left_mm += (point.lengths.left_mm - one.point.lengths.left_mm) / one.count;
     one.point.lengths.right_mm += (point.lengths.right_mm - one.point.lengths.right_mm) / one.count;
+  }
+  return result;
+}
+
+/// Readings of one distance in one session: their mean, weighted by what each is worth.
+MeasuredHoles merged(const MeasuredHoles& set) {
+  std::map<std::tuple<std::size_t, std::size_t, std::optional<SheetEdge>, std::size_t>, std::size_t>
+      at;
+  MeasuredHoles result = set;
+  result.distances.clear();
+  std::vector<double> precision;
+  for (const HoleDistance& distance : set.distances) {
+    const std::size_t to = distance.edge ? distance.from : distance.to;
+    const auto [place, is_new] = at.emplace(std::tuple(std::min(distance.from, to),
+                                                       std::max(distance.from, to),
+                                                       distance.edge,
+                                                       distance.session),
+                                            result.distances.size());
+    if (is_new) {
+      result.distances.push_back(distance);
+      precision.push_back(0.0);
+    }
+    HoleDistance& one = result.distances[place->second];
+    double& sum = precision[place->second];
+    const double own = 1.0 / std::pow(sigma_of(set, distance), 2);
+    sum += own;
+    one.distance_mm += own / sum * (distance.distance_mm - one.distance_mm);
+    if (sum > own) one.sigma_mm = 1.0 / std::sqrt(sum);
   }
   return result;
 }
@@ -157,9 +200,12 @@ tl::expected<Part, CheckFailure> part_of(const CompensationMap& map, const Measu
         Reason::no_machine,
         "the holes name no machine; what was commanded becomes chain lengths by its controller");
   }
-  if (set.distances.size() > kMostCheckedDistances)
-    return too_many(set.distances.size(), kMostCheckedDistances, "distances");
-  auto distances = observation::TapeDistances::in_given_order(set);
+  MeasuredHoles once = merged(set);
+  if (once.distances.size() > kMostCheckedDistances)
+    return too_many(once.distances.size(), kMostCheckedDistances, "distances");
+  if (once.holes.size() > kMostCheckedHoles)
+    return too_many(once.holes.size(), kMostCheckedHoles, "holes");
+  auto distances = observation::TapeDistances::in_given_order(std::move(once));
   if (!distances) return fail(Reason::no_lengths, distances.error());
   Part part;
   for (const observation::Place& place : distances->places()) {
@@ -174,64 +220,138 @@ tl::expected<Part, CheckFailure> part_of(const CompensationMap& map, const Measu
   return part;
 }
 
-/// Rows of a part: what is left of its readings, by the chains at its own places, and their noise.
-struct Rows {
-  Eigen::VectorXd residual_mm;
-  Eigen::MatrixXd by_chain;
-  Eigen::MatrixXd noise;
+/// The readings of all parts, row by row. What is sparse is gathered as entries.
+class Gathered {
+ public:
+  explicit Gathered(const MapAt& at) : at_(at) {}
+
+  /// `first` is where the part's places begin among all.
+  void add(const Part& part, std::size_t first) {
+    if (part.distances) {
+      add_distances(part, first);
+    } else {
+      add_points(part, first);
+    }
+  }
+
+  [[nodiscard]] CheckReadings readings() const {
+    CheckReadings readings;
+    const auto rows = static_cast<Eigen::Index>(residual_mm_.size());
+    const auto chains = 2 * static_cast<Eigen::Index>(at_.lengths.size());
+    readings.residual_mm = Eigen::Map<const Eigen::VectorXd>(residual_mm_.data(), rows);
+    readings.by_chain.resize(rows, chains);
+    readings.by_chain.setFromTriplets(by_chain_.begin(), by_chain_.end());
+    ReadingCovariance& covariance = readings.covariance;
+    covariance.own = own_;
+    covariance.shared.resize(rows, shared_columns_);
+    covariance.shared.setFromTriplets(shared_.begin(), shared_.end());
+    covariance.of_map = narrowed(readings.by_chain * at_.factor);
+    return readings;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Index row() const { return static_cast<Eigen::Index>(residual_mm_.size()); }
+
+  void add_points(const Part& part, std::size_t first) {
+    for (std::size_t i = 0; i < part.points.size(); ++i) {
+      const ChainLengths& read = part.points[i].point.lengths;
+      const ChainLengths& told = at_.lengths[first + i];
+      const Eigen::Matrix2d& by_mark = at_.by_mark[first + i];
+      Eigen::MatrixXd own =
+          observation::covariance_of({part.noise.length_mm, part.noise.position_mm}, by_mark) /
+          part.points[i].count;
+      own.diagonal().array() += kLeastVarianceMm2;
+      if (!at_.covariance.empty()) own += at_.covariance[first + i];
+      own_.push_back(std::move(own));
+      const auto chain = 2 * static_cast<Eigen::Index>(first + i);
+      for (Eigen::Index side = 0; side < 2; ++side)
+        by_chain_.emplace_back(row() + side, chain + side, 1.0);
+      residual_mm_.push_back(read.left_mm - told.left_mm);
+      residual_mm_.push_back(read.right_mm - told.right_mm);
+    }
+  }
+
+  void add_distances(const Part& part, std::size_t first) {
+    const MeasuredHoles& set = part.distances->set();
+    const observation::DistanceGeometry geometry = observation::distance_geometry(set, part.marks);
+    const Eigen::VectorXd residual = part.distances->measured() - geometry.predicted_mm;
+    const Eigen::Index before = row();
+    for (Eigen::Index k = 0; k < residual.size(); ++k) {
+      const HoleDistance& distance = set.distances[static_cast<std::size_t>(k)];
+      residual_mm_.push_back(residual[k]);
+      own_.push_back(Eigen::MatrixXd::Constant(1, 1, std::pow(sigma_of(set, distance), 2)));
+      add_hole(geometry, set, before + k, k, first, distance.from);
+      if (!distance.edge) add_hole(geometry, set, before + k, k, first, distance.to);
+    }
+    shared_columns_ +=
+        (at_.covariance.empty() ? 2 : 4) * static_cast<Eigen::Index>(set.holes.size());
+    add_size_and_hook(set, geometry, before);
+  }
+
+  /// What one end of a distance sees of the chains at its hole, and of the hole's own error.
+  void add_hole(const observation::DistanceGeometry& geometry,
+                const MeasuredHoles& set,
+                Eigen::Index at_row,
+                Eigen::Index distance,
+                std::size_t first,
+                std::size_t hole) {
+    const auto column = 2 * static_cast<Eigen::Index>(hole);
+    const Eigen::RowVector2d by_mark = geometry.by_mark.block<1, 2>(distance, column);
+    // More read on a chain than the map says for the same place: the tool is nearer to that motor.
+    const Eigen::RowVector2d by_chain = -by_mark * at_.by_mark[first + hole].inverse();
+    for (Eigen::Index axis = 0; axis < 2; ++axis) {
+      by_chain_.emplace_back(
+          at_row, 2 * static_cast<Eigen::Index>(first) + column + axis, by_chain[axis]);
+      shared_.emplace_back(
+          at_row, shared_columns_ + column + axis, set.hole_sigma_mm * by_mark[axis]);
+    }
+    if (at_.covariance.empty()) return;
+    // The map's own doubt at the hole, which all of its distances share.
+    const Eigen::Matrix2d root = at_.covariance[first + hole].llt().matrixL();
+    const Eigen::RowVector2d seen = by_chain * root;
+    const auto holes = 2 * static_cast<Eigen::Index>(set.holes.size());
+    for (Eigen::Index axis = 0; axis < 2; ++axis)
+      shared_.emplace_back(at_row, shared_columns_ + holes + column + axis, seen[axis]);
+  }
+
+  void add_size_and_hook(const MeasuredHoles& set,
+                         const observation::DistanceGeometry& geometry,
+                         Eigen::Index before) {
+    std::map<std::size_t, Eigen::Index> session_columns;
+    const double hook_sigma_mm = set.tape.hook_sigma_mm.value_or(0.0);
+    for (Eigen::Index k = 0; k < geometry.by_size.rows(); ++k) {
+      for (Eigen::Index axis = 0; axis < 2; ++axis) {
+        const double by_size = set.sheet.size_sigma_mm * geometry.by_size(k, axis);
+        if (by_size != 0.0) shared_.emplace_back(before + k, shared_columns_ + axis, by_size);
+      }
+      if (hook_sigma_mm == 0.0) continue;
+      const std::size_t session = set.distances[static_cast<std::size_t>(k)].session;
+      const auto hook = session_columns.emplace(
+          session, shared_columns_ + 2 + static_cast<Eigen::Index>(session_columns.size()));
+      shared_.emplace_back(before + k, hook.first->second, hook_sigma_mm);
+    }
+    shared_columns_ += 2 + static_cast<Eigen::Index>(session_columns.size());
+  }
+
+  const MapAt& at_;
+  std::vector<double> residual_mm_;
+  std::vector<Eigen::MatrixXd> own_;
+  Entries by_chain_;
+  Entries shared_;
+  Eigen::Index shared_columns_ = 0;
 };
 
-/// `first` is where the part's places begin among all.
-Rows rows_of_points(const Part& part, const MapAt& at, std::size_t first) {
-  const auto count = 2 * static_cast<Eigen::Index>(part.points.size());
-  Rows rows{Eigen::VectorXd(count),
-            Eigen::MatrixXd::Identity(count, count),
-            Eigen::MatrixXd::Zero(count, count)};
-  for (std::size_t i = 0; i < part.points.size(); ++i) {
-    const auto row = 2 * static_cast<Eigen::Index>(i);
-    const ChainLengths& read = part.points[i].point.lengths;
-    const ChainLengths& told = at.lengths[first + i];
-    const Eigen::Matrix2d& by_mark = at.by_mark[first + i];
-    rows.residual_mm.segment<2>(row) << read.left_mm - told.left_mm, read.right_mm - told.right_mm;
-    rows.noise.block<2, 2>(row, row) =
-        observation::covariance_of({part.noise.length_mm, part.noise.position_mm}, by_mark) /
-        part.points[i].count;
-  }
-  return rows;
-}
-
-Rows rows_of_distances(const Part& part, const MapAt& at, std::size_t first) {
-  const MeasuredHoles& set = part.distances->set();
-  const observation::DistanceGeometry geometry = observation::distance_geometry(set, part.marks);
-  const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
-  const auto places = static_cast<Eigen::Index>(part.marks.size());
-  Eigen::MatrixXd marks_by_chain = Eigen::MatrixXd::Zero(2 * places, 2 * places);
-  for (Eigen::Index i = 0; i < places; ++i) {
-    // More read on a chain than the map says for the same place: the tool is nearer to that motor.
-    marks_by_chain.block<2, 2>(2 * i, 2 * i) =
-        -at.by_mark[first + static_cast<std::size_t>(i)].inverse();
-  }
-  Rows rows{part.distances->measured() - geometry.predicted_mm,
-            geometry.by_mark * marks_by_chain,
-            noise.holes_mm2 + noise.size_mm2 + noise.hook_mm2};
-  rows.noise.diagonal() += noise.tape_mm2;
-  return rows;
-}
-
 /// `of` tells files apart where there are several: "", or " of holes.json".
-void name_rows(const Part& part, const std::string& of, Eigen::Index row, CheckReadings& readings) {
+void name_rows(const Part& part, const std::string& of, CheckReadings& readings) {
   for (const auto& [point, count] : part.points) {
-    readings.groups.push_back({row, row + 1});
-    row += 2;
-    readings.group_names.push_back(fmt::format("point {}{}", point.index + 1, of));
+    readings.unit_names.push_back(fmt::format("point {}{}", point.index + 1, of));
     for (const char* side : {"left", "right"})
       readings.names.push_back(fmt::format("point {}{}, {} chain", point.index + 1, of, side));
   }
   if (!part.distances) return;
   for (const HoleDistance& distance : part.distances->set().distances) {
-    readings.groups.push_back({row++});
     readings.names.push_back(words_of(part.distances->set(), distance) + of);
-    readings.group_names.push_back(readings.names.back());
+    readings.unit_names.push_back(readings.names.back());
   }
 }
 
@@ -267,28 +387,16 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
   }
   const auto at = map_at(map, marks);
   if (!at) return tl::unexpected(at.error());
-  CheckReadings readings;
-  fill_common(readings, map, *at);
-  const auto chains = 2 * static_cast<Eigen::Index>(marks.size());
+  Gathered gathered(*at);
   std::size_t first = 0;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const Part& part = parts[k];
-    const Rows rows =
-        part.distances ? rows_of_distances(part, *at, first) : rows_of_points(part, *at, first);
-    const Eigen::Index before = readings.residual_mm.size();
-    const Eigen::Index count = rows.residual_mm.size();
-    readings.residual_mm.conservativeResize(before + count);
-    readings.residual_mm.tail(count) = rows.residual_mm;
-    readings.by_chain.conservativeResizeLike(Eigen::MatrixXd::Zero(before + count, chains));
-    readings.by_chain.block(
-        before, 2 * static_cast<Eigen::Index>(first), count, rows.by_chain.cols()) = rows.by_chain;
-    readings.covariance.conservativeResizeLike(
-        Eigen::MatrixXd::Zero(before + count, before + count));
-    readings.covariance.bottomRightCorner(count, count) = rows.noise;
-    name_rows(part, files.size() > 1 ? " of " + files[k].name : std::string{}, before, readings);
+  for (const Part& part : parts) {
+    gathered.add(part, first);
     first += part.marks.size();
   }
-  readings.covariance += readings.by_chain * at->covariance * readings.by_chain.transpose();
+  CheckReadings readings = gathered.readings();
+  fill_common(readings, map, *at);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    name_rows(parts[k], files.size() > 1 ? " of " + files[k].name : std::string{}, readings);
   return readings;
 }
 

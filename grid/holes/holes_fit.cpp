@@ -10,6 +10,7 @@
 
 #include "grid/holes/holes_notes.hpp"
 #include "grid/map/residual_fit.hpp"
+#include "grid/precondition.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -116,9 +117,9 @@ interp::Rectangle holes_domain(const model::Bed& bed) {
 tl::expected<HolesFit, FitFailure> fit_holes(
     const MeasuredHoles& set, const std::optional<estimation::MachineKnowledge>& knowledge) {
   if (!set.machine || set.distances.empty()) {
-    throw std::invalid_argument(fmt::format("a fit of {} distances {} a machine",
-                                            set.distances.size(),
-                                            set.machine ? "with" : "without"));
+    throw precondition("a fit of {} distances {} a machine",
+                       set.distances.size(),
+                       set.machine ? "with" : "without");
   }
   const auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) {

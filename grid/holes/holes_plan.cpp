@@ -13,6 +13,7 @@
 
 #include "grid/holes/seen_effects.hpp"
 #include "grid/holes/tool_error.hpp"
+#include "grid/precondition.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -150,15 +151,15 @@ void check(const model::Machine& machine, const HolesPlanRequest& request) {
       request.tape_sigma_mm > 0.0 && request.hole_sigma_mm >= 0.0 && request.margin_mm >= 0.0 &&
       request.margin_mm < half - kLeastApartMm && request.longest_mm > 2.0 * kLeastApartMm;
   if (sound) return;
-  throw std::invalid_argument(
-      fmt::format("a plan of {} holes and {} distances, {} mm from the edges, with a tape of {} mm "
-                  "and sigmas of {} and {} mm",
-                  request.holes,
-                  request.distances,
-                  request.margin_mm,
-                  request.longest_mm,
-                  request.tape_sigma_mm,
-                  request.hole_sigma_mm));
+  throw precondition(
+      "a plan of {} holes and {} distances, {} mm from the edges, with a tape of {} mm "
+      "and sigmas of {} and {} mm",
+      request.holes,
+      request.distances,
+      request.margin_mm,
+      request.longest_mm,
+      request.tape_sigma_mm,
+      request.hole_sigma_mm);
 }
 
 /// Settings and scales in words, and where the sheet lies under the tool where that counts.

@@ -11,6 +11,8 @@
 #include <tuple>
 #include <variant>
 
+#include "grid/precondition.hpp"
+
 namespace chaintrue::grid::observation {
 namespace {
 
@@ -84,8 +86,9 @@ SingleReadings::SingleReadings(std::vector<ExtraReading> readings)
   measured_.resize(static_cast<Eigen::Index>(readings_.size()));
   for (std::size_t k = 0; k < readings_.size(); ++k) {
     if (!(readings_[k].sigma > 0.0)) {
-      throw std::invalid_argument(fmt::format(
-          "a reading of {} with sigma {}; it must be positive", readings_[k].what, readings_[k].sigma));
+      throw precondition("a reading of {} with sigma {}; it must be positive",
+                         readings_[k].what,
+                         readings_[k].sigma);
     }
     measured_(static_cast<Eigen::Index>(k)) = readings_[k].value;
     units_.push_back({static_cast<Eigen::Index>(k), 1, k});

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "grid/files/input_error.hpp"
+#include "grid/precondition.hpp"
 
 namespace chaintrue::grid::sweep {
 namespace {
@@ -143,8 +144,7 @@ void ResultStore::read_parts(
 void ResultStore::for_each(
     const std::function<void(std::uint64_t, const CellResult&)>& visit) const {
   if (!complete()) {
-    throw std::logic_error(
-        fmt::format("sweep: {} of {} cells are missing", cells() - finished_, cells()));
+    throw precondition("sweep: {} of {} cells are missing", cells() - finished_, cells());
   }
   // Sorted on disk: the record of a cell stands at its number.
   const fs::path sorted = directory_ / "cells.sorted.tmp";

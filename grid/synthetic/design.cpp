@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "grid/precondition.hpp"
+
 namespace chaintrue::grid::synthetic {
 namespace {
 
@@ -33,8 +35,7 @@ double half_span(double bed_mm, const std::optional<double>& margin_mm) {
                           ? bed_mm - 2.0 * *margin_mm
                           : std::max(std::floor(bed_mm / kRoundNumberMm), 1.0) * kRoundNumberMm;
   if (!(span > 0.0)) {
-    throw std::invalid_argument(
-        fmt::format("design: a margin of {} mm leaves nothing of {} mm", *margin_mm, bed_mm));
+    throw precondition("design: a margin of {} mm leaves nothing of {} mm", *margin_mm, bed_mm);
   }
   return 0.5 * std::min(span, bed_mm);
 }
@@ -68,8 +69,8 @@ int band(double value, double half) {
 
 std::vector<Mark> lattice(const Design& design, double half_x, double half_y) {
   if (design.columns < 2 || design.rows < 2) {
-    throw std::invalid_argument(fmt::format(
-        "design: {} x {} marks, at least 2 x 2 are needed", design.columns, design.rows));
+    throw precondition(
+        "design: {} x {} marks, at least 2 x 2 are needed", design.columns, design.rows);
   }
   std::vector<Mark> result;
   for (int row = 0; row < design.rows; ++row) {
@@ -90,8 +91,7 @@ std::vector<BedPoint> scattered(const Design& design,
                                 double half_x,
                                 double half_y,
                                 Random& random) {
-  if (design.points < 1)
-    throw std::invalid_argument(fmt::format("design: {} points", design.points));
+  if (design.points < 1) throw precondition("design: {} points", design.points);
   std::vector<BedPoint> result;
   // Corners that are left out are a fifth of the half span wide.
   const auto in_corner = [&](BedPoint p) {

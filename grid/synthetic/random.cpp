@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/precondition.hpp"
+
 namespace chaintrue::grid::synthetic {
 namespace {
 
@@ -121,8 +123,7 @@ double Random::heavy_tailed() {
 
 double normal_quantile(double probability) {
   if (!(probability > 0.0 && probability < 1.0)) {
-    // Past the gate of printed numbers: that it is none may be what is wrong.
-    throw std::invalid_argument(::fmt::format("normal_quantile: probability {}", probability));
+    throw precondition("normal_quantile: probability {}", probability);
   }
   const double q = probability - 0.5;
   if (std::abs(q) <= 0.425) {
@@ -137,7 +138,7 @@ double normal_quantile(double probability) {
 
 double portable_log(double x) {
   if (!(std::isnormal(x) && x > 0.0)) {
-    throw std::invalid_argument(fmt::format("portable_log: argument {}", x));
+    throw precondition("portable_log: argument {}", x);
   }
   // x = 2^e m with m in [1/sqrt 2, sqrt 2); log m = 2 atanh t, t = (m - 1) / (m + 1), |t| < 0.172:
   // 13 terms leave 2 t^27 / 27, below 1e-21.

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "grid/precondition.hpp"
 #include "grid/synthetic/design.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -32,10 +33,10 @@ std::vector<model::ChainLengths> lengths_of(const Machine& machine,
   const auto lengths = model::readings(model::ReadingModel(machine), visits);
   if (!lengths) {
     const model::BedPoint p = visits[lengths.error().index].position;
-    throw std::invalid_argument(fmt::format("signature: ({}, {}) mm cannot be reached: {}",
-                                            p.x_mm,
-                                            p.y_mm,
-                                            explain(lengths.error().reason)));
+    throw precondition("signature: ({}, {}) mm cannot be reached: {}",
+                       p.x_mm,
+                       p.y_mm,
+                       explain(lengths.error().reason));
   }
   return *lengths;
 }
@@ -112,8 +113,7 @@ SessionSignature signature(const Machine& stated,
   for (std::size_t i = 0; i < visits.size(); ++i) {
     const auto reading = plain.at(visits[i].position);
     if (!reading) {
-      throw std::invalid_argument(
-          fmt::format("signature: visit {}: {}", i, explain(reading.error())));
+      throw precondition("signature: visit {}: {}", i, explain(reading.error()));
     }
     const model::BedPoint written = mark_frame.written(visits[i].position);
     const model::BedPoint usual = stated_mark_frame.written(visits[i].position);
@@ -131,9 +131,9 @@ StrengthTable::StrengthTable(const Machine& stated,
                              const StatedNoise& noise)
     : stated_(stated), visits_(std::move(visits)) {
   if (!(noise.length_mm > 0.0 && noise.position_mm >= 0.0)) {
-    throw std::invalid_argument(fmt::format("strength: noise of {} mm in length, {} mm in position",
-                                            noise.length_mm,
-                                            noise.position_mm));
+    throw precondition("strength: noise of {} mm in length, {} mm in position",
+                       noise.length_mm,
+                       noise.position_mm);
   }
   const auto count = static_cast<Eigen::Index>(visits_.size());
   const auto settings = static_cast<Eigen::Index>(model::kMachineSettings.size());
@@ -141,9 +141,7 @@ StrengthTable::StrengthTable(const Machine& stated,
   const model::ReadingModel model(stated);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto reading = model.at(visits_[static_cast<std::size_t>(i)].position);
-    if (!reading)
-      throw std::invalid_argument(
-          fmt::format("strength: visit {}: {}", i, explain(reading.error())));
+    if (!reading) throw precondition("strength: visit {}: {}", i, explain(reading.error()));
     const Eigen::Matrix2d& j = reading->position_jacobian;
     const Eigen::Matrix2d covariance =
         j * j.transpose() * (noise.position_mm * noise.position_mm) +
@@ -197,7 +195,7 @@ const StrengthTable::Entry& StrengthTable::usual(const Effect& effect, EffectSid
     return e.usual && e.effect == &effect && e.side == side;
   });
   if (found == entries_.end()) {
-    throw std::invalid_argument(fmt::format("strength: {} cannot act on this machine", effect.id));
+    throw precondition("strength: {} cannot act on this machine", effect.id);
   }
   return *found;
 }

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/cli/command_fixture.hpp"
 
@@ -42,6 +45,8 @@ class Limits : public testing_support::CommandFixture {
 constexpr std::chrono::seconds kBeforeWork(10);
 // Half a second's work, which once did not end in a minute.
 constexpr std::chrono::seconds kNoWork(30);
+// Some seconds' work on a loaded machine, which once took minutes and gigabytes.
+constexpr std::chrono::seconds kSeconds(60);
 
 TEST_F(Limits, ADiagnosisOfAThousandPointsIsRefusedAtOnce) {
   simulate(1000, "many.json");
@@ -77,12 +82,75 @@ TEST_F(Limits, ACheckTakesRepeatsAsTheirMean) {
   EXPECT_THAT(many.out, HasSubstr("The map is still valid"));
 }
 
+TEST_F(Limits, ACheckTakesFiveThousandPoints) {
+  ASSERT_EQ(run("fit " + fixture("grids/seven_by_four.json") + " -o m.json").code, 0);
+  simulate(5000, "many.json");
+  const Outcome outcome = timed("check m.json many.json", kSeconds);
+  EXPECT_LE(outcome.code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("point 5000, right chain"));
+}
+
 TEST_F(Limits, ACheckOfTooManyPointsIsRefusedAtOnce) {
   ASSERT_EQ(run("fit " + fixture("grids/seven_by_four.json") + " -o m.json").code, 0);
-  simulate(1500, "many.json");
+  simulate(20001, "many.json");
   const Outcome outcome = timed("check m.json many.json", kBeforeWork);
   EXPECT_EQ(outcome.code, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("1500 points are more than a check takes (1000)"));
+  EXPECT_THAT(outcome.err, HasSubstr("20001 points are more than a check takes (20000)"));
+}
+
+TEST_F(Limits, AFitOfTooManyPointsIsRefusedAtOnce) {
+  simulate(10001, "many.json");
+  const Outcome outcome = timed("fit many.json -o m.json", kBeforeWork);
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("10001 points are more than a fit takes (10000)"));
+  EXPECT_FALSE(exists("m.json"));
+}
+
+/// Holes on a lattice with so many distances between them, as commanded, repeats among them.
+std::string holes(int count, int distances) {
+  std::string text = content_of(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
+  text =
+      R"({"file_type": "chaintrue_holes", "format_version": "1.0", "name": "many", "machine": )" +
+      text + R"(, "holes": [)";
+  std::vector<std::pair<double, double>> places;
+  for (int i = 0; i < count; ++i) {
+    places.emplace_back(-1100.0 + 2200.0 * (i % 20) / 19.0, -500.0 + 130.0 * (i / 20));
+    text += fmt::format(R"({}{{"name": "H{}", "x_mm": {}, "y_mm": {}}})",
+                        i == 0 ? "" : ", ",
+                        i,
+                        places.back().first,
+                        places.back().second);
+  }
+  text += R"(], "distances": [)";
+  for (int k = 0; k < distances; ++k) {
+    const auto a = static_cast<std::size_t>(k % count);
+    const auto b = static_cast<std::size_t>((k + 1 + k / count % (count - 1)) % count);
+    text += fmt::format(
+        R"({}{{"from": "H{}", "to": "H{}", "distance_mm": {:.1f}}})",
+        k == 0 ? "" : ", ",
+        a,
+        b,
+        std::hypot(places[a].first - places[b].first, places[a].second - places[b].second));
+  }
+  return text + "]}";
+}
+
+TEST_F(Limits, FiveThousandDistancesAreFittedAndChecked) {
+  ASSERT_EQ(run("fit " + fixture("grids/seven_by_four.json") + " -o m.json").code, 0);
+  write("holes.json", holes(20, 5000));
+  EXPECT_LE(timed("check m.json holes.json", kSeconds).code, 1);
+  EXPECT_EQ(timed("fit holes.json -o h.json", kSeconds).code, 0);
+}
+
+TEST_F(Limits, TooManyHolesAndDistancesAreRefusedAtOnce) {
+  write("distances.json", holes(20, 5001));
+  write("holes.json", holes(151, 400));
+  const Outcome distances = timed("fit distances.json -o h.json", kBeforeWork);
+  EXPECT_EQ(distances.code, 3);
+  EXPECT_THAT(distances.err, HasSubstr("5001 distances are more than a fit takes (5000)"));
+  const Outcome many = timed("fit holes.json -o h.json", kBeforeWork);
+  EXPECT_EQ(many.code, 3);
+  EXPECT_THAT(many.err, HasSubstr("151 holes are more than a fit takes (150)"));
 }
 
 }  // namespace

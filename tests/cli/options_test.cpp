@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tests/cli/command_fixture.hpp"
 
@@ -55,6 +57,48 @@ TEST_F(Options, ThatAreWrongAreAllNamedAtOnce) {
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.err, HasSubstr("--noise-dof"));
   EXPECT_THAT(outcome.err, HasSubstr("--noise-length-mm"));
+}
+
+/// Numbers out of their range, what a verb says of its own words, and places of files.
+TEST_F(Options, OfAllKindsAreToldAtOnce) {
+  const auto expect_all = [this](const std::string& arguments,
+                                 const std::vector<std::string>& words) {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_EQ(outcome.out, "");
+    for (const std::string& word : words) EXPECT_THAT(outcome.err, HasSubstr(word));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'),
+              static_cast<std::ptrdiff_t>(words.size()));
+  };
+  const std::string machine = fixture("machines/classic.json");
+  expect_all("simulate --machine " + machine +
+                 " --grid 7by4 --repeats -1 --order sideways --model rubber --offset x=1 "
+                 "--effect sag -o nowhere/g.json",
+             {"--repeats: found -1",
+              "--grid: found 7by4",
+              "--order: found sideways",
+              "--model: found rubber",
+              "--offset: found x=1",
+              "--effect: found sag",
+              "nowhere/g.json: found a folder that does not exist"});
+  // A number out of its range is no reason to miss another option.
+  expect_all("simulate --machine " + machine + " --holes 99 -o h.json", {"--holes: found 99"});
+  expect_all("effects no_such_effect --machine " + machine + " --length-noise-mm 0 --set a",
+             {"--length-noise-mm: found 0", "--set: found a", "effect: found no_such_effect"});
+  expect_all("effects chain_stretch --side up --machine " + machine + " --position-noise-mm -1",
+             {"--position-noise-mm: found -1", "--side: found up"});
+  expect_all("sweep " + fixture("sweeps/quick.json") + " -o '' --shard 4/3 --threads -1",
+             {"--threads: found -1", "--shard: found 4/3", "-o: found an empty name"});
+  ASSERT_EQ(run("fit " + grid_ + " -o m.json").code, 0);
+  write("b.nc", "G21 G90\nG0 X0 Y0\nM2\n");
+  expect_all(
+      "gcode compensate b.nc --map m.json -o b.nc --tolerance-mm 0.0005 --step-budget 0 "
+      "--home 1",
+      {"--step-budget: found 0",
+       "--tolerance-mm: found 0.0005",
+       "--home: found 1",
+       "b.nc: found a file that is read here"});
 }
 
 TEST_F(Options, OfACheckAreNumbersToo) {

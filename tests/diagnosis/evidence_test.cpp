@@ -10,7 +10,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
+#include "grid/diagnosis/model_comparison.hpp"
 #include "grid/diagnosis/normal.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
 #include "grid/synthetic/random.hpp"
@@ -200,6 +202,10 @@ TEST(NullDistribution, HoldsItsSize) {
   // 200 expected; both sides' draws have a standard deviation of 14: four of the difference.
   EXPECT_NEAR(below, 200, 80);
   EXPECT_GT(null.p_value(1e9), 0.0) << "never certain";
+}
+
+TEST(Comparison, OfNoModelsHasNoBest) {
+  EXPECT_THROW((void)ModelComparison{}.best(), std::invalid_argument);
 }
 
 }  // namespace

@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "grid/files/check_file.hpp"
@@ -285,6 +288,77 @@ TEST(MapCheck, HolesTellAToothAndAGrownPitch) {
   grow(worn, "both");
   const auto with_wear = synthetic::simulate_holes(testing_support::nine_holes(), again, worn);
   EXPECT_EQ(check_map(map, with_wear->set)->verdict, CheckVerdict::measure_again);
+}
+
+/// Probabilities of what may have happened to the machine, among these alone.
+std::vector<double> of_the_machine(const CompensationMap& map, const MeasuredFile& file) {
+  const auto check = check_map(map, {file});
+  EXPECT_TRUE(check) << check.error();
+  std::vector<std::pair<std::string, double>> told;
+  double sum = 0.0;
+  for (const CheckHypothesis& h : check->hypotheses) {
+    if (h.what == "bad_point") continue;
+    told.emplace_back(fmt::format("{} {} {}", h.what, h.side, h.count), h.probability);
+    sum += h.probability;
+  }
+  std::sort(told.begin(), told.end());
+  std::vector<double> result;
+  for (const auto& [what, probability] : told) result.push_back(probability / sum);
+  return result;
+}
+
+void expect_equal(const std::vector<double>& a, const std::vector<double>& b, double tolerance) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
+}
+
+TEST(MapCheck, RepeatsOfAMarkSayWhatTheyWouldOneByOne) {
+  constexpr std::uint64_t kSeed = 19;
+  SCOPED_TRACE(kSeed);
+  const Measured& one = machines()[2];
+  model::Machine machine = one.truth;
+  machine.chain_zero.left_mm += 0.3;  // several hypotheses are left
+  Random random(kSeed);
+  MeasuredGrid together;
+  for (int k = 0; k < 4; ++k) {
+    const MeasuredGrid again = five_points(machine, random);
+    together.noise = again.noise;
+    together.points.insert(together.points.end(), again.points.begin(), again.points.end());
+  }
+  MeasuredGrid apart = together;
+  // Marks so near that nothing is seen of it are marks of their own.
+  for (std::size_t i = 0; i < apart.points.size(); ++i)
+    apart.points[i].mark.x_mm += 1e-8 * static_cast<double>(i);
+  ASSERT_EQ(check_map(one.map, together)->residuals.size(), 10u);
+  ASSERT_EQ(check_map(one.map, apart)->residuals.size(), 40u);
+  // The marks' own 1e-7 mm over 0.3 mm of noise, and rounding.
+  expect_equal(of_the_machine(one.map, {"together", together}),
+               of_the_machine(one.map, {"apart", apart}),
+               1e-6);
+}
+
+TEST(MapCheck, RepeatsOfADistanceSayWhatTheyWouldOneByOne) {
+  const auto made =
+      synthetic::simulate_holes(testing_support::nine_holes(), testing_support::usual_holes(4));
+  const CompensationMap map = map_of(made->set, *fit_holes(made->set));
+  MeasuredHoles together = made->set;
+  MeasuredHoles apart = made->set;
+  Random random(23);
+  for (std::size_t k = 0; k < made->set.distances.size(); ++k) {
+    HoleDistance again = made->set.distances[k];
+    std::swap(again.from, again.to);
+    again.distance_mm += 0.5 * random.normal();
+    again.sigma_mm = 0.7;
+    together.distances.push_back(again);
+    // Without doubt of the hook a session is nothing but a name.
+    again.session = 1;
+    apart.distances.push_back(again);
+  }
+  ASSERT_EQ(check_map(map, together)->residuals.size(), made->set.distances.size());
+  ASSERT_EQ(check_map(map, apart)->residuals.size(), 2 * made->set.distances.size());
+  expect_equal(of_the_machine(map, {"together", together}),
+               of_the_machine(map, {"apart", apart}),
+               1e-9);  // rounding
 }
 
 TEST(MapCheck, APointOffTheMapIsSaid) {

@@ -60,8 +60,20 @@ void OptionProblems::require(std::string_view option, double value, double least
   add(option, fmt::format("{}", value), fmt::format("a number from {} to {}", least, most));
 }
 
+void OptionProblems::take_from(const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const grid::files::InputError& error) {
+    problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
+  }
+}
+
 void OptionProblems::throw_if_any() const {
   if (!problems_.empty()) throw grid::files::InputError(problems_);
+}
+
+void check_effect_forms(const std::vector<std::string>& arguments, OptionProblems& problems) {
+  for (const std::string& argument : arguments) (void)parse_form(argument, problems);
 }
 
 std::vector<model::AppliedEffect> parse_effects(const std::vector<std::string>& arguments,

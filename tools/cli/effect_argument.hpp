@@ -3,6 +3,7 @@
 /// Effects on the command line: `id:side:key=value,key=value`, `-` for no side.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,12 +19,16 @@ class OptionProblems {
   void add(std::string_view option, std::string value, std::string expected);
   /// `value` is finite and within [least, most].
   void require(std::string_view option, double value, double least, double most);
+  /// What `check` throws as files::InputError.
+  void take_from(const std::function<void()>& check);
   void throw_if_any() const;
 
  private:
   std::vector<grid::files::InputProblem> problems_;
 };
 
+/// That every `--effect` has the form above, whatever it names.
+void check_effect_forms(const std::vector<std::string>& arguments, OptionProblems& problems);
 /// The effects that `--effect` named, checked against the catalogue as effects of `machine` beside
 /// its own.
 [[nodiscard]] std::vector<model::AppliedEffect> parse_effects(

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -21,6 +22,7 @@
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/effect_drawing.hpp"
 #include "tools/cli/numbers.hpp"
+#include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
@@ -173,12 +175,9 @@ void print_strengths(const Effect& effect, const synthetic::EffectPicture& pictu
       picture.strengths.front().columns * picture.strengths.front().rows);
 }
 
-std::vector<double> chosen_values(const Effect& effect,
-                                  EffectSide side,
-                                  const EffectsOptions& options,
-                                  const model::Machine& machine) {
-  OptionProblems problems;
-  model::AppliedEffect wanted = applied(effect, side, nominal_values(effect));
+std::map<std::string, double> parse_values(const EffectsOptions& options,
+                                           OptionProblems& problems) {
+  std::map<std::string, double> values;
   for (const std::string& argument : options.values) {
     const std::size_t equals = argument.find('=');
     double value = 0.0;
@@ -187,8 +186,19 @@ std::vector<double> chosen_values(const Effect& effect,
       problems.add("--set", argument, "parameter=number");
       continue;
     }
-    wanted.parameters[argument.substr(0, equals)] = value;
+    values[argument.substr(0, equals)] = value;
   }
+  return values;
+}
+
+std::vector<double> chosen_values(const Effect& effect,
+                                  EffectSide side,
+                                  const EffectsOptions& options,
+                                  const model::Machine& machine) {
+  OptionProblems problems;
+  model::AppliedEffect wanted = applied(effect, side, nominal_values(effect));
+  for (const auto& [parameter, value] : parse_values(options, problems))
+    wanted.parameters[parameter] = value;
   model::Machine with = machine;
   with.effects.push_back(wanted);
   for (const model::MachineProblem& problem : model::effects::problems_of_effects(with)) {
@@ -202,15 +212,23 @@ std::vector<double> chosen_values(const Effect& effect,
   return values;
 }
 
-EffectSide chosen_side(const Effect& effect, const std::string& word) {
+EffectSide chosen_side(const Effect& effect, const std::string& word, OptionProblems& problems) {
   if (word.empty()) return effect.sides.front();
   for (const EffectSide side : effect.sides) {
     if (name(side) == word || (word == "-" && side == EffectSide::none)) return side;
   }
-  OptionProblems problems;
   problems.add("--side", word, fmt::format("one of {}", sides_of(effect)));
-  problems.throw_if_any();
   return EffectSide::none;
+}
+
+void check_options(const EffectsOptions& options, OptionProblems& problems) {
+  if (options.markdown || options.id.empty()) return;
+  (void)parse_values(options, problems);
+  if (const Effect* effect = model::effects::find_effect(options.id)) {
+    (void)chosen_side(*effect, options.side, problems);
+  } else {
+    problems.add("effect", options.id, "an effect that `chaintrue effects` lists");
+  }
 }
 
 /// Marks all over the bed that the machine, or the machine with the effect, cannot hold the sled
@@ -243,11 +261,8 @@ std::optional<std::string> unreachable(const model::Machine& machine,
 
 int show_picture(const Effect& effect, const EffectsOptions& options) {
   const model::Machine machine = files::read_machine(options.machine);
-  OptionProblems problems;
-  problems.require("--length-noise-mm", options.length_noise_mm, 1e-6, 100.0);
-  problems.require("--position-noise-mm", options.position_noise_mm, 0.0, 100.0);
-  problems.throw_if_any();
-  const EffectSide side = chosen_side(effect, options.side);
+  OptionProblems sound;  // check_options has seen to it
+  const EffectSide side = chosen_side(effect, options.side, sound);
   const std::vector<double> values = chosen_values(effect, side, options, machine);
   grid::StatedNoise noise;
   noise.length_mm = options.length_noise_mm;
@@ -291,11 +306,6 @@ int run_effects(const EffectsOptions& options) {
     return kDone;
   }
   const Effect* effect = model::effects::find_effect(options.id);
-  if (effect == nullptr) {
-    OptionProblems problems;
-    problems.add("effect", options.id, "an effect that `chaintrue effects` lists");
-    problems.throw_if_any();
-  }
   if (!options.machine.empty()) return show_picture(*effect, options);
   describe(*effect);
   return kDone;
@@ -329,6 +339,8 @@ void add_effects(CLI::App& app, Run& run) {
       "  build/chaintrue effects\n"
       "  build/chaintrue effects chain_stretch --machine fixtures/machines/classic.json --draw "
       "stretch.svg");
+  add_option_check(*verb,
+                   [options](OptionProblems& problems) { check_options(*options, problems); });
   verb->callback([options, &run] { run = [options] { return run_effects(*options); }; });
 }
 

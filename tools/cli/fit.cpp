@@ -43,6 +43,37 @@ const std::map<std::string, interp::EndCondition>& end_conditions() {
   return kByName;
 }
 
+/// Beyond these a fit takes more than a minute (docs/reliability.md).
+constexpr std::size_t kMostPoints = 10000;
+constexpr std::size_t kMostDistances = 5000;
+constexpr std::size_t kMostHoles = 150;
+
+/// Empty where there are not too many.
+std::string too_many(const grid::Measured& measured) {
+  std::size_t points = 0;
+  std::size_t distances = 0;
+  std::size_t holes = 0;
+  for (const grid::MeasuredFile& file : measured.files()) {
+    if (const auto* grid = std::get_if<grid::MeasuredGrid>(&file.measured)) {
+      points += grid->points.size();
+    } else {
+      const auto& set = std::get<grid::MeasuredHoles>(file.measured);
+      distances += set.distances.size();
+      holes += set.holes.size();
+    }
+  }
+  const auto sentence = [](std::size_t found, const char* what, std::size_t most) {
+    return fmt::format("{} {} are more than a fit takes ({}): leave some out, evenly over the bed",
+                       found,
+                       what,
+                       most);
+  };
+  if (points > kMostPoints) return sentence(points, "points", kMostPoints);
+  if (distances > kMostDistances) return sentence(distances, "distances", kMostDistances);
+  if (holes > kMostHoles) return sentence(holes, "holes", kMostHoles);
+  return {};
+}
+
 /// The map goes to its file, the words to standard error; a fit that failed is told.
 int finish(const FitCommand& command,
            const tl::expected<grid::CompensationMap, grid::FitFailure>& map,
@@ -84,22 +115,7 @@ int fit_the_holes(const FitCommand& command, const grid::MeasuredHoles& set) {
 }
 
 /// The file and those of --with in one estimate.
-int fit_all(const FitCommand& command,
-            std::variant<grid::MeasuredGrid, grid::MeasuredHoles> first) {
-  if (command.surface == "direct") {
-    fmt::print(stderr,
-               "chaintrue fit: a direct surface is of one grid alone: leave --surface or --with "
-               "out\n");
-    return kUsage;
-  }
-  grid::Measured measured;
-  measured.add({grid::files::name_in_messages(command.input.grid), std::move(first)});
-  for (const std::string& name : command.with) {
-    GridInput input = command.input;
-    input.grid = name;
-    measured.add({grid::files::name_in_messages(name),
-                  read_measured_input(input, command.tape, MeasuredUse::fit)});
-  }
+int fit_all(const FitCommand& command, const grid::Measured& measured) {
   const auto fit = grid::fit_together(measured);
   if (!fit) {
     fmt::print(stderr, "chaintrue fit: {}\n", fit.error().sentence);
@@ -117,12 +133,37 @@ int fit_all(const FitCommand& command,
   return finish(command, map, words);
 }
 
+/// The file, and those of --with.
+grid::Measured read_all(const FitCommand& command) {
+  std::vector<std::string> names = {command.input.grid};
+  names.insert(names.end(), command.with.begin(), command.with.end());
+  grid::Measured measured;
+  for (const std::string& name : names) {
+    GridInput input = command.input;
+    input.grid = name;
+    measured.add({grid::files::name_in_messages(name),
+                  read_measured_input(input, command.tape, MeasuredUse::fit)});
+  }
+  return measured;
+}
+
 int run_fit(const FitCommand& command) {
-  const auto input = read_measured_input(command.input, command.tape, MeasuredUse::fit);
-  if (!command.with.empty()) return fit_all(command, input);
-  if (const auto* holes = std::get_if<grid::MeasuredHoles>(&input))
+  if (command.surface == "direct" && !command.with.empty()) {
+    fmt::print(stderr,
+               "chaintrue fit: a direct surface is of one grid alone: leave --surface or --with "
+               "out\n");
+    return kUsage;
+  }
+  const grid::Measured all = read_all(command);
+  const std::vector<grid::MeasuredFile>& files = all.files();
+  if (const std::string sentence = too_many(all); !sentence.empty()) {
+    fmt::print(stderr, "{}: {}\n", files.front().name, sentence);
+    return kBadInput;
+  }
+  if (files.size() > 1) return fit_all(command, all);
+  if (const auto* holes = std::get_if<grid::MeasuredHoles>(&files.front().measured))
     return fit_the_holes(command, *holes);
-  const auto& measured = std::get<grid::MeasuredGrid>(input);
+  const auto& measured = std::get<grid::MeasuredGrid>(files.front().measured);
   grid::FitOptions options;
   options.surface =
       command.surface == "direct" ? grid::SurfaceKind::direct : grid::SurfaceKind::residual;

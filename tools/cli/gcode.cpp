@@ -7,6 +7,7 @@
 
 #include "tools/cli/gcode_verbs.hpp"
 #include "tools/cli/numbers.hpp"
+#include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 
 namespace chaintrue::cli {
@@ -37,6 +38,9 @@ CLI::App* add(CLI::App& parent,
              options->step_budget,
              {"", 1.0, 1e12},
              "Steps in loops and subroutines until a program counts as endless");
+  add_option_check(*verb, [options](OptionProblems& problems) {
+    problems.take_from([&options] { (void)options->home_mm(); });
+  });
   verb->callback([options, action, &run] { run = [options, action] { return action(*options); }; });
   return verb;
 }
@@ -75,6 +79,9 @@ void add_limits(CLI::App& verb, GcodeOptions& options) {
   verb.add_flag("--home-is-zero",
                 options.home_is_zero,
                 "G28 and G30 go to the machine's zero; otherwise they are refused");
+  add_option_check(verb, [&options](OptionProblems& problems) {
+    if (!options.map.empty()) check_limits(options, problems);
+  });
 }
 
 }  // namespace

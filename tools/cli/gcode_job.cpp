@@ -102,19 +102,20 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options) {
       *target_, *kinematics_, gcode::firmware(machine_.controller.kind));
 }
 
+void check_limits(const GcodeOptions& options, OptionProblems& problems) {
+  const double least_mm = gcode::least_tolerance_mm(options.decimals);
+  if (options.tolerance_mm > least_mm) return;
+  problems.add("--tolerance-mm",
+               fmt::format("{}", options.tolerance_mm),
+               fmt::format("more than {:.2g} mm, which rounding to {} decimals takes; more "
+                           "--decimals round less",
+                           least_mm,
+                           options.decimals));
+}
+
 gcode::CompensateOptions compensate_options(const GcodeOptions& options,
                                             const GcodeMachine& machine) {
   gcode::CompensateOptions result;
-  const double least_mm = gcode::least_tolerance_mm(options.decimals);
-  if (options.tolerance_mm <= least_mm) {
-    throw InputError({{"command line",
-                       "--tolerance-mm",
-                       fmt::format("{}", options.tolerance_mm),
-                       fmt::format("more than {:.2g} mm, which rounding to {} decimals takes; more "
-                                   "--decimals round less",
-                                   least_mm,
-                                   options.decimals)}});
-  }
   result.tolerance_mm = options.tolerance_mm;
   result.decimals = options.decimals;
   result.home = options.home_mm();

@@ -11,6 +11,7 @@
 
 #include "grid/files/pending_file.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "tools/cli/effect_argument.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/gcode/compensation_target.hpp"
 #include "tools/gcode/compensator.hpp"
@@ -72,6 +73,8 @@ class GcodeMachine {
   model::ChainLengths half_play_mm_;
 };
 
+/// That the tolerance leaves room for rounding.
+void check_limits(const GcodeOptions& options, OptionProblems& problems);
 /// What compensating needs to know, the program's own hash left out.
 [[nodiscard]] gcode::CompensateOptions compensate_options(const GcodeOptions& options,
                                                           const GcodeMachine& machine);

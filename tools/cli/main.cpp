@@ -17,8 +17,7 @@
 #include "grid/files/pending_file.hpp"
 #include "grid/printing.hpp"
 #include "tools/cli/map_input.hpp"
-#include "tools/cli/numbers.hpp"
-#include "tools/cli/places.hpp"
+#include "tools/cli/option_checks.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -58,8 +57,7 @@ int finish_standard_output(int code, int error_number) {
 
 int run_verb(const Run& run, const std::string& verb) {
   try {
-    check_numbers();
-    check_places();
+    check_command_line();
     const Progress progress(verb);
     return finish_standard_output(run(), 0);
   } catch (const grid::files::InputError& error) {

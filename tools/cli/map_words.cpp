@@ -8,6 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "grid/precondition.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::cli {
@@ -38,7 +39,7 @@ const SettingWords& words_of(Setting setting) {
   for (const SettingWords& words : kSettingWords) {
     if (words.setting == setting) return words;
   }
-  throw std::logic_error(fmt::format("setting {} has no words", static_cast<int>(setting)));
+  throw grid::precondition("setting {} has no words", static_cast<int>(setting));
 }
 
 double rms(const grid::CompensationMap& map, Eigen::Vector2d grid::MapPoint::*residual) {

@@ -19,6 +19,7 @@
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -163,7 +164,9 @@ std::string drawing_of(const Diagnosis& found, const Sources& sources) {
 
 int plan_after(const PlanAfterOptions& options) {
   const Sources sources = read_sources(options);
-  const Diagnosis found = files::read_diagnosis(options.after);
+  std::vector<files::Warning> warnings;
+  const Diagnosis found = files::read_diagnosis(options.after, &warnings);
+  print_warnings(warnings);
   const std::string others = made_from_others(options, found, sources);
   if (!others.empty()) {
     fmt::print(stderr, "{}", others);

@@ -18,6 +18,7 @@
 #include "grid/files/whole_file.hpp"
 #include "model/calibration/setting.hpp"
 #include "tools/cli/numbers.hpp"
+#include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/simulate_options.hpp"
 #include "tools/cli/verb.hpp"
@@ -274,6 +275,7 @@ void add_simulate(CLI::App& app, Run& run) {
       "  build/chaintrue simulate --machine fixtures/machines/classic.json --holes 9 --distances "
       "20 "
       "--tape-sigma-mm 0.5 --draw-settings --seed 1 -o holes.json");
+  add_option_check(*verb, [options](OptionProblems& problems) { check_words(*options, problems); });
   verb->callback([options, &run] { run = [options] { return run_simulate(*options); }; });
 }
 

@@ -53,15 +53,38 @@ void parse_grid_size(const std::string& text, synthetic::Design& design, OptionP
   design.rows = static_cast<int>(rows);
 }
 
+void parse_lattice(const SimulateOptions& options,
+                   synthetic::Design& design,
+                   OptionProblems& problems) {
+  parse_grid_size(options.grid, design, problems);
+  const auto kind = synthetic::design_kind(options.spacing);
+  const bool lattice =
+      kind == synthetic::DesignKind::regular || kind == synthetic::DesignKind::chebyshev;
+  if (!lattice) problems.add("--spacing", options.spacing, "regular or chebyshev");
+  design.kind = lattice ? *kind : synthetic::DesignKind::regular;
+}
+
+synthetic::Region parse_region(const SimulateOptions& options, OptionProblems& problems) {
+  return parse_word("--region",
+                    options.region,
+                    synthetic::region(options.region),
+                    "whole, left, right, top or bottom",
+                    problems);
+}
+
+synthetic::VisitingOrder parse_order(const SimulateOptions& options, OptionProblems& problems) {
+  return parse_word("--order",
+                    options.order,
+                    synthetic::visiting_order(options.order),
+                    "rows, columns, serpentine_rows, serpentine_columns or random",
+                    problems);
+}
+
 synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& problems) {
   synthetic::Design design;
   design.margin_mm = options.margin_mm;
   design.without_corners = options.without_corners;
-  design.region = parse_word("--region",
-                             options.region,
-                             synthetic::region(options.region),
-                             "whole, left, right, top or bottom",
-                             problems);
+  design.region = parse_region(options, problems);
   if (!options.marks.empty()) {
     design.kind = synthetic::DesignKind::given;
     design.given = files::read_points(options.marks);
@@ -71,12 +94,7 @@ synthetic::Design parse_design(const SimulateOptions& options, OptionProblems& p
     design.kind = synthetic::DesignKind::random;
     design.points = options.random_points;
   } else {
-    parse_grid_size(options.grid, design, problems);
-    const auto kind = synthetic::design_kind(options.spacing);
-    const bool lattice =
-        kind == synthetic::DesignKind::regular || kind == synthetic::DesignKind::chebyshev;
-    if (!lattice) problems.add("--spacing", options.spacing, "regular or chebyshev");
-    design.kind = lattice ? *kind : synthetic::DesignKind::regular;
+    parse_lattice(options, design, problems);
   }
   return design;
 }
@@ -149,15 +167,21 @@ std::vector<synthetic::SettingOffset> parse_offsets(const std::vector<std::strin
   return offsets;
 }
 
+void check_words(const SimulateOptions& options, OptionProblems& problems) {
+  synthetic::Design design;
+  if (!options.grid.empty()) parse_lattice(options, design, problems);
+  (void)parse_region(options, problems);
+  (void)parse_order(options, problems);
+  (void)parse_model(options.model, problems);
+  (void)parse_offsets(options.offsets, problems);
+  check_effect_forms(options.effects, problems);
+}
+
 synthetic::SyntheticSpec parse_spec(const SimulateOptions& options, const model::Machine& machine) {
   OptionProblems problems;
   synthetic::SyntheticSpec spec;
   spec.design = parse_design(options, problems);
-  spec.order = parse_word("--order",
-                          options.order,
-                          synthetic::visiting_order(options.order),
-                          "rows, columns, serpentine_rows, serpentine_columns or random",
-                          problems);
+  spec.order = parse_order(options, problems);
   spec.repeats = options.repeats;
   spec.jitter_mm = options.jitter_mm;
   spec.noise = options.noise;

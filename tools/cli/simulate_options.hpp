@@ -50,6 +50,8 @@ struct SimulateOptions {
 /// Of --offset.
 [[nodiscard]] std::vector<grid::synthetic::SettingOffset> parse_offsets(
     const std::vector<std::string>& arguments, OptionProblems& problems);
+/// What the words of a session or of places are, before any file is read.
+void check_words(const SimulateOptions& options, OptionProblems& problems);
 /// A session's whole specification. \throws files::InputError with all that is wrong.
 [[nodiscard]] grid::synthetic::SyntheticSpec parse_spec(const SimulateOptions& options,
                                                         const model::Machine& machine);

@@ -17,6 +17,7 @@
 #include "grid/sweep/run_sweep.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/numbers.hpp"
+#include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/processes.hpp"
 #include "tools/cli/progress.hpp"
@@ -61,6 +62,14 @@ sweep::Share parse_shard(const std::string& text, OptionProblems& problems) {
   return share;
 }
 
+void check_options(const SweepOptions& options, OptionProblems& problems) {
+  (void)parse_shard(options.shard, problems);
+  if (!options.directory.empty() && options.directory != "-") return;
+  problems.add("-o",
+               options.directory.empty() ? "an empty name" : "-",
+               "the name of a folder; a sweep writes many files");
+}
+
 void refuse_old_results(const SweepOptions& options) {
   const fs::path parts = fs::path(options.directory) / "parts";
   std::error_code error;
@@ -102,18 +111,12 @@ int run_sweep_verb(const SweepOptions& options) {
   std::optional<files::ReadSweep> read;
   sweep::SweepRun run;
   try {
-    OptionProblems problems;
+    OptionProblems sound;  // check_options has seen to it
     run.directory = options.directory;
-    run.share = parse_shard(options.shard, problems);
+    run.share = parse_shard(options.shard, sound);
     run.share.rank = processes.rank();
     run.share.ranks = processes.count();
     run.threads = options.threads;
-    if (options.directory.empty() || options.directory == "-") {
-      problems.add("-o",
-                   options.directory.empty() ? "an empty name" : "-",
-                   "the name of a folder; a sweep writes many files");
-    }
-    problems.throw_if_any();
     read = files::read_sweep(options.specification);
     if (processes.rank() == 0) print_warnings(read->warnings);
     refuse_old_results(options);
@@ -162,6 +165,8 @@ void add_sweep(CLI::App& app, Run& run) {
       "Over several machines: mpirun -n 4 build/chaintrue sweep SPEC.json -o DIR\n\n"
       "Example:\n"
       "  build/chaintrue sweep fixtures/sweeps/quick.json -o sweep");
+  add_option_check(*verb,
+                   [options](OptionProblems& problems) { check_options(*options, problems); });
   verb->callback([options, &run] { run = [options] { return run_sweep_verb(*options); }; });
 }
 

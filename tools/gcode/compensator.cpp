@@ -10,6 +10,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "grid/precondition.hpp"
+
 namespace chaintrue::gcode {
 namespace {
 
@@ -39,10 +41,9 @@ double chord_tolerance(const CompensateOptions& options, bool single_precision) 
       rounding_mm(options.decimals) + (single_precision ? kSinglePrecisionMm : 0.0);
   const double left = ((1.0 - kSpare) * options.tolerance_mm - rounding) / kStretch;
   if (!(left > 0.0)) {
-    throw std::invalid_argument(
-        fmt::format("a tolerance of {} mm leaves nothing beside rounding to {} decimals",
-                    options.tolerance_mm,
-                    options.decimals));
+    throw grid::precondition("a tolerance of {} mm leaves nothing beside rounding to {} decimals",
+                             options.tolerance_mm,
+                             options.decimals);
   }
   return left;
 }

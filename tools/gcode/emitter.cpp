@@ -10,6 +10,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "grid/precondition.hpp"
+
 namespace chaintrue::gcode {
 namespace {
 
@@ -37,7 +39,7 @@ std::size_t cut(std::string_view text, std::size_t most) {
 Emitter::Emitter(ByteSink out, int decimals)
     : out_(std::move(out)), decimals_(decimals), per_mm_(1) {
   if (decimals < 1 || decimals > 6) {
-    throw std::invalid_argument(fmt::format("an output has 1 to 6 decimals, not {}", decimals));
+    throw grid::precondition("an output has 1 to 6 decimals, not {}", decimals);
   }
   for (int i = 0; i < decimals; ++i) per_mm_ *= 10;
 }

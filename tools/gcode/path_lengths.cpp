@@ -10,6 +10,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "grid/precondition.hpp"
+
 namespace chaintrue::gcode {
 namespace {
 
@@ -72,8 +74,7 @@ Result<ProgramSummary> path_lengths(LineSource& source,
                                     double every_mm,
                                     const std::function<void(const PathLengths&)>& write,
                                     Findings& findings) {
-  if (!(every_mm > 0.0))
-    throw std::invalid_argument(fmt::format("places every {} mm make no path", every_mm));
+  if (!(every_mm > 0.0)) throw grid::precondition("places every {} mm make no path", every_mm);
   Sampler sampler(map, home, every_mm, write, findings);
   return run_program(source, dialect, sampler);
 }

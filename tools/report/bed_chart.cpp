@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/precondition.hpp"
+
 namespace chaintrue::report {
 namespace {
 
@@ -28,12 +30,11 @@ double round_down_125(double value) {
 
 Outline view_of(const Outline& sheet, const std::vector<Arrow>& marks) {
   if (!(width_mm(sheet) > 0.0) || !(sheet.y_max_mm > sheet.y_min_mm)) {
-    throw std::invalid_argument(
-        fmt::format("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
-                    sheet.x_min_mm,
-                    sheet.x_max_mm,
-                    sheet.y_min_mm,
-                    sheet.y_max_mm));
+    throw grid::precondition("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
+                             sheet.x_min_mm,
+                             sheet.x_max_mm,
+                             sheet.y_min_mm,
+                             sheet.y_max_mm);
   }
   Outline view = sheet;
   for (const Arrow& mark : marks) {

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "grid/precondition.hpp"
+
 namespace chaintrue::report {
 namespace {
 
@@ -92,12 +94,11 @@ Outline part_of(const PathReport& report, double magnification) {
 Outline view_of(const PathReport& report, double magnification) {
   if (!(report.sheet.x_max_mm > report.sheet.x_min_mm) ||
       !(report.sheet.y_max_mm > report.sheet.y_min_mm)) {
-    throw std::invalid_argument(
-        fmt::format("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
-                    report.sheet.x_min_mm,
-                    report.sheet.x_max_mm,
-                    report.sheet.y_min_mm,
-                    report.sheet.y_max_mm));
+    throw grid::precondition("a report needs a sheet with an extent, not x {} to {}, y {} to {} mm",
+                             report.sheet.x_min_mm,
+                             report.sheet.x_max_mm,
+                             report.sheet.y_min_mm,
+                             report.sheet.y_max_mm);
   }
   Outline view = part_of(report, magnification);
   const double margin =

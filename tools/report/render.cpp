@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "grid/precondition.hpp"
 #include "tools/report/embedded.hpp"
 #include "tools/report/page.hpp"
 
@@ -99,8 +100,7 @@ Json json_of(const Value& value, std::string_view where) {
       [&](const auto& held) -> Json {
         if constexpr (std::is_same_v<std::decay_t<decltype(held)>, double>) {
           if (!std::isfinite(held)) {
-            throw std::invalid_argument(
-                ::fmt::format("{} is {}, which no chart can draw", where, held));
+            throw grid::precondition("{} is {}, which no chart can draw", where, held);
           }
         }
         return held;
@@ -112,11 +112,10 @@ Json rows_of(const DataTable& table) {
   Json rows = Json::array();
   for (const auto& row : table.rows) {
     if (row.size() != table.fields.size()) {
-      throw std::invalid_argument(
-          fmt::format("data table \"{}\": a row has {} values for {} fields",
-                      table.name,
-                      row.size(),
-                      table.fields.size()));
+      throw grid::precondition("data table \"{}\": a row has {} values for {} fields",
+                               table.name,
+                               row.size(),
+                               table.fields.size());
     }
     Json object = Json::object();
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -234,8 +233,8 @@ class Writer {
     add("</tr></thead>\n<tbody>\n");
     for (const Row& row : table.rows) {
       if (row.cells.size() != table.columns.size()) {
-        throw std::invalid_argument(fmt::format(
-            "a table row has {} cells for {} columns", row.cells.size(), table.columns.size()));
+        throw grid::precondition(
+            "a table row has {} cells for {} columns", row.cells.size(), table.columns.size());
       }
       add("<tr{}>", row.is_flagged ? " class=\"flagged\"" : "");
       for (std::size_t i = 0; i < row.cells.size(); ++i) {

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A precondition broken by what is no number is told with that value: the gate of printed numbers
+// has no say in it.
+#include "grid/precondition.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "grid/diagnosis/periodogram.hpp"
+#include "grid/files/json_text.hpp"
+#include "grid/holes/holes_plan.hpp"
+#include "grid/map/measurement_plan.hpp"
+#include "grid/observation/single_readings.hpp"
+#include "grid/synthetic/random.hpp"
+#include "grid/synthetic/strength.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::string words_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  } catch (const std::exception& error) {
+    return std::string("no invalid_argument but ") + error.what();
+  }
+  return "nothing thrown";
+}
+
+TEST(Precondition, IsToldWithItsValues) {
+  EXPECT_STREQ(precondition("{} of {} mm, {:.1f}", 3, kNan, -kInfinity).what(),
+               "3 of nan mm, -inf");
+}
+
+struct Site {
+  const char* name;
+  std::function<void(double)> call;
+};
+
+void PrintTo(const Site& site, std::ostream* out) { *out << site.name; }
+
+class BrokenBy : public testing::TestWithParam<Site> {};
+
+TEST_P(BrokenBy, WhatIsNoNumberIsToldWithIt) {
+  EXPECT_THAT(words_of([] { GetParam().call(kNan); }), testing::HasSubstr("nan"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sites,
+    BrokenBy,
+    testing::Values(
+        Site{"normal_quantile", [](double bad) { (void)synthetic::normal_quantile(bad); }},
+        Site{"portable_log", [](double bad) { (void)synthetic::portable_log(bad); }},
+        Site{"strength",
+             [](double bad) {
+               (void)synthetic::StrengthTable(model::Machine{}, {}, {.length_mm = bad});
+             }},
+        Site{"single_reading",
+             [](double bad) {
+               ExtraReading reading;
+               reading.sigma = bad;
+               (void)observation::SingleReadings({reading});
+             }},
+        Site{"plan_measurement",
+             [](double bad) { (void)plan_measurement(model::Machine{}, {.margin_mm = bad}); }},
+        Site{"plan_holes",
+             [](double bad) { (void)plan_holes(model::Machine{}, {.tape_sigma_mm = bad}); }},
+        Site{"periodogram",
+             [](double bad) {
+               (void)diagnosis::Periodogram(std::vector<double>(50, 1.0), bad);
+             }},
+        Site{"json", [](double bad) { (void)files::print_json(files::Json(bad)); }}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+}  // namespace
+}  // namespace chaintrue::grid

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/option_checks.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+struct OptionCheck {
+  const CLI::App* verb;
+  std::function<void(OptionProblems&)> check;
+};
+
+/// Of the command line; one a process.
+std::vector<OptionCheck>& checks() {
+  static std::vector<OptionCheck> all;
+  return all;
+}
+
+}  // namespace
+
+void add_option_check(const CLI::App& verb, std::function<void(OptionProblems&)> check) {
+  checks().push_back({&verb, std::move(check)});
+}
+
+void check_command_line() {
+  OptionProblems problems;
+  problems.take_from(check_numbers);
+  for (const OptionCheck& one : checks()) {
+    if (one.verb->parsed()) one.check(problems);
+  }
+  problems.take_from(check_places);
+  problems.throw_if_any();
+}
+
+}  // namespace chaintrue::cli
