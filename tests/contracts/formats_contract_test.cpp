@@ -69,12 +69,15 @@ std::string aged_map(std::string text, std::string_view) {
 /// A sweep names other files by their way from its own.
 std::vector<Warning> read_sweep_text(const std::string& text) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  std::string name = test->name();
+  std::replace(name.begin(), name.end(), '/', '_');
   const std::filesystem::path folder =
-      std::filesystem::path(::testing::TempDir()) / (std::string("formats_") + test->name());
+      std::filesystem::path(::testing::TempDir()) / ("formats_" + name);
   std::filesystem::create_directories(folder / "sweeps");
-  std::filesystem::create_directories(folder / "machines");
-  std::filesystem::copy(
-      fixture("machines"), folder / "machines", std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy(fixture("machines"),
+                        folder / "machines",
+                        std::filesystem::copy_options::overwrite_existing |
+                            std::filesystem::copy_options::recursive);
   std::ofstream(folder / "sweeps" / "sweep.json") << text;
   return read_sweep(folder / "sweeps" / "sweep.json").warnings;
 }

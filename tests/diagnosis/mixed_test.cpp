@@ -67,8 +67,8 @@ TEST(MixedDiagnosis, TellsMoreThanEitherAlone) {
   double sum_distances = 0.0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const Measured both = mixed({hidden}, seed);
-    const double points = log_odds(both.grids.front(), cause);
-    const double distances = log_odds(both.holes.front(), cause);
+    const double points = log_odds(*both.grids().front(), cause);
+    const double distances = log_odds(*both.holes().front(), cause);
     const double mix = log_odds(both, cause);
     sum_points += points;
     sum_distances += distances;
@@ -89,9 +89,9 @@ TEST(MixedDiagnosis, FillsTheWholeAnswer) {
   EXPECT_EQ(found->observations, Observations::both);
   EXPECT_EQ(found->verdict, Verdict::named) << found->sentence;
   EXPECT_EQ(found->causes.front().cause.effect->id, "chain_pitch_error");
-  EXPECT_EQ(found->points.size(), measured.grids.front().points.size());
-  EXPECT_EQ(found->distances.size(), measured.holes.front().distances.size());
-  EXPECT_EQ(found->holes.size(), measured.holes.front().holes.size());
+  EXPECT_EQ(found->points.size(), measured.grids().front()->points.size());
+  EXPECT_EQ(found->distances.size(), measured.holes().front()->distances.size());
+  EXPECT_EQ(found->holes.size(), measured.holes().front()->holes.size());
   ASSERT_TRUE(found->stability);
   int distances = 0;
   int holes = 0;
@@ -112,7 +112,7 @@ TEST(MixedDiagnosis, FillsTheWholeAnswer) {
 
 TEST(MixedDiagnosis, ABadReadingOfEitherKindIsFound) {
   Measured measured(session_of({}, 5));
-  measured.grids.front().points[4].lengths->left_mm += 9.0;
+  measured.first_grid()->points[4].lengths->left_mm += 9.0;
   MeasuredHoles set = holes_of({}, 6);
   set.distances[7].distance_mm += 15.0;
   measured.add(set);
@@ -147,7 +147,7 @@ TEST(MixedDiagnosis, TheOrderOfTheFilesChangesNothing) {
 
 TEST(MixedDiagnosis, FewOfEachAreEnoughTogether) {
   Measured measured(session_of({}, 1, 3, 2));
-  measured.grids.front().points.resize(5);
+  measured.first_grid()->points.resize(5);
   EXPECT_FALSE(diagnose(measured, verdict_alone()));
   measured.add(holes_of({}, 2));
   EXPECT_TRUE(diagnose(measured, verdict_alone()));

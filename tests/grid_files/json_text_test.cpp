@@ -210,7 +210,7 @@ const Record<Hole>& hole_record() {
 
 const Record<Holes>& holes_record() {
   static const auto record =
-      Record<Holes>("a holes file", "chaintrue_holes")
+      Record<Holes>("a holes file", kHolesFormat)
           .sparse("name", &Holes::name, text())
           .required("holes", &Holes::holes, list(object(hole_record()), 2))
           .sparse("weights", &Holes::weights, dictionary(number({"", 0, 1})))
