@@ -249,6 +249,8 @@ TEST_F(HolesCommands, DiagnoseNamesTheCauseAndWritesEveryFile) {
               AllOf(StartsWith("Most likely the chain's links are worn"),
                     HasSubstr("Error of distances held out, mm"),
                     HasSubstr("all the distances of each of 9 holes"),
+                    HasSubstr("No error at the border is given: without the distances that end at "
+                              "an outermost hole too few would be left."),
                     Not(HasSubstr("sheet laid right by")),
                     Not(HasSubstr("points"))));
   const std::string file = content_of(folder_ / "d.json");
@@ -260,6 +262,9 @@ TEST_F(HolesCommands, DiagnoseNamesTheCauseAndWritesEveryFile) {
   EXPECT_THAT(content_of(folder_ / "d.html"),
               AllOf(HasSubstr("What it does to the distances"),
                     HasSubstr("0.5 mm a reading of the tape and 0.3 mm a hole"),
+                    HasSubstr("Does the name hang on a few distances?"),
+                    HasSubstr("Every good distance, in units"),
+                    HasSubstr("No error at the border is given"),
                     Not(HasSubstr("Folded at one sprocket turn"))));
   EXPECT_THAT(content_of(folder_ / "m2.json"), HasSubstr("\"effect\": \"chain_pitch_error\""));
   // The file is enough for the page, and for the programs that ask for it on standard output.
@@ -348,6 +353,27 @@ TEST_F(MixedCommands, PlanSaysWhatToMeasureNextAndInWhichFile) {
   const double chosen = probability_with({"chain_mass_kg_per_m", "", 0.14, 0.002});
   const double other = probability_with({"ring_radius_mm", "", 139.1, 0.5});
   EXPECT_GT(chosen, other);
+}
+
+TEST_F(MixedCommands, ThePageShowsReadingsOfBothKinds) {
+  grid::MeasuredHoles set = grid::files::read_holes(folder_ / "h.json").holes;
+  set.distances[3].distance_mm += 25.0;
+  write("bad.json", grid::files::write_holes(set));
+  const Outcome found = run("diagnose g.json --with bad.json --report d.html");
+  ASSERT_EQ(found.code, 0) << found.err;
+  EXPECT_THAT(found.out, AllOf(HasSubstr("mm too long ("), Not(HasSubstr("  point 4:"))));
+  EXPECT_THAT(content_of(folder_ / "d.html"),
+              AllOf(HasSubstr("21 points and 14 distances"),
+                    HasSubstr("What it does to the tool"),
+                    HasSubstr("The distances, as read less as predicted"),
+                    HasSubstr("Against the way it was measured"),
+                    HasSubstr("<h2>Bad readings</h2>"),
+                    HasSubstr("read less predicted, mm"),
+                    Not(HasSubstr("right of its mark, mm")),
+                    HasSubstr("Both chains at every good point, and every good distance"),
+                    HasSubstr("At the border the outermost points were held out."),
+                    HasSubstr("mm a chain and 0.3 mm a mark"),
+                    HasSubstr("mm a reading of the tape and 0.3 mm a hole")));
 }
 
 TEST_F(MixedCommands, PlanAsksForAllTheFilesOfADiagnosis) {

@@ -50,11 +50,12 @@ Chart probability_chart(const Diagnosis& found) {
 }
 
 Chart gain_chart(const Diagnosis& found) {
-  Chart chart{.specification = "gain_bars",
-              .title = is_of_distances(found) ? "Error of distances held out, rms"
-                                              : "Error of the tool at points held out, rms",
-              .caption = "The thin line on a bar is its 90 % interval. Held out: " +
-                         found.gain->scheme + "."};
+  Chart chart{
+      .specification = "gain_bars",
+      .title = is_gain_of_distances(*found.gain) ? "Error of distances held out, rms"
+                                                 : "Error of the tool at points held out, rms",
+      .caption =
+          "The thin line on a bar is its 90 % interval. Held out: " + found.gain->scheme + "."};
   DataTable table{"rows", {"what", "rms_mm", "low_mm", "high_mm", "most_mm", "color"}, {}};
   const auto color_of = [&](const grid::diagnosis::HeldOut* row) {
     if (row == &found.gain->extended || row == &found.gain->extended_and_surface)

@@ -255,10 +255,23 @@ std::string at_known_periods(const Diagnosis& found, const Series& series, Side 
       share_percent(link_chance));
 }
 
+std::string_view what_is_plotted(const Diagnosis& found) {
+  switch (found.observations) {
+    case grid::diagnosis::Observations::points:
+      return "Both chains at every good point";
+    case grid::diagnosis::Observations::distances:
+      return "Every good distance";
+    case grid::diagnosis::Observations::both:
+      break;
+  }
+  return "Both chains at every good point, and every good distance";
+}
+
 }  // namespace
 
 Section stability_section(const Diagnosis& found) {
-  Section section{.title = "Does the name hang on a few points?"};
+  Section section{.title =
+                      fmt::format("Does the name hang on a few {}?", name(found.observations))};
   section.blocks.emplace_back(removals_table(found));
   const auto& removals = found.stability->removals;
   // Distances have no place on the bed.
@@ -320,9 +333,10 @@ Section normal_section(const Diagnosis& found) {
       found.noise_factor)});
   Chart chart{.specification = "normal_plot",
               .title = "What is left, against normal noise",
-              .caption =
-                  "Both chains at every good point, in units of their own rms. The band "
-                  "holds all dots in 95 of 100 sessions of noise."};
+              .caption = fmt::format(
+                  "{}, in units of their own rms. The band holds all dots in 95 of 100 sessions of "
+                  "noise.",
+                  what_is_plotted(found))};
   DataTable table{"quantiles", {"value", "expected", "low", "high"}, {}};
   double reach = 2.5;
   double expected = 2.0;

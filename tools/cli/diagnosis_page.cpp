@@ -119,6 +119,7 @@ Section arrows_section(const Diagnosis& found) {
   if (is_of_distances(found)) return {"What it does to the distances", {distance_chart(found)}};
   Section section{"What it does to the tool", {}};
   for (report::ChartRow& row : arrow_charts(found)) section.blocks.emplace_back(std::move(row));
+  if (!found.distances.empty()) section.blocks.emplace_back(distance_chart(found));
   return section;
 }
 
@@ -127,8 +128,8 @@ Section signature_section(const Diagnosis& found) {
   section.blocks.emplace_back(Paragraph{
       "What was measured beside what the cause makes of it, once the settings have taken what they "
       "can. A cause is right where its picture is the measured one and only noise is left."});
-  if (is_of_distances(found)) section.blocks.emplace_back(distance_strip_chart(found));
   for (report::Chart& chart : strip_charts(found)) section.blocks.emplace_back(std::move(chart));
+  if (!found.distances.empty()) section.blocks.emplace_back(distance_strip_chart(found));
   return section;
 }
 
@@ -150,6 +151,7 @@ Section residuals_section(const Diagnosis& found) {
         "The points do not say in which order they were visited, so drift, skipped links and "
         "friction cannot be looked for."});
   }
+  if (!found.distances.empty()) section.blocks.emplace_back(distance_scatter_charts(found));
   return section;
 }
 
@@ -188,18 +190,19 @@ Table error_table(const std::vector<GainRow>& rows,
 Section gain_section(const Diagnosis& found) {
   const auto& gain = *found.gain;
   Section section{"What naming it gains", {gain_chart(found)}};
-  const bool of_distances = is_of_distances(found);
-  Table table =
-      error_table(gain_rows(found), gain.noise_floor_mm, !of_distances, name(found.observations));
+  const bool of_distances = is_gain_of_distances(gain);
+  const bool has_border = gain.border.calibrated_mm > 0.0;
+  Table table = error_table(
+      gain_rows(found), gain.noise_floor_mm, has_border, of_distances ? "distances" : "points");
   table.caption = fmt::format(
       "Error of {} that had no part in the fit: {}. The naming was repeated in "
       "every "
-      "fold; {} of {} named the same.{}",
+      "fold; {} of {} named the same. {}",
       of_distances ? "distances" : "the tool at points",
       gain.scheme,
       gain.folds_agree,
       gain.folds,
-      of_distances ? "" : " At the border the outermost points were held out.");
+      border_sentence(gain));
   section.blocks.emplace_back(std::move(table));
   return section;
 }
@@ -280,9 +283,8 @@ report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
   const VerdictLights& lights = lights_of(found.verdict);
   report::Page page;
   page.title = fmt::format("Diagnosis: {}", found.grid_name);
-  page.subtitle = fmt::format(
-      "{}, {} {}", found.extended_machine.name, reading_count(found), name(found.observations));
-  const bool has_readings = reading_count(found) > 0;
+  page.subtitle = fmt::format("{}, {}", found.extended_machine.name, readings_counted(found));
+  const bool has_readings = !found.points.empty() || !found.distances.empty();
   page.verdict = typeset(found.sentence);
   const bool is_something_left = is_surprising(found.left_over);
   page.tone = is_something_left && lights.tone == Tone::good ? Tone::caution : lights.tone;

@@ -104,32 +104,44 @@ Section bounds_section(const Diagnosis& found) {
 
 namespace {
 
-Section distance_outliers_section(const Diagnosis& found) {
+Table bad_distances(const Diagnosis& found) {
   Table table{{{"distance"}, {"read less predicted, mm", true}, {"in sigmas", true}},
               {},
-              "Against what all the other distances make of it. They were set aside; measure them "
-              "again."};
-  for (const auto& bad : found.outliers)
+              fmt::format("Against what all the other {} make of it. They were set aside; measure "
+                          "them again.",
+                          name(found.observations))};
+  for (const auto& bad : found.outliers) {
+    if (!is_distance(found, bad)) continue;
     table.rows.push_back(
-        {{reading_name(found, bad.index), fixed(bad.off_mm, 2), fixed(bad.distance, 1)}, true});
-  return {"Bad distances", {std::move(table)}};
+        {{distance_name(found, bad.index), fixed(bad.off_mm, 2), fixed(bad.distance, 1)}, true});
+  }
+  return table;
 }
 
-}  // namespace
-
-Section outliers_section(const Diagnosis& found) {
-  if (is_of_distances(found)) return distance_outliers_section(found);
+Table bad_points(const Diagnosis& found) {
   Table table{{{"point"}, {"right of its mark, mm", true}, {"up, mm", true}, {"in sigmas", true}},
               {},
               "Where the tool would have to have been for the reading to be right. They were set "
               "aside; measure them again."};
-  for (const auto& bad : found.outliers)
+  for (const auto& bad : found.outliers) {
+    if (is_distance(found, bad)) continue;
     table.rows.push_back({{point_name(bad.index),
                            fixed(bad.shift_mm.x(), 2),
                            fixed(bad.shift_mm.y(), 2),
                            fixed(bad.distance, 1)},
                           true});
-  return {"Bad points", {std::move(table)}};
+  }
+  return table;
+}
+
+}  // namespace
+
+Section outliers_section(const Diagnosis& found) {
+  Section section{.title = fmt::format("Bad {}", name(found.observations))};
+  for (const Table& table : {bad_points(found), bad_distances(found)}) {
+    if (!table.rows.empty()) section.blocks.emplace_back(table);
+  }
+  return section;
 }
 
 Section settings_section(const Diagnosis& found) {
@@ -162,20 +174,24 @@ Section settings_section(const Diagnosis& found) {
 namespace {
 
 std::string noise_in_words(const Diagnosis& found) {
+  std::vector<std::string> stated;
+  if (found.stated_noise) {
+    stated.push_back(
+        fmt::format("{:g} mm a chain and {:g} mm a mark (one sigma, {:g} degrees of freedom); ",
+                    found.stated_noise->length_mm,
+                    found.stated_noise->position_mm,
+                    found.stated_noise->dof));
+  }
   if (found.stated_tape) {
-    return fmt::format(
-        "Noise as stated: {:g} mm a reading of the tape and {:g} mm a hole on either axis (one "
-        "sigma, {:g} degrees of freedom); ",
+    stated.push_back(fmt::format(
+        "{:g} mm a reading of the tape and {:g} mm a hole on either axis (one sigma, {:g} degrees "
+        "of freedom); ",
         found.stated_tape->tape_sigma_mm,
         found.stated_tape->hole_sigma_mm,
-        found.stated_tape->dof);
+        found.stated_tape->dof));
   }
-  if (!found.stated_noise) return "The noise was not stated; ";
-  return fmt::format(
-      "Noise as stated: {:g} mm a chain and {:g} mm a mark (one sigma, {:g} degrees of freedom); ",
-      found.stated_noise->length_mm,
-      found.stated_noise->position_mm,
-      found.stated_noise->dof);
+  if (stated.empty()) return "The noise was not stated; ";
+  return fmt::format("Noise as stated: {}", fmt::join(stated, ""));
 }
 
 }  // namespace

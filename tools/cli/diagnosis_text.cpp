@@ -88,13 +88,14 @@ void write_errors(Text& text, const std::vector<GainRow>& rows, double floor_mm)
 
 void write_gain(Text& text, const Diagnosis& found) {
   if (found.gain) {
-    text.heading(is_of_distances(found) ? "Error of distances held out, mm"
-                                        : "Error of the tool at points held out, mm");
+    text.heading(is_gain_of_distances(*found.gain) ? "Error of distances held out, mm"
+                                                   : "Error of the tool at points held out, mm");
     write_errors(text, gain_rows(found), found.gain->noise_floor_mm);
     text.line("  {}; the same cause was named in {} of {} folds.",
               found.gain->scheme,
               found.gain->folds_agree,
               found.gain->folds);
+    if (!(found.gain->border.calibrated_mm > 0.0)) text.line("  {}", border_sentence(*found.gain));
   }
   if (found.transferred) {
     text.heading(fmt::format("Error of the tool on \"{}\", {} points that had no part in this, mm",
@@ -135,9 +136,9 @@ void write_rest(Text& text, const Diagnosis& found) {
   if (!found.outliers.empty()) {
     text.heading(fmt::format("Bad {}, to be measured again", name(found.observations)));
     for (const auto& bad : found.outliers) {
-      if (is_of_distances(found)) {
+      if (is_distance(found, bad)) {
         text.line("  {}: read {} ({:.1f} sigmas)",
-                  reading_name(found, bad.index),
+                  distance_name(found, bad.index),
                   off_in_words(bad.off_mm),
                   bad.distance);
         continue;

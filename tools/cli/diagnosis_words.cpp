@@ -118,16 +118,42 @@ std::string_view files_in_words(const grid::diagnosis::Diagnosis& found) {
   return "GRID --with HOLES";
 }
 
-std::string reading_name(const grid::diagnosis::Diagnosis& found, std::size_t index) {
-  if (!is_of_distances(found)) return point_name(index);
+std::string readings_counted(const grid::diagnosis::Diagnosis& found) {
+  const std::string points = fmt::format("{} points", found.points.size());
+  const std::string distances = fmt::format("{} distances", found.distances.size());
+  switch (found.observations) {
+    case grid::diagnosis::Observations::points:
+      return points;
+    case grid::diagnosis::Observations::distances:
+      return distances;
+    case grid::diagnosis::Observations::both:
+      break;
+  }
+  return points + " and " + distances;
+}
+
+bool is_distance(const grid::diagnosis::Diagnosis& found, const grid::diagnosis::Outlier& bad) {
+  return is_of_distances(found) || bad.of == grid::diagnosis::Observations::distances;
+}
+
+bool is_gain_of_distances(const grid::diagnosis::Gain& gain) {
+  return gain.scheme.find("distances") != std::string::npos;
+}
+
+std::string border_sentence(const grid::diagnosis::Gain& gain) {
+  const char* outermost = is_gain_of_distances(gain) ? "the distances that end at an outermost hole"
+                                                     : "the outermost points";
+  return gain.border.calibrated_mm > 0.0
+             ? fmt::format("At the border {} were held out.", outermost)
+             : fmt::format("No error at the border is given: without {} too few would be left.",
+                           outermost);
+}
+
+std::string distance_name(const grid::diagnosis::Diagnosis& found, std::size_t index) {
   for (const auto& distance : found.distances) {
     if (distance.index == index) return "distance " + words_of_ends(distance);
   }
   return fmt::format("distance {}", index + 1);
-}
-
-std::size_t reading_count(const grid::diagnosis::Diagnosis& found) {
-  return is_of_distances(found) ? found.distances.size() : found.points.size();
 }
 
 std::string off_in_words(double off_mm) {
@@ -238,9 +264,9 @@ std::vector<GainRow> gain_rows(const grid::diagnosis::Diagnosis& diagnosis) {
   const grid::diagnosis::Gain& gain = *diagnosis.gain;
   std::vector<GainRow> rows = {{"as delivered", &gain.as_delivered, {}}};
   if (gain.placed) rows.push_back({"sheet placed, machine as stated", &*gain.placed, {}});
-  // Distances have no border of their own.
+  // Nothing was held out there where too few would have been left.
   const auto border = [&](double mm) {
-    return is_of_distances(diagnosis) ? std::nullopt : std::optional(mm);
+    return gain.border.calibrated_mm > 0.0 ? std::optional(mm) : std::nullopt;
   };
   rows.push_back({"calibrated", &gain.calibrated, border(gain.border.calibrated_mm)});
   if (!diagnosis.causes.empty()) {

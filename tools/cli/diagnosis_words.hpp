@@ -21,12 +21,10 @@ namespace chaintrue::cli {
 
 /// "point 17": counted from one, as people count.
 [[nodiscard]] std::string point_name(std::size_t index);
-/// The same of what was measured: "point 3", or "distance A-B".
-[[nodiscard]] std::string reading_name(const grid::diagnosis::Diagnosis& found, std::size_t index);
+/// "distance A-B", by its position in the file.
+[[nodiscard]] std::string distance_name(const grid::diagnosis::Diagnosis& found, std::size_t index);
 /// Whether distances between holes were measured in place of points.
 [[nodiscard]] bool is_of_distances(const grid::diagnosis::Diagnosis& found);
-/// How many points, or distances.
-[[nodiscard]] std::size_t reading_count(const grid::diagnosis::Diagnosis& found);
 /// "1.2 mm too short"
 [[nodiscard]] std::string off_in_words(double off_mm);
 
@@ -45,6 +43,16 @@ namespace chaintrue::cli {
 [[nodiscard]] std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over);
 /// The files of a diagnosis as a command names them: GRID, HOLES or both.
 [[nodiscard]] std::string_view files_in_words(const grid::diagnosis::Diagnosis& found);
+
+/// What was weighed: "34 points", "20 distances", "34 points and 20 distances".
+[[nodiscard]] std::string readings_counted(const grid::diagnosis::Diagnosis& found);
+/// A bad one is a distance, and no point.
+[[nodiscard]] bool is_distance(const grid::diagnosis::Diagnosis& found,
+                               const grid::diagnosis::Outlier& bad);
+/// What was held out are distances: no points were read, or too few.
+[[nodiscard]] bool is_gain_of_distances(const grid::diagnosis::Gain& gain);
+/// What was held out at the border, or why no error is given there.
+[[nodiscard]] std::string border_sentence(const grid::diagnosis::Gain& gain);
 
 /// The next measurements as sentences: what to do, where, and how well.
 [[nodiscard]] std::vector<std::string> follow_ups_in_words(
