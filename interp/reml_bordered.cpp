@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "interp/symmetric_eigen.hpp"
 
 namespace chaintrue::interp::reml {
 namespace {
@@ -150,7 +149,7 @@ class BorderedStructure final : public Structure {
     const Block& block = blocks_.front();
     const Eigen::MatrixXd penalised =
         problem.design.middleCols(block.first_column, block.weight.size());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(penalised * penalised.transpose());
+    const SymmetricEigen solver(penalised * penalised.transpose());
     const Eigen::MatrixXd& q = solver.eigenvectors();
     // T = R diag((d + c)^-1/2) with R orthonormal, hence T^-1 = diag(d + c) T'; w = c / (d + c).
     rows_ = TurnedRows{solver.eigenvalues().cwiseMax(0.0),
@@ -191,7 +190,7 @@ class BorderedStructure final : public Structure {
     }
     const Eigen::MatrixXd half = cholesky.half_solve(penalty.matrix);
     const Eigen::MatrixXd scaled = block.balance * cholesky.half_solve(half.transpose());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+    const SymmetricEigen solver(scaled);
     block.weight = solver.eigenvalues().cwiseMax(0.0).cwiseMin(1.0);
     // Eigenvalues come in rising order: the first are the penalty's null space.
     const Eigen::Index nullity = penalty.rank >= 0 ? gram.rows() - penalty.rank : 0;
@@ -203,7 +202,7 @@ class BorderedStructure final : public Structure {
 
   /// (1) where the penalty is the identity: the eigenvectors of G alone do it.
   static bool diagonalise_ridge(const Eigen::MatrixXd& gram, Block& block) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
+    const SymmetricEigen solver(gram);
     const Eigen::VectorXd sum = solver.eigenvalues().cwiseMax(0.0).array() + block.balance;
     block.weight = block.balance * sum.cwiseInverse();
     block.basis = solver.eigenvectors() * sum.cwiseSqrt().cwiseInverse().asDiagonal();

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+
+#include "interp/symmetric_eigen.hpp"
 
 namespace chaintrue::interp::reml {
 namespace {
@@ -15,8 +16,7 @@ namespace {
 constexpr double kZeroEigenvalue = 1e-12;
 
 Eigen::Index rank_of(const Eigen::MatrixXd& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
-  const Eigen::VectorXd& values = solver.eigenvalues();
+  const Eigen::VectorXd values = symmetric_eigenvalues(matrix);
   const double largest = values.cwiseAbs().maxCoeff();
   return (values.array() > kZeroEigenvalue * largest).count();
 }
@@ -82,7 +82,7 @@ void Marginal::find_ranks() {
       return;
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(total);
+  const SymmetricEigen solver(total);
   const double largest = solver.eigenvalues().maxCoeff();
   const Eigen::Index rank = (solver.eigenvalues().array() > kZeroEigenvalue * largest).count();
   ranges_overlap_ = rank < sum_of_ranks;

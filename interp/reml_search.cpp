@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
+#include "interp/symmetric_eigen.hpp"
 
 namespace chaintrue::interp::reml {
 namespace {
@@ -101,7 +101,7 @@ Eigen::VectorXd newton_step(const State& state, const std::vector<bool>& held) {
       gradient(i) = 0.0;
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hessian);
+  const SymmetricEigen solver(hessian);
   const double floor = 1e-8 * std::max(1.0, solver.eigenvalues().cwiseAbs().maxCoeff());
   const Eigen::VectorXd curvature = solver.eigenvalues().cwiseAbs().cwiseMax(floor);
   Eigen::VectorXd step = -(solver.eigenvectors() *
@@ -201,7 +201,7 @@ Eigen::MatrixXd covariance_from_hessian(const Eigen::MatrixXd& hessian,
     return covariance;
   }
   const Eigen::MatrixXd information = 0.5 * hessian(free, free);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(information);
+  const SymmetricEigen solver(information);
   // A flat direction would claim an unbounded spread: ten decades of lambda are the most there is.
   const double floor = 1.0 / (kHalfRange * kHalfRange);
   const Eigen::VectorXd variance = solver.eigenvalues().cwiseMax(floor).cwiseInverse();

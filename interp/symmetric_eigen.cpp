@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interp/symmetric_eigen.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace chaintrue::interp {
+
+SymmetricEigen::SymmetricEigen(const Eigen::MatrixXd& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+  values_ = solver.eigenvalues();
+  vectors_ = solver.eigenvectors();
+}
+
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+}  // namespace chaintrue::interp

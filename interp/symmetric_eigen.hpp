@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// \file
+/// Eigenvalues of symmetric matrices, compiled once: Eigen's solver is the slowest template of the
+/// room. Internal to interp.
+
+#include <Eigen/Core>
+
+namespace chaintrue::interp {
+
+/// matrix = vectors diag(values) vectors', values ascending, columns orthonormal; only the lower
+/// triangle of the n x n matrix is read.
+class SymmetricEigen {
+ public:
+  explicit SymmetricEigen(const Eigen::MatrixXd& matrix);
+  [[nodiscard]] const Eigen::VectorXd& eigenvalues() const { return values_; }
+  [[nodiscard]] const Eigen::MatrixXd& eigenvectors() const { return vectors_; }
+
+ private:
+  Eigen::VectorXd values_;
+  Eigen::MatrixXd vectors_;
+};
+
+/// The values alone, at a small part of the cost.
+[[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
+
+}  // namespace chaintrue::interp
