@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace chaintrue::grid::diagnosis {
 
@@ -18,8 +19,11 @@ namespace chaintrue::grid::diagnosis {
 #endif
 #define CHAINTRUE_CONSTANT(name, value, meaning, source) \
   inline CHAINTRUE_MAY_VARY double name = value;
+#define CHAINTRUE_COUNT(name, value, meaning, source) \
+  inline CHAINTRUE_MAY_VARY std::size_t name = value;
 #include "grid/diagnosis/constants.def"
 #undef CHAINTRUE_CONSTANT
+#undef CHAINTRUE_COUNT
 
 /// Beside the stated noise, one of these multiples of it, each alike: what hurried or careless
 /// measuring makes of a tape.

@@ -18,11 +18,6 @@ namespace {
 
 constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
-/// A set of outliers so much less probable than the best is not tried beside discrepancies.
-constexpr double kWorthDiscrepancies = 6.0;
-/// Sets of outliers in one comparison.
-constexpr std::size_t kMostOutlierSets = 8;
-
 double prior_of_count(std::size_t causes) {
   const std::array<double, kMostCauses + 1> prior = {
       kPriorOfNothing, kPriorOfOne, kPriorOfTwo, kPriorOfThree, kPriorOfFour};
@@ -125,7 +120,6 @@ namespace {
 std::vector<std::vector<bool>> sets_without_links(const LinearisedSystem& system,
                                                   const std::vector<bool>& excluded,
                                                   const ModelComparison& comparison) {
-  constexpr double kAlike = 25.0;  // squared, in sigmas: two rows, 1 in 270 000
   const CandidateModel& best = comparison.best();
   const MarginalisedSystem& marginalised = comparison.marginalised_systems[best.marginalised];
   const Estimate fitted = estimate(system, marginalised, best.regressors, -1);
@@ -139,7 +133,7 @@ std::vector<std::vector<bool>> sets_without_links(const LinearisedSystem& system
       const auto g = system.g.col(static_cast<Eigen::Index>(k)).segment(unit.first_row, unit.rows);
       links =
           g.squaredNorm() > 0.0 && (unit.segment(fitted.left) - g).squaredNorm() <
-                                       kAlike * fitted.noise_square;
+                                       kLinksAlike * fitted.noise_square;
     }
     if (!links) continue;
     std::vector<bool> without = marginalised.outliers;

@@ -12,9 +12,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr std::size_t kMostSets = 4;
-constexpr double kNegligible = 12.0;  // of the logarithm of a set's weight
-
 /// The data seen from one hypothesis: precision of the rows, and the precision times the residual.
 struct Seen {
   Eigen::MatrixXd precision;
@@ -174,7 +171,7 @@ std::vector<std::vector<bool>> outlier_sets(const LinearisedSystem& system,
   });
   std::vector<std::vector<bool>> sets;
   for (const Found& one : found) {
-    if (sets.size() == kMostSets || one.log_weight < found.front().log_weight - kNegligible) break;
+    if (sets.size() == kMostFoundSets || one.log_weight < found.front().log_weight - kNegligibleOutliers) break;
     sets.push_back(one.outliers);
   }
   return sets;

@@ -13,15 +13,6 @@ namespace {
 
 constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
-/// What is so far below the best does not count.
-constexpr double kNegligible = 16.0;
-/// Regressors with a whole number that are kept for the search of pairs.
-constexpr std::size_t kKeptFixed = 60;
-/// Pairs and triples from which larger sets are searched.
-constexpr std::size_t kBeam = 24;
-/// Sets that are also tried beside a model discrepancy.
-constexpr std::size_t kBesideDiscrepancy = 24;
-
 /// May two regressors act together: one cause acts at one place, and an effect that acts on both
 /// chains alike not also on one of them.
 bool compatible(const Regressor& a, const Regressor& b) {
@@ -128,7 +119,7 @@ class SetSearch::Search {
     model.larger_noise = noise_.larger_share(evidence.quadratic);
     model.quadratic = evidence.quadratic;
     best_ = std::max(best_, model.log_weight);
-    if (model.log_weight > best_ - kNegligible || set.size() <= 1) models_.push_back(model);
+    if (model.log_weight > best_ - kNegligibleModel || set.size() <= 1) models_.push_back(model);
     return model.log_weight;
   }
 
@@ -237,7 +228,7 @@ class SetSearch::Search {
       order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);
     }
     std::sort(order.begin(), order.end());
-    for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), kChildren); ++k) {
+    for (std::size_t k = 0; k < std::min(order.size(), kChildren); ++k) {
       std::vector<Eigen::Index> set = parent;
       set.push_back(order[k].second);
       std::sort(set.begin(), set.end());
@@ -294,10 +285,6 @@ class SetSearch::Search {
   }
 
   static constexpr double kLeastSquare = 1e-8;
-  static constexpr double kPairsWithin = 12.0;
-  static constexpr std::size_t kMostPairs = 3000;
-  static constexpr double kGrowWithin = 12.0;
-  static constexpr std::size_t kChildren = 24;
 
   const LinearisedSystem& system_;
   MarginalisedSystem& marginalised_;

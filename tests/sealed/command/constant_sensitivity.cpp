@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -32,11 +31,12 @@ namespace diagnosis = chaintrue::grid::diagnosis;
 namespace generator = chaintrue::generator;
 using chaintrue::sealed::Trial;
 
-/// Something that is set, and what a factor makes of its usual values.
+/// Something that is set: its usual values, what a factor makes of each, and how they are set.
 struct Constant {
   std::string name;
-  std::span<double> values;
+  std::vector<double> usual;
   double (*varied)(double usual, double factor);
+  std::function<void(const std::vector<double>&)> set;
 };
 
 double by_odds(double probability, double factor) {
@@ -48,16 +48,36 @@ double scaled(double value, double factor) { return factor * value; }
 
 double beyond_one(double value, double factor) { return 1.0 + factor * (value - 1.0); }
 
+template <class Values>
+void set_all(Values& values, const std::vector<double>& to) {
+  std::copy(to.begin(), to.end(), values.begin());
+}
+
 std::vector<Constant> constants() {
   std::vector<Constant> result;
   const auto add = [&](const char* name, double& value) {
-    result.push_back({name, {&value, 1}, value > 0.0 && value < 1.0 ? by_odds : scaled});
+    result.push_back(
+        {name, {value}, value > 0.0 && value < 1.0 ? by_odds : scaled, [&value](const auto& to) {
+           value = to.front();
+         }});
+  };
+  const auto add_count = [&](const char* name, std::size_t& value) {
+    result.push_back({name, {static_cast<double>(value)}, scaled, [&value](const auto& to) {
+                        value = static_cast<std::size_t>(std::lround(to.front()));
+                      }});
+  };
+  const auto add_all = [&](const char* name, auto& values, double (*varied)(double, double)) {
+    result.push_back({name, {values.begin(), values.end()}, varied, [&values](const auto& to) {
+                        set_all(values, to);
+                      }});
   };
 #define CHAINTRUE_CONSTANT(name, value, meaning, source) add(#name, diagnosis::name);
+#define CHAINTRUE_COUNT(name, value, meaning, source) add_count(#name, diagnosis::name);
 #include "grid/diagnosis/constants.def"
 #undef CHAINTRUE_CONSTANT
-  result.push_back({"kLargerNoise", diagnosis::kLargerNoise, beyond_one});
-  result.push_back({"kDiscrepancyStrengths", diagnosis::kDiscrepancyStrengths, scaled});
+#undef CHAINTRUE_COUNT
+  add_all("kLargerNoise", diagnosis::kLargerNoise, beyond_one);
+  add_all("kDiscrepancyStrengths", diagnosis::kDiscrepancyStrengths, scaled);
   return result;
 }
 
@@ -176,10 +196,10 @@ void print(const std::string& what, const Trials& usual, const Trials& now) {
   std::fflush(stdout);
 }
 
-std::string in_words(const Constant& constant) {
-  std::vector<std::string> values;
-  for (const double value : constant.values) values.push_back(fmt::format("{:.4g}", value));
-  return fmt::format("{} = {}", constant.name, fmt::join(values, ", "));
+std::string in_words(const std::string& name, const std::vector<double>& values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(fmt::format("{:.4g}", value));
+  return fmt::format("{} = {}", name, fmt::join(texts, ", "));
 }
 
 void print_head(int sets) {
@@ -219,14 +239,13 @@ int main(int argc, char** argv) {
   print("as it is", usual, usual);
   for (const Constant& constant : constants()) {
     if (!only.empty() && std::find(only.begin(), only.end(), constant.name) == only.end()) continue;
-    const std::vector<double> stated(constant.values.begin(), constant.values.end());
     for (const double factor : {0.5, 2.0}) {
-      for (std::size_t k = 0; k < stated.size(); ++k) {
-        constant.values[k] = constant.varied(stated[k], factor);
-      }
-      print(in_words(constant), usual, run_all(sets, jobs));
+      std::vector<double> now;
+      for (const double value : constant.usual) now.push_back(constant.varied(value, factor));
+      constant.set(now);
+      print(in_words(constant.name, now), usual, run_all(sets, jobs));
     }
-    std::copy(stated.begin(), stated.end(), constant.values.begin());
+    constant.set(constant.usual);
   }
   return 0;
 }
