@@ -92,8 +92,6 @@ void predict(const Analysis& a,
              const Session& next,
              const LinearisedSystem& system,
              Alternative& h) {
-  const MarginalisedSystem& marginalised =
-      a.comparison.marginalised_systems[a.decision.marginalised];
   const Estimate fitted = estimate_of(a, h.regressors);
   // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
