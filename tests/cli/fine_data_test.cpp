@@ -99,6 +99,26 @@ TEST_F(FineData, FindNothingWhereNothingIs) {
   EXPECT_EQ(found.verdict, grid::diagnosis::Verdict::nothing_found) << found.sentence;
 }
 
+// 0.2 mm of scatter that are stated as nothing at all.
+TEST_F(FineData, StatedFarBelowWhatTheDataScatterAreAnsweredInWords) {
+  ASSERT_EQ(run("simulate --machine " + machine_ +
+                " --grid 7x4 --repeats 6 --jitter-mm 8 --length-noise-mm 0.2 "
+                "--position-noise-mm 0.3 --stated-length-noise-mm 1e-12 "
+                "--stated-position-noise-mm 0 --seed 1 -o g.json")
+                .code,
+            0);
+  const auto diagnosis = run("diagnose g.json -o d.json");
+  EXPECT_EQ(diagnosis.code, 0) << diagnosis.err;
+  // Nothing acts: whatever is said of the scatter, no cause is named for it.
+  EXPECT_TRUE(grid::files::read_diagnosis(folder_ / "d.json").causes.empty());
+  const auto fit = run("fit g.json -o m.json");
+  EXPECT_TRUE(fit.code == 0 || fit.code == 3) << fit.code;
+  EXPECT_THAT(fit.err,
+              testing::AnyOf(testing::HasSubstr("contradict the others"),
+                             testing::HasSubstr("had not quite settled"),
+                             testing::HasSubstr("times as much as stated")));
+}
+
 TEST_F(FineData, SettingsMayBeStatedExactly) {
   std::string text = testing_support::content_of(machine_);
   for (const char* key : {"\"motor_position_mm\": ", "\"chain_zero_mm\": "}) {
