@@ -131,6 +131,8 @@ TEST_F(Terminal, StopsOnControlCAndLeavesNothingBehind) {
         std::pair("gcode lengths b.nc --map m.json --every-mm 0.0002 -o l.csv", "gcode: ")}) {
     SCOPED_TRACE(arguments);
     const Seen seen = shown(arguments, once_seen(verb));
+    if (std::string(verb) == "gcode: ")
+      EXPECT_THAT(seen.text, testing::ContainsRegex("[0-9]+ % done, about [0-9]+ s left"));
     EXPECT_TRUE(WIFSIGNALED(seen.status) && WTERMSIG(seen.status) == SIGINT)
         << seen.status << " " << seen.text;
     EXPECT_EQ(files(), before);
