@@ -14,9 +14,10 @@
 namespace chaintrue::grid {
 namespace {
 
-/// A stated noise of zero means readings with all digits; this much is left so that the weights
-/// stay finite.
-constexpr double kLeastNoiseMm = 1e-6;
+/// A stated noise of zero means readings with all digits; this much is left of it and of any finer
+/// one. Beside settings known to a millimetre the squares of finer weights leave no digit for what
+/// the points do not tell: at 1e-6 mm the fit is taken for undetermined.
+constexpr double kLeastNoiseMm = 1e-5;
 
 /// The bed, as far as hand-laid marks may lie beside it, and all points.
 interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPoint>& points) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "grid/files/diagnosis_file.hpp"
+#include "grid/files/map_file.hpp"
 #include "tests/cli/command_fixture.hpp"
 
 namespace chaintrue {
@@ -53,9 +54,69 @@ TEST_F(FineData, NameTheCauseWithItsSize) {
   }
 }
 
+/// Places all over the bed, the same for the same shift.
+std::string places(int shift) {
+  std::string text = "x_mm,y_mm\n";
+  for (int i = 0; i < 40; ++i)
+    text +=
+        fmt::format("{},{}\n", -1100 + (i * 571 + shift) % 2200, -500 + (i * 263 + shift) % 1000);
+  return text;
+}
+
+// Readings with all digits, of a machine whose left motor is 4 mm beside where it is stated.
+TEST_F(FineData, AreFittedAndCheckedToTheirLastDigits) {
+  write("places.csv", places(0));
+  write("others.csv", places(37));
+  std::string stated = testing_support::content_of(machine_);
+  stated.replace(stated.find("-1489.2"), 7, "-1485.2");
+  write("stated.json", stated);
+  std::string shifted = testing_support::content_of(machine_);
+  const std::string zero = "\"chain_zero\": {\"left_mm\": 0";
+  ASSERT_NE(shifted.find(zero), std::string::npos);
+  shifted.replace(shifted.find(zero), zero.size(), zero.substr(0, zero.size() - 1) + "0.1");
+  write("shifted.json", shifted);
+  const std::string read = " --points others.csv -o ";
+  ASSERT_EQ(run("simulate --machine " + machine_ + " --points places.csv -o g.json").code, 0);
+  ASSERT_EQ(run("simulate --machine " + machine_ + read + "new.json").code, 0);
+  ASSERT_EQ(run("simulate --machine shifted.json" + read + "later.json").code, 0);
+  for (const char* noise_mm : {"1e-3", "1e-5", "1e-6"}) {
+    SCOPED_TRACE(noise_mm);
+    const std::string noise = fmt::format(" --noise-length-mm {} --noise-position-mm 0", noise_mm);
+    const auto fit = run("fit g.json --machine stated.json -o m.json --force" + noise);
+    ASSERT_EQ(fit.code, 0) << fit.err;
+    const auto map = grid::files::read_map(folder_ / "m.json");
+    // The motor pulls by 4 / 3 of its stated sigma against weights of at least 1e3 per mm.
+    EXPECT_LT(map.contents().accuracy.leave_one_out.chain.maximum_mm, 1e-5);
+    EXPECT_THAT(run("check m.json new.json" + noise).out,
+                testing::HasSubstr("The map is still valid"));
+    EXPECT_THAT(run("check m.json later.json" + noise).out,
+                testing::HasSubstr("The map is valid after re-zeroing"));
+  }
+}
+
 TEST_F(FineData, FindNothingWhereNothingIs) {
   const auto found = diagnosed(machine_, 1e-6, "--draw-settings");
   EXPECT_EQ(found.verdict, grid::diagnosis::Verdict::nothing_found) << found.sentence;
+}
+
+// 0.2 mm of scatter that are stated as nothing at all.
+TEST_F(FineData, StatedFarBelowWhatTheDataScatterAreAnsweredInWords) {
+  ASSERT_EQ(run("simulate --machine " + machine_ +
+                " --grid 7x4 --repeats 6 --jitter-mm 8 --length-noise-mm 0.2 "
+                "--position-noise-mm 0.3 --stated-length-noise-mm 1e-12 "
+                "--stated-position-noise-mm 0 --seed 1 -o g.json")
+                .code,
+            0);
+  const auto diagnosis = run("diagnose g.json -o d.json");
+  EXPECT_EQ(diagnosis.code, 0) << diagnosis.err;
+  // Nothing acts: whatever is said of the scatter, no cause is named for it.
+  EXPECT_TRUE(grid::files::read_diagnosis(folder_ / "d.json").causes.empty());
+  const auto fit = run("fit g.json -o m.json");
+  EXPECT_TRUE(fit.code == 0 || fit.code == 3) << fit.code;
+  EXPECT_THAT(fit.err,
+              testing::AnyOf(testing::HasSubstr("contradict the others"),
+                             testing::HasSubstr("had not quite settled"),
+                             testing::HasSubstr("times as much as stated")));
 }
 
 TEST_F(FineData, SettingsMayBeStatedExactly) {

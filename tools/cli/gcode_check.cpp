@@ -3,6 +3,7 @@
 /// chaintrue gcode check and lengths: what a program does, without changing it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iterator>
 #include <string>
@@ -77,16 +78,16 @@ void print_survey(const gcode::Survey& survey, bool json) {
 /// Beyond this a table of lengths is of no use to anybody: 2 GB.
 constexpr double kMostRows = 2e7;
 
-/// \throws InputError where the table would be longer; a program that cannot be read to its end is
-/// left to whoever reports it.
-void refuse_endless_lengths(const GcodeOptions& options, const GcodeText& text) {
+/// About how many rows the table will have. \throws InputError where it would be longer; a program
+/// that cannot be read to its end has none, and is left to whoever reports it.
+double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
   auto source = text.open();
   Findings ignored;
   const auto survey =
       gcode::survey(source, options.dialect(), options.home_mm(), sheet(options), ignored);
-  if (!survey) return;
+  if (!survey) return 0.0;
   const double rows = survey->path_mm / options.every_mm;
-  if (rows <= kMostRows) return;
+  if (rows <= kMostRows) return rows;
   throw grid::files::InputError(
       {{"command line",
         "--every-mm",
@@ -141,7 +142,7 @@ int run_gcode_check(const GcodeOptions& options) {
 int run_gcode_lengths(const GcodeOptions& options) {
   const GcodeMachine machine(options);
   const GcodeText text(options.program);
-  refuse_endless_lengths(options, text);
+  const double rows = rows_of_lengths(options, text);
   auto source = text.open();
   grid::files::PendingFile output(options.output);
   if (!options.json) {
@@ -149,7 +150,9 @@ int run_gcode_lengths(const GcodeOptions& options) {
         "line,kind,x_mm,y_mm,z_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,feed_mm_per_min\n");
   }
   std::string row;
+  double written = 0.0;
   const auto write = [&](const gcode::PathLengths& place) {
+    progress_is(std::min(++written, rows), rows);
     row.clear();
     const auto& [left, right] = place.answer.lengths;
     const auto& [left_sigma, right_sigma] = place.answer.sigma;

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A person at a terminal: told that work goes on, and for how long; free to stop it with Ctrl-C,
+// which leaves nothing behind.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <string>
+
+#include "tests/cli/command_fixture.hpp"
+
+namespace chaintrue {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using testing::HasSubstr;
+
+constexpr const char* kCtrlC = "\x03";
+constexpr const char* kEraseLine = "\r\x1b[K";
+
+/// What came of a command on a terminal of its own.
+struct Seen {
+  int status = 0;
+  std::string text;
+  /// To the first byte.
+  double quiet_s = 0.0;
+};
+
+class Terminal : public testing_support::CommandFixture {
+ protected:
+  /// Runs the command in the folder; whenever something new was shown `reply` says what is typed.
+  [[nodiscard]] Seen shown(
+      const std::string& arguments,
+      const std::function<std::string(const std::string&)>& reply = [](const auto&) {
+        return std::string();
+      }) const {
+    int terminal = -1;
+    const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
+    if (child == 0) {
+      const std::string line =
+          fmt::format("cd {} && exec {} {}", folder_.string(), CHAINTRUE_COMMAND, arguments);
+      ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+      ::_exit(127);
+    }
+    Seen seen;
+    if (child < 0) {
+      ADD_FAILURE() << "no terminal could be opened";
+      return seen;
+    }
+    const Clock::time_point start = Clock::now();
+    char buffer[4096];
+    // Linux ends a terminal whose last process has gone with an error of reading.
+    for (ssize_t count = 0; (count = ::read(terminal, buffer, sizeof buffer)) > 0;) {
+      if (seen.text.empty())
+        seen.quiet_s = std::chrono::duration<double>(Clock::now() - start).count();
+      seen.text.append(buffer, static_cast<std::size_t>(count));
+      const std::string typed = reply(seen.text);
+      if (!typed.empty())
+        EXPECT_EQ(::write(terminal, typed.data(), typed.size()),
+                  static_cast<ssize_t>(typed.size()));
+    }
+    ::waitpid(child, &seen.status, 0);
+    ::close(terminal);
+    return seen;
+  }
+  [[nodiscard]] std::size_t files() const {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      const std::string name = entry.path().filename().string();
+      count += name != "out.txt" && name != "err.txt" ? 1 : 0;
+    }
+    return count;
+  }
+  void simulate(int points) const {
+    ASSERT_EQ(run(fmt::format("simulate --machine {}/machines/classic.json --random {} "
+                              "--length-noise-mm 0.2 --position-noise-mm 0.3 --seed 1 -o g.json",
+                              CHAINTRUE_FIXTURES,
+                              points))
+                  .code,
+              0);
+  }
+};
+
+// Some seconds of work at least: 300 points in diagnose (docs/reliability.md).
+constexpr int kManyPoints = 300;
+
+TEST_F(Terminal, ShowsThatWorkGoesOnAndForHowLong) {
+  simulate(3000);
+  const Seen seen = shown("fit g.json -o m.json");
+  ASSERT_TRUE(WIFEXITED(seen.status));
+  EXPECT_EQ(WEXITSTATUS(seen.status), 0) << seen.text;
+  EXPECT_GE(seen.quiet_s, 1.0) << "short work is not worth a word";
+  EXPECT_THAT(seen.text, HasSubstr("fit: 1 s"));
+  // The line is gone before the words of the fit.
+  const std::size_t words = seen.text.find("With the settings as stated");
+  ASSERT_NE(words, std::string::npos);
+  EXPECT_EQ(seen.text.substr(words - std::string(kEraseLine).size(), words).find(kEraseLine), 0U);
+}
+
+TEST_F(Terminal, ShowsHowFarASweepIsAndHowLongItWillTake) {
+  const Seen seen =
+      shown("sweep " CHAINTRUE_FIXTURES "/sweeps/ten_thousand.json -o sweep --threads 1",
+            [](const std::string& text) {
+              return text.find("s left") != std::string::npos ? kCtrlC : "";
+            });
+  EXPECT_THAT(seen.text,
+              testing::ContainsRegex("sweep: [0-9]+ s, [0-9]+ % done, about [0-9]+ s left"));
+}
+
+TEST_F(Terminal, StopsOnControlCAndLeavesNothingBehind) {
+  simulate(kManyPoints);
+  write("b.nc", "G21 G90\nG0 X-1000 Y0\nG1 X1000 Y0 F500\nM2\n");
+  ASSERT_EQ(run(fmt::format("fit {}/grids/seven_by_four.json -o m.json", CHAINTRUE_FIXTURES)).code,
+            0);
+  const std::size_t before = files();
+  const auto once_seen = [](const char* words) {
+    return [words](const std::string& text) {
+      return text.find(words) != std::string::npos ? kCtrlC : "";
+    };
+  };
+  for (const auto& [arguments, verb] :
+       {std::pair("diagnose g.json -o d.json --report r.html", "diagnose: "),
+        // Ten million rows, written as they come.
+        std::pair("gcode lengths b.nc --map m.json --every-mm 0.0002 -o l.csv", "gcode: ")}) {
+    SCOPED_TRACE(arguments);
+    const Seen seen = shown(arguments, once_seen(verb));
+    if (std::string(verb) == "gcode: ")
+      EXPECT_THAT(seen.text, testing::ContainsRegex("[0-9]+ % done, about [0-9]+ s left"));
+    EXPECT_TRUE(WIFSIGNALED(seen.status) && WTERMSIG(seen.status) == SIGINT)
+        << seen.status << " " << seen.text;
+    EXPECT_EQ(files(), before);
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue
