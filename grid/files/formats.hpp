@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Every file format with its version, and which older ones are still read.
+/// Every file format with its version, and which older ones are still read. Private to grid/files.
 ///
 /// Versions are "major.minor". A file of an older version that stands here is read, and what is
 /// assumed in place of what it does not say is a warning. A newer one is refused with both versions
