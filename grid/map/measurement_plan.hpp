@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "grid/map/compensation_map.hpp"
+#include "grid/observation/chain_lengths.hpp"
 
 namespace chaintrue::grid {
 
@@ -33,7 +34,7 @@ struct PlanRequest {
   /// From the bed's edge to the outermost marks: a mark at the very edge cannot be drawn.
   double margin_mm = 10.0;
   /// Of a reading, one sigma.
-  model::PointNoise noise = {};
+  observation::PointNoise noise = {};
 };
 
 struct MeasurementPlan {

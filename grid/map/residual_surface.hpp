@@ -20,7 +20,8 @@
 
 #include "grid/chain_rows.hpp"
 #include "interp/bspline_basis.hpp"
-#include "model/calibration/observation.hpp"
+#include "model/calibration/sheet_placement.hpp"
+#include "model/reading_model.hpp"
 
 namespace chaintrue::grid {
 
