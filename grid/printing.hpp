@@ -54,7 +54,7 @@ template <class... Args>
 /// By way of a string: fmt would compile all of its formatting once more for every kind of output.
 template <class Output, class... Args>
 Output format_to(Output output, ::fmt::format_string<Args...> text, Args&&... args) {
-  const std::string whole = format(text, std::forward<Args>(args)...);
+  const std::string whole = fmt::format(text, std::forward<Args>(args)...);
   return std::copy(whole.begin(), whole.end(), std::move(output));
 }
 

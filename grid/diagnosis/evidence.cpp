@@ -231,6 +231,11 @@ SetEvidence evidence_at(const NormalEquations& equations,
   Eigen::MatrixXd a(m, m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Eigen::Index at = free[static_cast<std::size_t>(i)];
+    if (!(equations.gg(at, at) > 0.0)) {
+      // Rows that see nothing of a cause, others being left out, say nothing for it.
+      result.log_evidence = -std::numeric_limits<double>::infinity();
+      return result;
+    }
     length(i) = std::sqrt(equations.gg(at, at));
     c(i) = equations.ge(at);
     for (const Eigen::Index j : set) {

@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/cli/command_fixture.hpp"
 
@@ -65,6 +67,37 @@ TEST_F(Command, QueryGivesThePointForLengths) {
   EXPECT_THAT(run("query map.json --inverse " + lengths).out,
               testing::MatchesRegex(
                   "x_mm,y_mm,status\n(100.00000.|99.99999.),(200.00000.|199.99999.),inside\n"));
+}
+
+// Where a query answers, its lengths lead back; where it has no answer it is not inside.
+TEST_F(Command, OfADirectMapQueryAndInverseAgreeWhateverIsDoneOutside) {
+  ASSERT_EQ(run("simulate --machine " CHAINTRUE_FIXTURES
+                "/machines/classic.json --grid 7x4 --margin-mm 200 -o lattice.json")
+                .code,
+            0);
+  for (const char* way : {"continued", "refuse", "linear", "clamp"}) {
+    ASSERT_EQ(
+        run(std::string("fit lattice.json --surface direct --force -o direct.json --outside ") +
+            way)
+            .code,
+        0);
+    for (const char* place : {"0 0", "1015 0", "1050 0", "1100 500", "-1215 -605"}) {
+      SCOPED_TRACE(std::string(way) + " at " + place);
+      const Outcome query = run(std::string("query direct.json ") + place);
+      if (query.code != 0) {
+        EXPECT_EQ(query.code, 4);
+        EXPECT_THAT(query.out, HasSubstr(",,,,,outside"));
+        continue;
+      }
+      std::istringstream row(query.out.substr(query.out.find('\n') + 1));
+      std::vector<std::string> cells;
+      for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+      ASSERT_EQ(cells.size(), 7U);
+      const Outcome back = run("query direct.json --inverse " + cells[2] + " " + cells[3]);
+      EXPECT_EQ(back.code, 0) << back.err;
+      EXPECT_THAT(back.out, HasSubstr(cells[6].substr(0, cells[6].find('\n'))));
+    }
+  }
 }
 
 TEST_F(Command, QueryWritesWhatIsInsideAndExitsWithFourForTheRest) {

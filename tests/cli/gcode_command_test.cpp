@@ -137,5 +137,15 @@ TEST_F(GcodeCommand, TheReportSaysWhetherTheFileIsSafe) {
   EXPECT_THAT(content_of(folder_ / "r.html"), HasSubstr("is not known"));
 }
 
+TEST_F(GcodeCommand, TheReportsTitleIsTheProgramsNameWhateverThatIs) {
+  const std::string name = "a<script>\xFF.nc";  // no UTF-8, and a tag
+  std::filesystem::copy_file(part(), folder_ / name);
+  ASSERT_EQ(run("gcode compensate '" + name + "' --map map.json -o out.nc --report r.html").code,
+            0);
+  const std::string page = content_of(folder_ / "r.html");
+  EXPECT_THAT(page, HasSubstr("<title>a&lt;script&gt;\xEF\xBF\xBD.nc, compensated</title>"));
+  EXPECT_EQ(page.find('\xFF'), std::string::npos);
+}
+
 }  // namespace
 }  // namespace chaintrue::testing_support
