@@ -165,15 +165,21 @@ class WithCandidate {
   [[nodiscard]] Measured read(const Candidate& candidate, const Alternative& truth) const {
     const NextMeasurement& what = candidate.measurement;
     const Eigen::VectorXd read = readings(candidate.rows, truth);
-    Measured more = measured_;
-    if (what.kind == MeasurementKind::reading) {
-      more.grids.front().readings.push_back({what.what, what.side, read(0), what.sigma});
-    } else if (what.kind == MeasurementKind::distance) {
-      add_distances(what, read, more.holes.front());
-    } else {
-      std::vector<MeasuredPoint>& points = more.grids.front().points;
-      const auto visit = static_cast<int>(points.size());
-      points.push_back({*what.mark, model::ChainLengths{read(0), read(1)}, std::nullopt, visit});
+    // The mix has one file of each kind.
+    Measured more;
+    for (MeasuredFile file : measured_.files()) {
+      if (auto* grid = std::get_if<MeasuredGrid>(&file.measured)) {
+        if (what.kind == MeasurementKind::reading) {
+          grid->readings.push_back({what.what, what.side, read(0), what.sigma});
+        } else if (what.kind != MeasurementKind::distance) {
+          const auto visit = static_cast<int>(grid->points.size());
+          grid->points.push_back(
+              {*what.mark, model::ChainLengths{read(0), read(1)}, std::nullopt, visit});
+        }
+      } else if (what.kind == MeasurementKind::distance) {
+        add_distances(what, read, std::get<MeasuredHoles>(file.measured));
+      }
+      more.add(std::move(file));
     }
     return more;
   }

@@ -293,7 +293,7 @@ TEST(MapCheck, HolesTellAToothAndAGrownPitch) {
 /// Probabilities of what may have happened to the machine, among these alone.
 std::vector<double> of_the_machine(const CompensationMap& map, const MeasuredFile& file) {
   const auto check = check_map(map, {file});
-  EXPECT_TRUE(check) << check.error();
+  EXPECT_TRUE(check) << check.error().sentence;
   std::vector<std::pair<std::string, double>> told;
   double sum = 0.0;
   for (const CheckHypothesis& h : check->hypotheses) {
@@ -315,7 +315,7 @@ void expect_equal(const std::vector<double>& a, const std::vector<double>& b, do
 TEST(MapCheck, RepeatsOfAMarkSayWhatTheyWouldOneByOne) {
   constexpr std::uint64_t kSeed = 19;
   SCOPED_TRACE(kSeed);
-  const Measured& one = machines()[2];
+  const MeasuredMachine& one = machines()[2];
   model::Machine machine = one.truth;
   machine.chain_zero.left_mm += 0.3;  // several hypotheses are left
   Random random(kSeed);
