@@ -138,34 +138,18 @@ void speak_of_leaders(const LinearisedSystem& system,
 
 }  // namespace
 
-Decision decide_beside_discrepancy(const LinearisedSystem& system,
+Decision decide_for_leaders(const LinearisedSystem& system,
                                    const ModelComparison& comparison,
                                    const std::vector<bool>& excluded,
                                    bool seen) {
   Decision decision = decide(system, comparison, excluded, seen);
   speak_of_leaders(system, comparison, decision);
-  if (decision.listed.empty() || decision.discrepancy <= kDiscrepancyLikely ||
-      decision.best_discrepancy < 0) {
-    return decision;
-  }
-  // A discrepancy that nobody knows looks somewhat like this cause or that: what is named must
-  // explain nearly all that noise does not.
-  const MarginalisedSystem& marginalised = comparison.marginalised_systems[decision.marginalised];
-  const auto unexplained = [&](const std::vector<int>& regressors) {
-    const Estimate fitted = estimate(system, marginalised, regressors, -1);
-    const Eigen::VectorXd left = left_of_machine(system, fitted, fitted.left);
-    return square_in_noise(system, marginalised.kept, left) -
-           static_cast<double>(marginalised.kept.size());
-  };
-  const double before = unexplained({});
-  const double after = unexplained(decision.regressors);
-  if (after <= (1.0 - kExplained) * before) return decision;
-  return decide(system, comparison, excluded, false);
+  return decision;
 }
 
 void decide_for(bool seen, Analysis& a) {
   const std::vector<bool> none(a.session.units.size(), false);
-  a.decision = decide_beside_discrepancy(a.system, a.comparison, none, seen);
+  a.decision = decide_for_leaders(a.system, a.comparison, none, seen);
   a.estimate = estimate(a.system,
                         a.comparison.marginalised_systems[a.decision.marginalised],
                         a.decision.regressors,
@@ -210,7 +194,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(Session session,
   a.options = options;
   if (auto done = calibrate(a); !done) return tl::unexpected(done.error());
   a.candidates = candidates(a.session);
-  const ComparisonOptions compared{options.steps, true, options.told};
+  ComparisonOptions compared{.steps = options.steps, .told = options.told};
   const std::vector<bool> none(a.session.units.size(), false);
   constexpr int kPasses = 2;
   std::vector<Refinement> known;
@@ -219,6 +203,7 @@ tl::expected<Analysis, DiagnosisFailure> analyse(Session session,
     a.comparison = compare_models(a.system, none, compared);
     decide_for(true, a);
     if (pass + 1 == kPasses || a.decision.regressors.empty()) break;
+    compared.kernels = leading_kernels(a.comparison);
     Relinearised relinearised = relinearise(a);
     known = std::move(relinearised.refinements);
     a.state = std::move(relinearised.state);

@@ -29,9 +29,8 @@ struct Analysis {
   Estimate estimate;  ///< of the decision's causes
 };
 
-/// decide(), abstaining where a model discrepancy is as strong as the cause it would be named
-/// beside.
-[[nodiscard]] Decision decide_beside_discrepancy(const LinearisedSystem& system,
+/// decide(), what is fitted being the member that gives its class the name.
+[[nodiscard]] Decision decide_for_leaders(const LinearisedSystem& system,
                                                  const ModelComparison& comparison,
                                                  const std::vector<bool>& excluded,
                                                  bool seen);

@@ -81,13 +81,14 @@ class Decider {
   Decision run(bool seen) {
     group();
     marginals();
-    const bool caused = seen && result_.caused > kCaused;
-    const Grouped* leading = caused ? without_doubtful(leading_group()) : nullptr;
-    if (leading != nullptr) {
-      name_causes(*leading);
+    // A pattern is itself beyond what noise does, and hides from a test against noise alone.
+    const bool beyond_noise = seen || result_.discrepancy > kDiscrepancyLikely;
+    if (beyond_noise && result_.caused > kCaused) {
+      name_leading();
     } else {
       abstain();
     }
+    add_all_sure();
     return std::move(result_);
   }
 
@@ -198,14 +199,54 @@ class Decider {
     return &found->second;
   }
 
-  void name_causes(const Grouped& leading) {
-    // Beside a discrepancy that nobody knows a cause must be needed, not only possible.
-    if (result_.discrepancy > kDiscrepancyPossible &&
-        (leading_key_.size() > 1 ? result_.marginal.front().probability : result_.caused) <
-            kNeededBesideDiscrepancy) {
+  void name_leading() {
+    const Grouped* leading = without_doubtful(leading_group());
+    if (leading == nullptr) {
       abstain();
       return;
     }
+    // Beside a pattern that nobody listed a set says something only where one of it surely acts.
+    if (result_.discrepancy > kDiscrepancyLikely &&
+        result_.marginal.front().probability < kNamedAlone && result_.caused < kSetHolds) {
+      abstain();
+      return;
+    }
+    name_causes(*leading);
+  }
+
+  /// What the table of hypotheses gives as good as surely is never missing among the causes.
+  void add_all_sure() {
+    Key sure;
+    for (const ClassProbability& one : result_.marginal) {
+      if (one.probability >= kSure) sure.push_back(one.index);
+    }
+    const auto& listed = result_.listed;
+    const bool missing = std::any_of(sure.begin(), sure.end(), [&](std::size_t k) {
+      return std::find(listed.begin(), listed.end(), k) == listed.end();
+    });
+    if (!missing) return;
+    if (result_.verdict == Verdict::named || result_.verdict == Verdict::several_causes) {
+      for (const std::size_t k : listed) {
+        if (std::find(sure.begin(), sure.end(), k) == sure.end()) sure.push_back(k);
+      }
+    }
+    std::sort(sure.begin(), sure.end());
+    const Grouped* home = nullptr;
+    for (const auto& [key, grouped] : groups_) {
+      const bool holds = std::includes(key.begin(), key.end(), sure.begin(), sure.end());
+      if (holds && (home == nullptr || grouped.probability > home->probability)) home = &grouped;
+    }
+    if (home == nullptr) return;
+    leading_key_ = sure;
+    result_.listed.clear();
+    name_causes(*home);
+    std::erase_if(result_.regressors, [&](int k) {
+      const auto own = class_of(system_.regressors[static_cast<std::size_t>(k)].cause);
+      return std::find(sure.begin(), sure.end(), own) == sure.end();
+    });
+  }
+
+  void name_causes(const Grouped& leading) {
     if (leading_key_.size() > 1) {
       result_.verdict = Verdict::several_causes;
       result_.listed = leading_key_;

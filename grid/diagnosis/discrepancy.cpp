@@ -2,58 +2,182 @@
 #include "grid/diagnosis/discrepancy.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace chaintrue::grid::diagnosis {
 namespace {
-
-double bell(double square) { return std::exp(-0.5 * square); }
 
 /// Density of a half-Cauchy over the logarithm of the strength, but for a constant.
 double cauchy_weight(double strength) {
   return strength / (1.0 + std::pow(strength / kDiscrepancyScale, 2));
 }
 
-}  // namespace
+double strength_number(std::size_t index) { return kDiscrepancyStrengths[index]; }
 
-double log_share_of_discrepancy(int index) {
-  double sum = 0.0;
-  for (const double strength : kDiscrepancyStrengths) sum += cauchy_weight(strength);
-  const auto strengths = static_cast<int>(std::size(kDiscrepancyStrengths));
-  return std::log(cauchy_weight(kDiscrepancyStrengths[index % strengths]) / sum) -
-         std::log(static_cast<double>(std::size(kDiscrepancyKernels)));
-}
+/// Directions of entry, an eighth of half a turn apart: any ratio is within 11 degrees of one, and
+/// loses at most 4 % of its square to the other component.
+constexpr int kDirections = 8;
 
-Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
-                                  const DiscrepancyPlace& a,
-                                  const DiscrepancyPlace& b) {
-  const double dx = std::pow((a.mark.x_mm - b.mark.x_mm) / kernel.length_mm, 2);
-  const double dy = std::pow((a.mark.y_mm - b.mark.y_mm) / kernel.length_mm, 2);
-  if (kernel.kind == DiscrepancyKind::chains) return bell(dx + dy) * Eigen::Matrix2d::Identity();
-  return 0.5 * (bell(dx) + bell(dy)) * a.by_mark * b.by_mark.transpose();
-}
+class Kernels {
+ public:
+  Kernels() {
+    // One field over the bed, at any ratio of the chains: dents and waves of a fifth of the bed's
+    // height up to the whole.
+    std::vector<DiscrepancyField> group;
+    for (const double mm : {140.0, 250.0, 450.0}) at_any_ratio({FieldOf::place, mm}, group);
+    take(group, 0.40);
+    // Each chain by itself.
+    for (const double mm : {250.0, 450.0, 800.0}) group.push_back({FieldOf::place, mm});
+    take(group, 0.15);
+    // The tool moved along x and along y by functions of x alone and of y alone, as edges, boards
+    // and folds do it.
+    all_.push_back({{{FieldOf::x, 180.0, FieldEntry::tool}, {FieldOf::y, 180.0, FieldEntry::tool}},
+                    0.15});
+    // The tool moved along one axis of the sheet.
+    for (const FieldOf of : {FieldOf::place, FieldOf::x, FieldOf::y}) {
+      for (const double mm : {250.0, 450.0}) along_an_axis({of, mm}, group);
+    }
+    take(group, 0.15);
+    // A function of one coordinate: a strip of the banner, a beam, a chain, its angle, its pull.
+    for (const FieldOf of : {FieldOf::x, FieldOf::y, FieldOf::length_left, FieldOf::length_right}) {
+      for (const double mm : {150.0, 400.0}) at_any_ratio({of, mm}, group);
+    }
+    for (const FieldOf of : {FieldOf::angle_left, FieldOf::angle_right}) {
+      for (const double rad : {0.1, 0.25}) at_any_ratio({of, rad}, group);
+    }
+    for (const FieldOf of : {FieldOf::tension_left, FieldOf::tension_right}) {
+      at_any_ratio({of, 15.0}, group);
+    }
+    take(group, 0.15);
+  }
+  [[nodiscard]] const std::vector<DiscrepancyKernel>& all() const { return all_; }
 
-Eigen::Matrix2d discrepancy_between(const LinearisedSystem& system,
-                                    const DiscrepancyKernel& kernel,
-                                    const SystemUnit& a,
-                                    const SystemUnit& b) {
+ private:
+  static void at_any_ratio(DiscrepancyField field, std::vector<DiscrepancyField>& group) {
+    for (int k = 0; k < kDirections; ++k) {
+      field.direction_rad = std::numbers::pi * k / kDirections;
+      group.push_back(field);
+    }
+  }
+  static void along_an_axis(DiscrepancyField field, std::vector<DiscrepancyField>& group) {
+    field.entry = FieldEntry::tool;
+    for (const double direction : {0.0, 0.5 * std::numbers::pi}) {
+      field.direction_rad = direction;
+      group.push_back(field);
+    }
+  }
+  void take(std::vector<DiscrepancyField>& group, double prior) {
+    for (const DiscrepancyField& field : group) {
+      all_.push_back({{field}, prior / static_cast<double>(group.size())});
+    }
+    group.clear();
+  }
+  std::vector<DiscrepancyKernel> all_;
+};
+
+Eigen::Matrix2d between_units(const DiscrepancyKernel& kernel,
+                              const std::vector<DiscrepancyPlace>& places,
+                              const SystemUnit& a,
+                              const SystemUnit& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (const SeenPlace& i : a.places) {
     for (const SeenPlace& j : b.places) {
-      sum += i.by_chain *
-             discrepancy_block(kernel,
-                               discrepancy_place(system.places[i.place]),
-                               discrepancy_place(system.places[j.place])) *
+      sum += i.by_chain * discrepancy_block(kernel, places[i.place], places[j.place]) *
              j.by_chain.transpose();
     }
   }
   return sum;
 }
 
-DiscrepancyPlace discrepancy_place(const SystemPlace& place) { return {place.mark, place.by_mark}; }
+}  // namespace
+
+std::string_view name(FieldOf of) {
+  constexpr std::string_view kNames[] = {"x",
+                                         "y",
+                                         "length_left",
+                                         "length_right",
+                                         "angle_left",
+                                         "angle_right",
+                                         "tension_left",
+                                         "tension_right",
+                                         ""};
+  return kNames[static_cast<std::size_t>(of)];
+}
+
+const std::vector<DiscrepancyKernel>& discrepancy_kernels() {
+  static const Kernels kKernels;
+  return kKernels.all();
+}
+
+int discrepancy_count() {
+  return static_cast<int>(discrepancy_kernels().size() * std::size(kDiscrepancyStrengths));
+}
+
+std::size_t kernel_of(int discrepancy) {
+  return static_cast<std::size_t>(discrepancy) / std::size(kDiscrepancyStrengths);
+}
+
+double strength_of(int discrepancy) {
+  return strength_number(static_cast<std::size_t>(discrepancy) % std::size(kDiscrepancyStrengths));
+}
+
+double log_share_of_discrepancy(int discrepancy) {
+  double sum = 0.0;
+  for (const double strength : kDiscrepancyStrengths) sum += cauchy_weight(strength);
+  return std::log(cauchy_weight(strength_of(discrepancy)) / sum) +
+         std::log(discrepancy_kernels()[kernel_of(discrepancy)].prior);
+}
+
+DiscrepancyPlace discrepancy_place(const SystemPlace& place) {
+  const model::Pose& pose = place.reading.pose;
+  return {{place.mark.x_mm,
+           place.mark.y_mm,
+           pose.lengths.left_mm,
+           pose.lengths.right_mm,
+           pose.chains.left.angle_rad,
+           pose.chains.right.angle_rad,
+           pose.chains.left.tension_at_sprocket_n,
+           pose.chains.right.tension_at_sprocket_n},
+          place.by_mark};
+}
+
+double field_correlation(const DiscrepancyField& field,
+                         const DiscrepancyPlace& a,
+                         const DiscrepancyPlace& b) {
+  const auto square = [&](FieldOf of) {
+    const auto k = static_cast<std::size_t>(of);
+    return std::pow((a.at[k] - b.at[k]) / field.length, 2);
+  };
+  return std::exp(-0.5 * (field.of == FieldOf::place ? square(FieldOf::x) + square(FieldOf::y)
+                                                     : square(field.of)));
+}
+
+Eigen::Matrix2d field_entry(const DiscrepancyField& field, const DiscrepancyPlace& place) {
+  return field.entry == FieldEntry::chains ? Eigen::Matrix2d(Eigen::Matrix2d::Identity())
+                                           : place.by_mark;
+}
+
+Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
+                                  const DiscrepancyPlace& a,
+                                  const DiscrepancyPlace& b) {
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (const DiscrepancyField& field : kernel.fields) {
+    Eigen::Matrix2d directions = Eigen::Matrix2d::Identity();
+    if (field.direction_rad) {
+      const Eigen::Vector2d d(std::cos(*field.direction_rad), std::sin(*field.direction_rad));
+      directions = d * d.transpose();
+    }
+    sum += field_correlation(field, a, b) * field_entry(field, a) * directions *
+           field_entry(field, b).transpose();
+  }
+  return sum / static_cast<double>(kernel.fields.size());
+}
 
 Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& system,
                                        const std::vector<Eigen::Index>& kept,
                                        const DiscrepancyKernel& kernel) {
+  std::vector<DiscrepancyPlace> places;
+  for (const SystemPlace& place : system.places) places.push_back(discrepancy_place(place));
   const auto units = units_in(system, kept);
   const auto n = static_cast<Eigen::Index>(kept.size());
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
@@ -61,7 +185,7 @@ Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& system,
     const SystemUnit& own = system.units[units[a].second];
     for (std::size_t b = 0; b <= a; ++b) {
       const SystemUnit& other = system.units[units[b].second];
-      const Eigen::Matrix2d block = discrepancy_between(system, kernel, own, other);
+      const Eigen::Matrix2d block = between_units(kernel, places, own, other);
       const Eigen::Index row = units[a].first;
       const Eigen::Index column = units[b].first;
       c.block(row, column, own.rows, other.rows) = block.topLeftCorner(own.rows, other.rows);

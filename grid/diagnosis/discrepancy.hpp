@@ -3,15 +3,22 @@
 /// The model discrepancy: what repeats over the bed and no cause explains, as a Gaussian process
 /// (M. Kennedy and A. O'Hagan, J. R. Stat. Soc. B 63 (2001), 425).
 ///
-/// Two kinds, each at some lengths: either chain by itself, smooth in both directions of the bed;
-/// or the tool displaced by functions of x alone and of y alone, as edges, boards and folds do it.
+/// What disturbs a machine mostly acts on one thing: one chain, one axis of the sheet, the sled's
+/// height, the tension. So a field is a smooth scalar function of one thing (the place, x, y, one
+/// chain's length, angle or tension) and enters the two chains, or the tool's two coordinates, at a
+/// fixed ratio; fields that enter both freely stand beside these.
 ///
-///   chains      cov(r_i, r_j) = s^2 k(|p_i - p_j|) I
-///   along_axes  cov(r_i, r_j) = s^2 (k(x_i - x_j) + k(y_i - y_j)) / 2 J_i J_j'
-///   k(d) = exp(-d^2 / (2 length^2)), J = d(L, R)/d(mark)
+///   cov(r_i, r_j) = s^2 / F sum_f k_f(t_i, t_j) T_i D_f T_j'
+///   k(t, u) = exp(-|t - u|^2 / (2 length^2)),  t what the field is a function of
+///   T  identity where it enters the chains, J = d(L, R)/d(mark) where it moves the tool
+///   D  d d' with d = (cos, sin) of the direction of entry, or the identity where it has none
+///   F  fields of the kernel, one or two
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "grid/diagnosis/constants.hpp"
@@ -19,26 +26,49 @@
 
 namespace chaintrue::grid::diagnosis {
 
-enum class DiscrepancyKind { chains, along_axes };
+/// What a field is a function of; the place is both of x and y.
+enum class FieldOf {
+  x,              ///< mm
+  y,              ///< mm
+  length_left,    ///< mm
+  length_right,   ///< mm
+  angle_left,     ///< rad
+  angle_right,    ///< rad
+  tension_left,   ///< N, at the sprocket
+  tension_right,  ///< N
+  place,
+};
+inline constexpr std::size_t kFieldCoordinates = static_cast<std::size_t>(FieldOf::place);
+/// As `follows` has it: x, y, length_left, ...; of the place nothing.
+[[nodiscard]] std::string_view name(FieldOf of);
+
+enum class FieldEntry { chains, tool };
+
+struct DiscrepancyField {
+  FieldOf of = FieldOf::place;
+  double length = 0.0;  ///< in the unit of what it is a function of
+  FieldEntry entry = FieldEntry::chains;
+  std::optional<double> direction_rad{};  ///< of (left, right), or of (x, y)
+  bool operator==(const DiscrepancyField&) const = default;
+};
 
 struct DiscrepancyKernel {
-  DiscrepancyKind kind = DiscrepancyKind::chains;
-  double length_mm = 0.0;
+  std::vector<DiscrepancyField> fields;  ///< one or two
+  double prior = 0.0;                    ///< share among all kernels
 };
 
-inline constexpr DiscrepancyKernel kDiscrepancyKernels[] = {
-    {DiscrepancyKind::chains, 250.0},
-    {DiscrepancyKind::chains, 450.0},
-    {DiscrepancyKind::chains, 800.0},
-    {DiscrepancyKind::along_axes, 180.0},
-};
-inline constexpr int kDiscrepancies =
-    static_cast<int>(std::size(kDiscrepancyKernels) * std::size(kDiscrepancyStrengths));
+/// All that are tried; their priors sum to one.
+[[nodiscard]] const std::vector<DiscrepancyKernel>& discrepancy_kernels();
 
-/// Of discrepancy number `index` among all: kernels alike, strengths as a half-Cauchy of scale 10
-/// has them, so that a huge discrepancy is rarer than one that is just seen (A. Gelman, Bayesian
+/// A discrepancy is a kernel at a strength: kernel * strengths + strength.
+[[nodiscard]] int discrepancy_count();
+[[nodiscard]] std::size_t kernel_of(int discrepancy);
+[[nodiscard]] double strength_of(int discrepancy);
+
+/// Of a discrepancy among all: its kernel's share, and of its strengths what a half-Cauchy of scale
+/// 10 has, so that a huge discrepancy is rarer than one that is just seen (A. Gelman, Bayesian
 /// Analysis 1 (2006), 515, section 4.3).
-[[nodiscard]] double log_share_of_discrepancy(int index);
+[[nodiscard]] double log_share_of_discrepancy(int discrepancy);
 
 struct Discrepancy {
   DiscrepancyKernel kernel;
@@ -46,22 +76,23 @@ struct Discrepancy {
 };
 
 struct DiscrepancyPlace {
-  model::BedPoint mark;
-  Eigen::Matrix2d by_mark;  ///< J
+  std::array<double, kFieldCoordinates> at{};  ///< by FieldOf
+  Eigen::Matrix2d by_mark;                     ///< J
 };
+[[nodiscard]] DiscrepancyPlace discrepancy_place(const SystemPlace& place);
+
+/// k of two places.
+[[nodiscard]] double field_correlation(const DiscrepancyField& field,
+                                       const DiscrepancyPlace& a,
+                                       const DiscrepancyPlace& b);
+/// T at a place.
+[[nodiscard]] Eigen::Matrix2d field_entry(const DiscrepancyField& field,
+                                          const DiscrepancyPlace& place);
 
 /// Covariance of the two chains at two places, for s = 1.
 [[nodiscard]] Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
                                                 const DiscrepancyPlace& a,
                                                 const DiscrepancyPlace& b);
-
-[[nodiscard]] DiscrepancyPlace discrepancy_place(const SystemPlace& place);
-
-/// Covariance of two units' whitened rows, for s = 1; of units of one row the first line, or column.
-[[nodiscard]] Eigen::Matrix2d discrepancy_between(const LinearisedSystem& system,
-                                                  const DiscrepancyKernel& kernel,
-                                                  const SystemUnit& a,
-                                                  const SystemUnit& b);
 
 /// Covariance of these whitened rows, for s = 1.
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& system,

@@ -149,8 +149,12 @@ void Downdating::add_factorisation(std::size_t number,
   factorised.precision = factorised.inverse.transpose() * e;
   const Eigen::MatrixXd gram = e.transpose() * e;
   const Eigen::Index c = e.cols() - 1;
-  factorised.equations = {
-      columns, gram(0, 0), gram.col(0).tail(c), gram.bottomRightCorner(c, c), log_det};
+  factorised.equations = {columns,
+                          gram(0, 0),
+                          gram.col(0).tail(c),
+                          gram.bottomRightCorner(c, c),
+                          marginalised.g(Eigen::all, columns).colwise().squaredNorm(),
+                          log_det};
   const NoiseDensity noise(dof_, n);
   for (const CandidateModel& model : models) {
     std::vector<Eigen::Index> set;
@@ -177,6 +181,8 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
   equations.ge.noalias() -= seen.rightCols(c).transpose() * seen.col(0);
   equations.gg.noalias() -= seen.rightCols(c).transpose() * seen.rightCols(c);
   equations.log_det += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
+  // Beside a discrepancy the sizes are expected as of all points.
+  if (factorised.discrepancy < 0) equations.prior_square = equations.gg.diagonal();
   return equations;
 }
 

@@ -2,7 +2,6 @@
 #include "grid/diagnosis/evidence.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,16 +21,6 @@ double log_mass(double mean, double sigma, double low, double high) {
   return log_normal_mass((low - mean) / sigma, (high - mean) / sigma);
 }
 
-/// L^-1 W K W' L^-T for a discrepancy of 1 mm.
-Eigen::MatrixXd reduced_discrepancy(const LinearisedSystem& system,
-                                    const MarginalisedSystem& marginalised,
-                                    const DiscrepancyKernel& kernel) {
-  Eigen::MatrixXd c = discrepancy_covariance(system, marginalised.kept, kernel);
-  const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
-  c = lower.solve(c).eval();
-  return lower.solve(c.transpose()).eval();
-}
-
 }  // namespace
 
 NoiseDensity::NoiseDensity(double dof, Eigen::Index rows)
@@ -46,8 +35,12 @@ double NoiseDensity::part(double scale, double quadratic) const {
          0.5 * (rows_ + dof_) * std::log(anchor + quadratic);
 }
 
+double NoiseDensity::log_density_as_stated(double quadratic) const {
+  return std::log(1.0 - kLargerNoisePrior) + part(1.0, quadratic);
+}
+
 double NoiseDensity::log_density(double quadratic) const {
-  double sum = std::log(1.0 - kLargerNoisePrior) + part(1.0, quadratic);
+  double sum = log_density_as_stated(quadratic);
   for (const double scale : kLargerNoise) {
     sum = log_sum(sum,
                   std::log(kLargerNoisePrior / std::size(kLargerNoise)) + part(scale, quadratic));
@@ -56,8 +49,7 @@ double NoiseDensity::log_density(double quadratic) const {
 }
 
 double NoiseDensity::larger_share(double quadratic) const {
-  const double stated = std::log(1.0 - kLargerNoisePrior) + part(1.0, quadratic);
-  return 1.0 - std::exp(stated - log_density(quadratic));
+  return 1.0 - std::exp(log_density_as_stated(quadratic) - log_density(quadratic));
 }
 
 double NoiseDensity::noise_square(double quadratic) const {
@@ -159,46 +151,15 @@ NormalEquations normal_equations(const MarginalisedSystem& marginalised, std::ve
   equations.ee = marginalised.e.squaredNorm();
   equations.ge = g.transpose() * marginalised.e;
   equations.gg = g.transpose() * g;
+  equations.prior_square = equations.gg.diagonal();
   equations.log_det = marginalised.log_det;
   return equations;
 }
 
-std::vector<NormalEquations> normal_equations_beside_discrepancies(
-    const LinearisedSystem& system,
-    MarginalisedSystem& marginalised,
-    const std::vector<int>& columns) {
-  std::vector<int> sorted = columns;
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<NormalEquations> by_discrepancy;
-  marginalised.discrepancy_trace.clear();
-  for (const DiscrepancyKernel& kernel : kDiscrepancyKernels) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        reduced_discrepancy(system, marginalised, kernel));
-    const Eigen::ArrayXd values = eigen.eigenvalues().array().max(0.0);
-    marginalised.discrepancy_trace.push_back(values.sum());
-    const Eigen::VectorXd e = eigen.eigenvectors().transpose() * marginalised.e;
-    const Eigen::MatrixXd g =
-        eigen.eigenvectors().transpose() * marginalised.g(Eigen::all, sorted).eval();
-    for (const double strength : kDiscrepancyStrengths) {
-      const Eigen::ArrayXd variance = 1.0 + values * (strength * strength / values.sum());
-      const Eigen::VectorXd weight = variance.inverse();
-      NormalEquations equations;
-      equations.columns = sorted;
-      equations.ee = e.cwiseProduct(weight).dot(e);
-      equations.ge = g.transpose() * weight.cwiseProduct(e);
-      equations.gg = g.transpose() * weight.asDiagonal() * g;
-      equations.log_det = marginalised.log_det + variance.log().sum();
-      by_discrepancy.push_back(std::move(equations));
-    }
-  }
-  return by_discrepancy;
-}
-
-Discrepancy discrepancy_of(const MarginalisedSystem& marginalised, int index) {
-  const auto strengths = static_cast<int>(std::size(kDiscrepancyStrengths));
-  const int kernel = index / strengths;
-  const double trace = marginalised.discrepancy_trace.at(static_cast<std::size_t>(kernel));
-  return {kDiscrepancyKernels[kernel], kDiscrepancyStrengths[index % strengths] / std::sqrt(trace)};
+Discrepancy discrepancy_of(const MarginalisedSystem& marginalised, int discrepancy) {
+  const std::size_t kernel = kernel_of(discrepancy);
+  return {discrepancy_kernels()[kernel],
+          strength_of(discrepancy) / std::sqrt(marginalised.discrepancy_trace.at(kernel))};
 }
 
 namespace {
@@ -228,6 +189,7 @@ SetEvidence evidence_at(const NormalEquations& equations,
   const auto m = static_cast<Eigen::Index>(free.size());
   Eigen::VectorXd c(m);
   Eigen::VectorXd length(m);
+  Eigen::VectorXd prior(m);  // one sigma of the signal-to-noise ratio in this metric
   Eigen::MatrixXd a(m, m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Eigen::Index at = free[static_cast<std::size_t>(i)];
@@ -237,6 +199,7 @@ SetEvidence evidence_at(const NormalEquations& equations,
       return result;
     }
     length(i) = std::sqrt(equations.gg(at, at));
+    prior(i) = prior_sigma * length(i) / std::sqrt(equations.prior_square(at));
     c(i) = equations.ge(at);
     for (const Eigen::Index j : set) {
       if (regressor(j).fixed) c(i) -= equations.gg(at, j);
@@ -246,7 +209,7 @@ SetEvidence evidence_at(const NormalEquations& equations,
       a(i, j) = a(j, i) =
           equations.gg(at, free[static_cast<std::size_t>(j)]) / (length(i) * length(j));
     }
-    a(i, i) += 1.0 / (prior_sigma * prior_sigma);
+    a(i, i) += 1.0 / (prior(i) * prior(i));
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(a);
   result.signal_to_noise = llt.solve(c);
@@ -254,7 +217,7 @@ SetEvidence evidence_at(const NormalEquations& equations,
   result.signal_to_noise_variance = llt.solve(Eigen::MatrixXd::Identity(m, m)).diagonal();
   const double half_log_det = Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
   result.log_evidence = noise.log_density(result.quadratic) - 0.5 * equations.log_det -
-                        half_log_det - static_cast<double>(m) * std::log(prior_sigma);
+                        half_log_det - prior.array().log().sum();
   const double s = std::sqrt(noise.noise_square(result.quadratic));
   for (Eigen::Index i = 0; i < m; ++i) {
     const Regressor& own = regressor(free[static_cast<std::size_t>(i)]);
@@ -273,7 +236,7 @@ SetEvidence evidence_at(const NormalEquations& equations,
                                     s * std::sqrt(result.signal_to_noise_variance(i)),
                                     low,
                                     high) -
-                           log_mass(0.0, s * prior_sigma, low, high);
+                           log_mass(0.0, s * prior(i), low, high);
   }
   return result;
 }

@@ -10,7 +10,7 @@
 ///            stated, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
 ///   delta_k  coefficient times |V^-1/2 g_k|: the signal-to-noise ratio of a cause. Beforehand
 ///            N(0, kUsualSignalToNoise^2), with a small weight N(0, kWideSignalToNoise^2), cut to
-///            what the parameter may be
+///            what the parameter may be; the same size whatever acts beside it
 ///   s^2      the noise's square over the stated one: scaled inverse chi^2, dof as stated, about 1;
 ///            with a small weight about one of kLargerNoise squared
 ///   K        covariance of the model discrepancy (discrepancy.hpp)
@@ -38,6 +38,8 @@ class NoiseDensity {
  public:
   NoiseDensity(double dof, Eigen::Index rows);
   [[nodiscard]] double log_density(double quadratic) const;
+  /// The part of it from noise as stated.
+  [[nodiscard]] double log_density_as_stated(double quadratic) const;
   /// Share of that which comes from noise larger than stated.
   [[nodiscard]] double larger_share(double quadratic) const;
   /// Expected s^2.
@@ -91,21 +93,15 @@ struct NormalEquations {
   double ee = 0.0;           ///< e'e
   Eigen::VectorXd ge;        ///< m, g'e
   Eigen::MatrixXd gg;        ///< m x m, g'g
+  Eigen::VectorXd prior_square;  ///< m, g'g without a discrepancy: what the prior of a size is in
   double log_det = 0.0;      ///< of everything that is not noise's scale: V and the discrepancy
   [[nodiscard]] Eigen::Index position(int column) const;
 };
 [[nodiscard]] NormalEquations normal_equations(const MarginalisedSystem& marginalised,
                                                std::vector<int> columns);
 
-/// The model discrepancy beside some columns, at every kernel and strength; notes the traces in the
-/// marginalised system.
-[[nodiscard]] std::vector<NormalEquations> normal_equations_beside_discrepancies(
-    const LinearisedSystem& system,
-    MarginalisedSystem& marginalised,
-    const std::vector<int>& columns);
-/// Kernel and strength of discrepancy number `index`, in a marginalised system whose traces are
-/// noted.
-[[nodiscard]] Discrepancy discrepancy_of(const MarginalisedSystem& marginalised, int index);
+/// Kernel and size of a discrepancy, in a marginalised system whose traces are noted.
+[[nodiscard]] Discrepancy discrepancy_of(const MarginalisedSystem& marginalised, int discrepancy);
 
 /// What a set of regressors makes of the data.
 struct SetEvidence {

@@ -44,14 +44,18 @@ class Folds {
     for (const std::size_t u : units) excluded[u] = true;
     const DiagnosisOptions& options = a_.options;
     const ModelComparison comparison =
-        compare_models(a_.system, excluded, {options.steps, true, options.told});
+        compare_models(a_.system,
+                       excluded,
+                       {.steps = options.steps,
+                        .kernels = leading_kernels(a_.comparison),
+                        .told = options.told});
     // The same gate as for all units: the strongest score against what noise does.
     const MarginalisedSystem& first =
         comparison.marginalised_systems[comparison.best().marginalised];
     const SingleScore score(a_.system, first, a_.session.noise_dof);
     const bool seen = options.told.has_value() ||
                       a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
-    const Decision decision = decide_beside_discrepancy(a_.system, comparison, excluded, seen);
+    const Decision decision = decide_for_leaders(a_.system, comparison, excluded, seen);
     const MarginalisedSystem& marginalised =
         comparison.marginalised_systems[decision.marginalised];
     // A reading wrong at its own visit alone says nothing of any other.

@@ -26,7 +26,7 @@ double p_of_structure(const Analysis& a) {
   e.col(0) = left_of_machine(a.system, a.estimate, a.estimate.left)(kept);
   constexpr std::uint64_t kStream = 63;
   e.rightCols(kDraws) = left_of_noise(a, Nuisances::put_back, kDraws, kStream);
-  Eigen::MatrixXd k = discrepancy_covariance(a.system, kept, {DiscrepancyKind::chains, kSmoothMm});
+  Eigen::MatrixXd k = discrepancy_covariance(a.system, kept, {{{FieldOf::place, kSmoothMm}}, 1.0});
   if (a.system.nuisances > 0) {
     const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(a.system, kept);
     noise.matrixL().solveInPlace(e);

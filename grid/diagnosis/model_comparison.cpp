@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "grid/diagnosis/estimate.hpp"
 #include "grid/diagnosis/outlier_search.hpp"
@@ -98,6 +99,7 @@ SingleScores single_scores(const LinearisedSystem& system,
     if (!(square(at) > 1e-8)) continue;
     equations.ge(0) = c(at);
     equations.gg(0, 0) = square(at);
+    equations.prior_square = equations.gg.diagonal();
     const std::vector<Regressor> one = {regressor};
     const double factor =
         set_evidence(equations, one, first, noise).log_evidence - nothing + regressor.log_prior;
@@ -159,39 +161,98 @@ void finish(ModelComparison& comparison) {
 
 }  // namespace
 
-ModelComparison compare_models(const LinearisedSystem& system,
-                               const std::vector<bool>& excluded,
-                               const ComparisonOptions& options) {
-  ModelComparison comparison;
-  const auto compare_with = [&](const std::vector<std::vector<bool>>& sets) {
-    comparison.marginalised_systems.reserve(kMostOutlierSets);
+namespace {
+
+std::vector<std::size_t> all_kernels() {
+  std::vector<std::size_t> all(discrepancy_kernels().size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+/// Weightiest first; those that were not tried stay where they are.
+std::vector<std::size_t> by_weight(const std::vector<std::size_t>& kernels,
+                                   const std::vector<double>& weight) {
+  std::vector<std::size_t> order(kernels.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return weight[a] > weight[b];
+  });
+  for (std::size_t& k : order) k = kernels[k];
+  return order;
+}
+
+class Comparer {
+ public:
+  Comparer(const LinearisedSystem& system,
+           const std::vector<bool>& excluded,
+           const ComparisonOptions& options)
+      : system_(system), excluded_(excluded), options_(options) {
+    comparison_.marginalised_systems.reserve(kMostOutlierSets);
+  }
+
+  void compare_with(const std::vector<std::vector<bool>>& sets) {
     std::vector<SetSearch> searches;
     double best = kMinusInfinity;
-    const auto take = [&](std::vector<CandidateModel> models) {
-      std::move(models.begin(), models.end(), std::back_inserter(comparison.models));
-    };
     for (const auto& outliers : sets) {
-      if (comparison.marginalised_systems.size() == kMostOutlierSets) break;
-      comparison.marginalised_systems.push_back(marginalise(system, outliers, options.steps));
-      searches.emplace_back(system,
-                            comparison.marginalised_systems.back(),
-                            comparison.marginalised_systems.size() - 1,
-                            options);
+      auto& systems = comparison_.marginalised_systems;
+      if (systems.size() == kMostOutlierSets) break;
+      systems.push_back(marginalise(system_, outliers, options_.steps));
+      searches.emplace_back(system_, systems.back(), systems.size() - 1, options_);
       take(searches.back().run());
       best = std::max(best, searches.back().best());
     }
-    for (SetSearch& search : searches) {
-      if (options.discrepancies && search.best() > best - kWorthDiscrepancies) {
-        take(search.run_beside_discrepancies());
+    if (options_.discrepancies) {
+      for (SetSearch& search : searches) {
+        // What looks like outliers without a discrepancy may be part of one.
+        const bool all = search.outliers() == excluded_;
+        if (all || search.best() > best - kWorthDiscrepancies) look_beside(search);
       }
     }
-    finish(comparison);
-  };
-  compare_with(
-      outlier_sets(system, excluded, first_hypotheses(system, excluded, options), options.steps));
-  const auto more = sets_without_links(system, excluded, comparison);
-  if (!more.empty()) compare_with(more);
-  return comparison;
+    finish(comparison_);
+  }
+
+  ModelComparison& comparison() { return comparison_; }
+
+ private:
+  void take(std::vector<CandidateModel> models) {
+    std::move(models.begin(), models.end(), std::back_inserter(comparison_.models));
+  }
+
+  void look_beside(SetSearch& search) {
+    const bool first = comparison_.kernels.empty();
+    const std::vector<std::size_t> kernels = !first                      ? leading_kernels(comparison_)
+                                             : !options_.kernels.empty() ? options_.kernels
+                                                                         : all_kernels();
+    std::vector<double> weight;
+    take(search.run_beside_discrepancies(kernels, weight));
+    if (first) comparison_.kernels = by_weight(kernels, weight);
+  }
+
+  const LinearisedSystem& system_;
+  const std::vector<bool>& excluded_;
+  const ComparisonOptions& options_;
+  ModelComparison comparison_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> leading_kernels(const ModelComparison& comparison) {
+  std::vector<std::size_t> leading = comparison.kernels;
+  leading.resize(std::min(leading.size(), kLeadingKernels));
+  return leading;
+}
+
+ModelComparison compare_models(const LinearisedSystem& system,
+                               const std::vector<bool>& excluded,
+                               const ComparisonOptions& options) {
+  Comparer comparer(system, excluded, options);
+  auto sets =
+      outlier_sets(system, excluded, first_hypotheses(system, excluded, options), options.steps);
+  if (std::find(sets.begin(), sets.end(), excluded) == sets.end()) sets.push_back(excluded);
+  comparer.compare_with(sets);
+  const auto more = sets_without_links(system, excluded, comparer.comparison());
+  if (!more.empty()) comparer.compare_with(more);
+  return std::move(comparer.comparison());
 }
 
 }  // namespace chaintrue::grid::diagnosis

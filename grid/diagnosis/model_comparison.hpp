@@ -30,6 +30,8 @@ struct ModelComparison {
   std::vector<MarginalisedSystem> marginalised_systems;
   std::vector<CandidateModel> models;  ///< those that matter, best first
   double log_total = 0.0;              ///< logarithm of the sum of weights
+  /// Kernels of the model discrepancy that were tried, the weightiest first.
+  std::vector<std::size_t> kernels;
   /// \throws std::invalid_argument where no model is finite: there is none to name.
   [[nodiscard]] const CandidateModel& best() const;
   [[nodiscard]] double probability(const CandidateModel& model) const;
@@ -38,6 +40,8 @@ struct ModelComparison {
 struct ComparisonOptions {
   Steps steps;
   bool discrepancies = true;
+  /// Kernels of the discrepancy to try (numbers in discrepancy_kernels()); empty: all.
+  std::vector<std::size_t> kernels{};
   /// Nothing but this cause acts.
   std::optional<CauseId> told;
 };
@@ -46,6 +50,10 @@ struct ComparisonOptions {
 [[nodiscard]] ModelComparison compare_models(const LinearisedSystem& system,
                                              const std::vector<bool>& excluded,
                                              const ComparisonOptions& options);
+
+/// The weightiest kernels of a comparison, for others of the same session: as many as hold the
+/// weight of a discrepancy at any of its causes.
+[[nodiscard]] std::vector<std::size_t> leading_kernels(const ModelComparison& comparison);
 
 /// Most causes in one set.
 inline constexpr std::size_t kMostCauses = 4;

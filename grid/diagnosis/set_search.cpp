@@ -8,19 +8,12 @@
 #include <limits>
 #include <set>
 
+#include "grid/diagnosis/beside_discrepancies.hpp"
+
 namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
-
-/// May two regressors act together: one cause acts at one place, and an effect that acts on both
-/// chains alike not also on one of them.
-bool compatible(const Regressor& a, const Regressor& b) {
-  if (a.cause.effect != b.cause.effect) return true;
-  using model::effects::EffectSide;
-  const auto joint = [](EffectSide s) { return s == EffectSide::both || s == EffectSide::none; };
-  return a.cause.side != b.cause.side && !joint(a.cause.side) && !joint(b.cause.side);
-}
 
 }  // namespace
 
@@ -32,30 +25,41 @@ class SetSearch::Search {
          const ComparisonOptions& options)
       : system_(system),
         marginalised_(marginalised),
-        number_(number),
         options_(options),
-        noise_(options.steps.anchor_noise ? system.noise_dof : 1e-3,
-               static_cast<Eigen::Index>(marginalised.kept.size())) {}
+        collector_(system, marginalised, number, options) {}
 
   std::vector<CandidateModel> run() {
     equations_ = normal_equations(marginalised_, columns());
-    consider({}, -1, equations_, 0.0);
+    consider({});
     singles();
     if (!options_.told) {
       pairs();
       grow();
     }
-    return std::move(models_);
+    return collector_.take();
   }
 
-  /// The best sets once more, with a discrepancy that nobody knows beside them.
-  std::vector<CandidateModel> run_beside_discrepancies() {
-    models_.clear();
-    beside_discrepancies();
-    return std::move(models_);
+  std::vector<CandidateModel> run_beside_discrepancies(const std::vector<std::size_t>& kernels,
+                                                       std::vector<double>& kernel_weight) {
+    std::stable_sort(scored_.begin(), scored_.end(), heavier);
+    std::vector<std::vector<int>> leading;
+    std::array<std::size_t, kMostCauses + 1> taken{};
+    for (const WeighedSet& s : scored_) {
+      if (s.set.size() < 2 || taken[s.set.size()] >= kSetsBesideDiscrepancy) continue;
+      ++taken[s.set.size()];
+      std::vector<int> regressors;
+      for (const Eigen::Index i : s.set) {
+        regressors.push_back(equations_.columns[static_cast<std::size_t>(i)]);
+      }
+      leading.push_back(std::move(regressors));
+    }
+    kernel_weight = search_beside_discrepancies(
+        system_, marginalised_, options_, equations_, leading, kernels, collector_);
+    return collector_.take();
   }
 
-  [[nodiscard]] double best() const { return best_; }
+  [[nodiscard]] double best() const { return collector_.best(); }
+  [[nodiscard]] const std::vector<bool>& outliers() const { return marginalised_.outliers; }
 
  private:
   /// Regressors worth their place: those of no whole number, and of the others the best, alone or
@@ -99,42 +103,12 @@ class SetSearch::Search {
     return kept;
   }
 
-  /// Weighs a set (positions in the normal equations) and keeps it where it matters.
-  double consider(const std::vector<Eigen::Index>& set,
-                  int discrepancy,
-                  const NormalEquations& equations,
-                  double log_discrepancy) {
-    std::vector<int> chosen;
-    for (const Eigen::Index i : set)
-      chosen.push_back(equations.columns[static_cast<std::size_t>(i)]);
-    const SetEvidence evidence = set_evidence(equations, system_.regressors, set, noise_);
-    if (!std::isfinite(evidence.log_evidence)) return kMinusInfinity;
-    CandidateModel model;
-    model.regressors = chosen;
-    std::sort(model.regressors.begin(), model.regressors.end());
-    model.discrepancy = discrepancy;
-    model.marginalised = number_;
-    model.log_weight = evidence.log_evidence + marginalised_.log_outliers + log_discrepancy +
-                       prior(chosen, discrepancy >= 0);
-    model.larger_noise = noise_.larger_share(evidence.quadratic);
-    model.quadratic = evidence.quadratic;
-    best_ = std::max(best_, model.log_weight);
-    if (model.log_weight > best_ - kNegligibleModel || set.size() <= 1) models_.push_back(model);
-    return model.log_weight;
-  }
-
-  [[nodiscard]] double prior(const std::vector<int>& set, bool discrepancy) const {
-    double value = log_prior(system_.regressors, set, discrepancy);
-    if (!options_.steps.average_location) {
-      for (const int k : set) value -= system_.regressors[static_cast<std::size_t>(k)].log_prior;
-    }
-    return value;
-  }
+  double consider(const ColumnSet& set) { return collector_.consider(set, -1, equations_); }
 
   void singles() {
     for (std::size_t k = 0; k < equations_.columns.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(k);
-      const double weight = consider({at}, -1, equations_, 0.0);
+      const double weight = consider({at});
       scored_.push_back({weight, {at}});
     }
   }
@@ -192,21 +166,21 @@ class SetSearch::Search {
     for (std::size_t k = 0; k < quick.size(); ++k) {
       if (quick[k].first < best - kPairsWithin || k > kMostPairs) break;
       const std::vector<Eigen::Index> set = {quick[k].second.first, quick[k].second.second};
-      scored_.push_back({consider(set, -1, equations_, 0.0), set});
+      scored_.push_back({consider(set), set});
     }
   }
 
   void grow() {
     for (std::size_t size = 3; size <= kMostCauses; ++size) {
-      std::vector<Scored> parents;
-      for (const Scored& s : scored_) {
+      std::vector<WeighedSet> parents;
+      for (const WeighedSet& s : scored_) {
         if (s.set.size() == size - 1 && std::isfinite(s.weight)) parents.push_back(s);
       }
       std::stable_sort(parents.begin(), parents.end(), heavier);
-      if (parents.empty() || parents.front().weight < best_ - kGrowWithin) return;
+      if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
       if (parents.size() > kBeam) parents.resize(kBeam);
       std::set<std::vector<Eigen::Index>> seen;
-      for (const Scored& parent : parents) extend(parent.set, seen);
+      for (const WeighedSet& parent : parents) extend(parent.set, seen);
     }
   }
 
@@ -233,51 +207,9 @@ class SetSearch::Search {
       set.push_back(order[k].second);
       std::sort(set.begin(), set.end());
       if (!seen.insert(set).second) continue;
-      scored_.push_back({consider(set, -1, equations_, 0.0), set});
+      scored_.push_back({consider(set), set});
     }
   }
-
-  void beside_discrepancies() {
-    std::stable_sort(scored_.begin(), scored_.end(), heavier);
-    std::vector<std::vector<Eigen::Index>> sets = {{}};
-    std::vector<int> used;
-    std::array<std::size_t, kMostCauses + 1> taken{};
-    std::vector<CauseId> alone;
-    for (const Scored& s : scored_) {
-      const bool single = s.set.size() == 1;
-      const CauseId cause = regressor(s.set.front()).cause;
-      // Every cause alone at its best places, and the best of the others.
-      const auto times = std::count(alone.begin(), alone.end(), cause);
-      if (single ? times >= 2 : taken[s.set.size()] >= kBesideDiscrepancy / 2) continue;
-      if (single) alone.push_back(cause);
-      ++taken[s.set.size()];
-      sets.push_back(s.set);
-      for (const Eigen::Index i : s.set) {
-        used.push_back(equations_.columns[static_cast<std::size_t>(i)]);
-      }
-    }
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    const std::vector<NormalEquations> by_discrepancy =
-        normal_equations_beside_discrepancies(system_, marginalised_, used);
-    for (int discrepancy = 0; discrepancy < kDiscrepancies; ++discrepancy) {
-      const NormalEquations& equations = by_discrepancy[static_cast<std::size_t>(discrepancy)];
-      const double share = log_share_of_discrepancy(discrepancy);
-      for (const auto& set : sets) {
-        std::vector<Eigen::Index> there;
-        for (const Eigen::Index i : set) {
-          there.push_back(equations.position(equations_.columns[static_cast<std::size_t>(i)]));
-        }
-        consider(there, discrepancy, equations, share);
-      }
-    }
-  }
-
-  struct Scored {
-    double weight;
-    std::vector<Eigen::Index> set;
-  };
-  static bool heavier(const Scored& a, const Scored& b) { return a.weight > b.weight; }
 
   [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
     return system_
@@ -288,13 +220,10 @@ class SetSearch::Search {
 
   const LinearisedSystem& system_;
   MarginalisedSystem& marginalised_;
-  std::size_t number_;
   const ComparisonOptions& options_;
-  NoiseDensity noise_;
+  ModelCollector collector_;
   NormalEquations equations_;
-  std::vector<CandidateModel> models_;
-  std::vector<Scored> scored_;
-  double best_ = kMinusInfinity;
+  std::vector<WeighedSet> scored_;
 };
 
 SetSearch::SetSearch(const LinearisedSystem& system,
@@ -306,9 +235,11 @@ SetSearch::~SetSearch() = default;
 SetSearch::SetSearch(SetSearch&&) noexcept = default;
 SetSearch& SetSearch::operator=(SetSearch&&) noexcept = default;
 std::vector<CandidateModel> SetSearch::run() { return search_->run(); }
-std::vector<CandidateModel> SetSearch::run_beside_discrepancies() {
-  return search_->run_beside_discrepancies();
+std::vector<CandidateModel> SetSearch::run_beside_discrepancies(
+    const std::vector<std::size_t>& kernels, std::vector<double>& kernel_weight) {
+  return search_->run_beside_discrepancies(kernels, kernel_weight);
 }
 double SetSearch::best() const { return search_->best(); }
+const std::vector<bool>& SetSearch::outliers() const { return search_->outliers(); }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -25,10 +25,12 @@ class SetSearch {
   SetSearch& operator=(SetSearch&&) noexcept;
 
   [[nodiscard]] std::vector<CandidateModel> run();
-  /// After run().
-  [[nodiscard]] std::vector<CandidateModel> run_beside_discrepancies();
+  /// After run(). Of these kernels; sets what each was seen to weigh.
+  [[nodiscard]] std::vector<CandidateModel> run_beside_discrepancies(
+      const std::vector<std::size_t>& kernels, std::vector<double>& kernel_weight);
   /// Largest weight so far.
   [[nodiscard]] double best() const;
+  [[nodiscard]] const std::vector<bool>& outliers() const;
 
  private:
   class Search;

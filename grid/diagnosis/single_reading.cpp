@@ -23,7 +23,8 @@ std::optional<MadeBy> made_by(const Session& session, const Stability& stability
   for (const Removal& removal : stability.removals) {
     const bool one =
         removal.what == Removal::What::point || removal.what == Removal::What::distance;
-    if (!one || !removal.causes.empty()) continue;
+    // A name that is less sure without a reading is not made by it.
+    if (!one || !removal.causes.empty() || removal.probability >= kLikelierThanNot) continue;
     if (most == nullptr || removal.support > most->support) most = &removal;
   }
   if (most == nullptr) return std::nullopt;
@@ -74,7 +75,11 @@ std::optional<std::string> refuse_name_of_one_reading(const std::optional<Stabil
   const CauseId cause = a.decision.classes[leader.index].front();
   std::vector<bool> aside(a.session.units.size(), false);
   aside[reading->unit] = true;
-  a.comparison = compare_models(a.system, aside, {a.options.steps, true, a.options.told});
+  a.comparison = compare_models(a.system,
+                                aside,
+                                {.steps = a.options.steps,
+                                 .kernels = leading_kernels(a.comparison),
+                                 .told = a.options.told});
   decide_for(false, a);
   return refusal_words(a.session, *reading, cause, leader.probability);
 }

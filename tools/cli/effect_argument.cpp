@@ -72,10 +72,6 @@ void OptionProblems::throw_if_any() const {
   if (!problems_.empty()) throw grid::files::InputError(problems_);
 }
 
-void check_effect_forms(const std::vector<std::string>& arguments, OptionProblems& problems) {
-  for (const std::string& argument : arguments) (void)parse_form(argument, problems);
-}
-
 std::vector<model::AppliedEffect> parse_effects(const std::vector<std::string>& arguments,
                                                 const model::Machine& machine,
                                                 OptionProblems& problems) {

@@ -27,8 +27,6 @@ class OptionProblems {
   std::vector<grid::files::InputProblem> problems_;
 };
 
-/// That every `--effect` has the form above, whatever it names.
-void check_effect_forms(const std::vector<std::string>& arguments, OptionProblems& problems);
 /// The effects that `--effect` named, checked against the catalogue as effects of `machine` beside
 /// its own.
 [[nodiscard]] std::vector<model::AppliedEffect> parse_effects(

@@ -27,6 +27,10 @@ constexpr std::pair<Mix, std::string_view> kMixes[] = {
     {Mix::bad_points_and_effect, "bad_points_and_effect"},
     {Mix::no_order, "no_order"},
     {Mix::rounded, "rounded"},
+    {Mix::beside, "beside"},
+    {Mix::two_beside, "two_beside"},
+    {Mix::pattern, "pattern"},
+    {Mix::near, "near"},
 };
 
 /// Interval of delta, drawn log-uniformly.
@@ -292,14 +296,29 @@ std::size_t effects_in(Mix mix) {
     case Mix::no_order:
     case Mix::rounded:
     case Mix::bad_points_and_effect:
+    case Mix::beside:
       return 1;
     case Mix::two:
+    case Mix::two_beside:
       return 2;
     case Mix::three:
       return 3;
     default:
       return 0;
   }
+}
+
+bool has_pattern(Mix mix) {
+  return mix == Mix::beside || mix == Mix::two_beside || mix == Mix::pattern || mix == Mix::near;
+}
+
+PatternRules rules_of(const Recipe& recipe) {
+  PatternRules rules{.group = recipe.patterns};
+  // Beside a cause whatever a height of 1 to 2 mm makes, if it can be seen; alone as asked.
+  const bool beside = recipe.kind == Mix::beside || recipe.kind == Mix::two_beside;
+  if (beside) rules.most_delta = 1e9;
+  rules.near = recipe.kind == Mix::near;
+  return rules;
 }
 
 Range range_of(const Recipe& recipe) {
@@ -341,6 +360,7 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
   const NoiseLevel noise = recipe.noise;
   const auto yardstick = Yardstick::make(truth, visits, noise, {});
   if (!yardstick) throw std::runtime_error("draw_set: the machine cannot reach its own bed");
+  std::vector<Signature> signatures;
   if (!recipe.exactly.empty()) {
     answer.hidden = recipe.exactly;
     for (const Hidden& h : recipe.exactly) {
@@ -354,13 +374,20 @@ SealedSet draw_set(const Recipe& recipe, std::uint64_t seed) {
     for (const Sized& s : effects) {
       answer.hidden.push_back(s.hidden);
       answer.delta.push_back(s.delta);
+      signatures.push_back(s.signature);
     }
     note_rival(*yardstick, effects.front(), answer);
   }
   if (recipe.kind == Mix::unlisted) draw_unlisted(*yardstick, answer, effect_dice);
+  if (has_pattern(recipe.kind)) {
+    Dice pattern_dice(seed, "pattern");
+    answer.pattern =
+        draw_pattern(*yardstick, rules_of(recipe), signatures, pattern_dice);
+  }
 
   HiddenMachine machine(stated, truth, answer.hidden);
   if (answer.unlisted) machine.suffers(*answer.unlisted);
+  if (answer.pattern) machine.suffers(answer.pattern->pattern);
   machine.went_to(visits);
   const auto exact = machine.exact(visits);
   if (!exact) throw std::runtime_error("draw_set: the hidden machine cannot reach a mark");

@@ -3,7 +3,7 @@
 /// Sealed sets: from a seed and a mix to the grid file that a person would have, and the answer in
 /// an envelope of its own.
 ///
-/// The mix that figures are stated for: the classic machine; regular grids of 28, 60 or 117 marks
+/// The mix that figures are stated for: the classic machine; regular grids of 28, 60, 117, 200 or 465 marks
 /// plus six repeats; 0.2 mm noise of length and 0.3 mm of position, stated with 12 degrees of
 /// freedom; motors off by 1.5 mm and zeros by 0.5 mm (one sigma; stated 3 and 1); rows, columns,
 /// serpentines and random orders alike; an effect, then its side, then its place drawn evenly, then
@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "generator/hidden/effects.hpp"
+#include "generator/hidden/pattern.hpp"
 #include "generator/hidden/session.hpp"
 #include "generator/hidden/strength.hpp"
 #include "generator/hidden/unlisted.hpp"
@@ -44,6 +45,10 @@ enum class Mix {
   bad_points_and_effect,  ///< the same with an effect of delta 12
   no_order,               ///< as single, without visiting numbers
   rounded,                ///< as single, read to 0.5 mm
+  beside,                 ///< as single, and a pattern that is not much like it
+  two_beside,             ///< as two, and a pattern
+  pattern,                ///< a pattern alone, delta 6 to 30
+  near,                   ///< a pattern alone that looks like an effect of the catalogue
 };
 [[nodiscard]] std::string_view word(Mix mix);
 [[nodiscard]] std::optional<Mix> mix_of(std::string_view word);
@@ -69,6 +74,8 @@ struct Recipe {
   NoiseLevel noise;
   /// Stated over true.
   std::optional<double> noise_ratio;
+  /// Of the mixes with a pattern.
+  PatternGroup patterns = PatternGroup::smooth;
 };
 
 /// What is in the envelope.
@@ -83,6 +90,7 @@ struct Answer {
   std::optional<Unlisted> unlisted;
   double left_over_delta = 0.0;  ///< of the unlisted, what no effect of the catalogue explains
   double whole_delta = 0.0;
+  std::optional<SizedPattern> pattern;
   std::vector<std::size_t> bad_points;
   Order order = Order::rows;
   double noise_ratio = 1.0;  ///< stated over true
@@ -116,7 +124,8 @@ class HiddenMachine {
   [[nodiscard]] const TrueMachine& truth() const { return truth_; }
   [[nodiscard]] const std::vector<Hidden>& hidden() const { return hidden_; }
   void suffers(Unlisted what) { unlisted_ = what; }
-  /// Noise-free readings of a whole session, unlisted shifts included.
+  void suffers(const Pattern& what) { pattern_ = what; }
+  /// Noise-free readings of a whole session, what no catalogue lists included.
   [[nodiscard]] std::optional<std::vector<Lengths>> exact(std::span<const Visit> visits) const;
 
  private:
@@ -124,6 +133,7 @@ class HiddenMachine {
   TrueMachine truth_;  ///< settings off, effects not yet applied
   std::vector<Hidden> hidden_;
   std::optional<Unlisted> unlisted_;
+  std::optional<Pattern> pattern_;
   std::vector<Visit> visits_;
 };
 

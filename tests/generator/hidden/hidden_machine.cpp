@@ -20,7 +20,14 @@ std::optional<std::vector<Lengths>> HiddenMachine::exact(std::span<const Visit> 
   }
   const auto at_rest = rests(with, where);
   if (!at_rest) return std::nullopt;
-  return readings(with, hidden_, where, *at_rest);
+  std::vector<Lengths> read = readings(with, hidden_, where, *at_rest);
+  if (pattern_) {
+    const auto extra = extra_lengths(*pattern_, where, *at_rest);
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      for (std::size_t c = 0; c < 2; ++c) read[i][c] += extra[i][c];
+    }
+  }
+  return read;
 }
 
 std::optional<HiddenMachine::Note> HiddenMachine::measure(Vec2 mark, NoiseLevel noise, Dice& dice) {

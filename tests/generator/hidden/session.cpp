@@ -22,6 +22,12 @@ Layout layout_of(int points) {
   } else if (points == 117) {
     layout.columns = 13;
     layout.rows = 9;
+  } else if (points == 200) {
+    layout.columns = 20;
+    layout.rows = 10;
+  } else if (points == 465) {
+    layout.columns = 31;
+    layout.rows = 15;
   } else {
     throw std::invalid_argument("layout_of: " + std::to_string(points) + " marks");
   }

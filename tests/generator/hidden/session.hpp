@@ -26,7 +26,7 @@ struct Layout {
   Extent extent = Extent::whole;
   int repeats = 6;
 };
-/// 28, 60 or 117 marks. \throws std::invalid_argument for another number.
+/// 28, 60, 117, 200 or 465 marks. \throws std::invalid_argument for another number.
 [[nodiscard]] Layout layout_of(int points);
 
 /// Marks in visiting order, numbered from 0; the repeats are marks seen before, spread evenly over

@@ -34,6 +34,7 @@ struct Arguments {
   std::string cause;
   std::string csv;
   std::string extent = "whole";
+  std::string patterns = "smooth";
   bool gain = false;
   bool follow_up = false;
   bool other_machines = false;
@@ -56,6 +57,11 @@ const std::map<std::string, chaintrue::generator::Extent> kExtents = {
     {"without_corners", chaintrue::generator::Extent::without_corners},
     {"left_side", chaintrue::generator::Extent::left_side}};
 
+const std::map<std::string, chaintrue::generator::PatternGroup> kPatterns = {
+    {"smooth", chaintrue::generator::PatternGroup::smooth},
+    {"short_scale", chaintrue::generator::PatternGroup::short_scale},
+    {"other", chaintrue::generator::PatternGroup::other}};
+
 std::string known_cause(const std::string& word) {
   for (const auto& card : chaintrue::generator::cards()) {
     if (card.id == word) return "";
@@ -69,6 +75,7 @@ TrialOptions options_of(const Arguments& arguments) {
   options.recipe.kind = *generator::mix_of(arguments.mix);
   if (arguments.delta > 0.0) options.recipe.delta = arguments.delta;
   options.recipe.other_machines = arguments.other_machines;
+  options.recipe.patterns = kPatterns.at(arguments.patterns);
   options.recipe.extent = kExtents.at(arguments.extent);
   for (const auto& card : generator::cards()) {
     if (card.id == arguments.cause) options.recipe.cause = card.cause;
@@ -116,12 +123,15 @@ int main(int argc, char** argv) {
   app.add_option("--mix",
                  arguments.mix,
                  "single, nothing, heavy, wrong_noise, uneven_noise, two, "
-                 "three, unlisted, bad_points, bad_points_and_effect, no_order, rounded")
+                 "three, unlisted, bad_points, bad_points_and_effect, no_order, rounded, "
+                 "beside, two_beside, pattern, near")
       ->check([](const std::string& word) {
         return chaintrue::generator::mix_of(word) ? std::string() : "no such mix: " + word;
       });
-  app.add_option("--points", arguments.points, "28, 60, 117 or mix")
-      ->check(CLI::IsMember({"28", "60", "117", "mix"}));
+  app.add_option("--points", arguments.points, "28, 60, 117, 200, 465 or mix")
+      ->check(CLI::IsMember({"28", "60", "117", "200", "465", "mix"}));
+  app.add_option("--patterns", arguments.patterns, "smooth, short_scale, other")
+      ->check(CLI::IsMember(kPatterns));
   app.add_option("--first-seed", arguments.first_seed, "of a run of seeds");
   app.add_option("--jobs", arguments.jobs, "threads")->check(CLI::Range(1, 64));
   app.add_option("--delta", arguments.delta, "one strength in place of 6 to 22");

@@ -10,6 +10,8 @@
 #include <iterator>
 #include <map>
 
+#include "sealed/judge/pattern_table.hpp"
+
 namespace chaintrue::sealed {
 namespace {
 
@@ -278,6 +280,12 @@ std::string markdown(const TrialOptions& options, const std::vector<Trial>& tria
     case Mix::unlisted:
       about_unlisted(trials, rows);
       break;
+    case Mix::beside:
+    case Mix::two_beside:
+    case Mix::pattern:
+    case Mix::near:
+      for (const auto& [what, share] : pattern_rows(trials)) rows.add(what, share);
+      break;
     case Mix::bad_points:
       about_bad_points(trials, rows);
       rows.add("false name", share_of(trials, names_something));
@@ -289,6 +297,9 @@ std::string markdown(const TrialOptions& options, const std::vector<Trial>& tria
     default:
       rows.add("false name", share_of(trials, names_something));
       break;
+  }
+  if (!trials.front().answer.pattern) {
+    rows.add("a pattern told that is not there", share_of(trials, tells_pattern));
   }
   about_errors(trials, rows);
   about_follow_up(trials, rows);

@@ -33,6 +33,9 @@ void take_over(const Diagnosis& found, Trial& trial) {
     trial.causes.push_back(std::move(named));
   }
   trial.hypotheses = found.hypotheses;
+  for (const auto& h : found.hypotheses) {
+    if (h.effect == "unknown") trial.unknown_probability = h.probability;
+  }
   trial.family_wise_p = found.family_wise_p;
   trial.left_over_delta = found.left_over.signal_to_noise;
   trial.noise_factor = found.noise_factor;

@@ -54,6 +54,7 @@ struct Trial {
   grid::diagnosis::Verdict verdict = grid::diagnosis::Verdict::nothing_found;
   std::vector<NamedCause> causes;
   std::vector<grid::diagnosis::Hypothesis> hypotheses;
+  double unknown_probability = 0.0;  ///< of a pattern, alone or beside causes
   double family_wise_p = 1.0;
   double left_over_delta = 0.0;
   double noise_factor = 1.0;

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/beside_discrepancies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "grid/diagnosis/discrepancy_basis.hpp"
+#include "grid/statistics.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
+
+/// A discrepancy with what speaks for it before it is searched.
+struct Scouted {
+  int discrepancy = 0;
+  double weight = kMinusInfinity;
+  /// Regressors worth trying in it, alone: what they weigh, best first.
+  std::vector<std::pair<double, int>> singles;
+};
+
+class Scout {
+ public:
+  Scout(const LinearisedSystem& system,
+        const NormalEquations& plain,
+        const std::vector<std::vector<int>>& leading,
+        const ModelCollector& collector)
+      : system_(system), plain_(plain), leading_(leading), collector_(collector) {
+    for (const int k : plain.columns) {
+      prior_.push_back(collector.log_prior_of({k}, -1) + std::log(kDiscrepancyPrior));
+    }
+    prior_of_nothing_ = collector.log_prior_of({}, -1) + std::log(kDiscrepancyPrior);
+  }
+
+  /// `beside` of the columns that this scout knows.
+  [[nodiscard]] Scouted look_at(const DiscrepancyBasis::Beside& beside, int discrepancy) const {
+    const auto d = beside.diagonal(strength_of(discrepancy));
+    const double share = log_share_of_discrepancy(discrepancy) - 0.5 * d.log_det;
+    Scouted result{
+        discrepancy, prior_of_nothing_ + share + collector_.noise().log_density(d.ee), {}};
+    std::vector<std::pair<double, int>> all;
+    for (std::size_t k = 0; k < plain_.columns.size(); ++k) {
+      all.emplace_back(prior_[k] + share + single(d, static_cast<Eigen::Index>(k)),
+                       plain_.columns[k]);
+    }
+    const auto most = std::min(all.size(), kSinglesBesideDiscrepancy);
+    std::partial_sort(all.begin(),
+                      all.begin() + static_cast<std::ptrdiff_t>(most),
+                      all.end(),
+                      [](const auto& a, const auto& b) {
+                        return a.first != b.first ? a.first > b.first : a.second < b.second;
+                      });
+    all.resize(most);
+    if (!all.empty()) result.weight = std::max(result.weight, all.front().first);
+    result.singles = std::move(all);
+    for (const std::vector<int>& set : leading_) {
+      result.weight = std::max(result.weight, together(beside, discrepancy, set));
+    }
+    return result;
+  }
+
+ private:
+  /// log evidence of one regressor but for determinants that all share, its bounds let go.
+  [[nodiscard]] double single(const DiscrepancyBasis::Beside::Diagonal& d, Eigen::Index k) const {
+    const Regressor& own = system_.regressors[static_cast<std::size_t>(
+        plain_.columns[static_cast<std::size_t>(k)])];
+    const NoiseDensity& noise = collector_.noise();
+    if (own.fixed) return noise.log_density_as_stated(d.ee - 2.0 * d.ge(k) + d.gg(k));
+    const double gg = std::max(d.gg(k), 0.0);
+    const double strength = plain_.prior_square(k) * d.ge(k) * d.ge(k) / std::max(gg * gg, 1e-12);
+    // The prior under which the size that fits is the likelier one.
+    const bool usual = strength < 8.0 * kUsualSignalToNoise * kUsualSignalToNoise;
+    const double sigma = usual ? kUsualSignalToNoise : kWideSignalToNoise;
+    const double precision = plain_.prior_square(k) / (sigma * sigma);
+    const double q = d.ee - d.ge(k) * d.ge(k) / (gg + precision);
+    return noise.log_density_as_stated(std::max(q, 0.0)) - 0.5 * std::log1p(gg / precision);
+  }
+
+  [[nodiscard]] double together(const DiscrepancyBasis::Beside& beside,
+                                int discrepancy,
+                                const std::vector<int>& set) const {
+    const NormalEquations equations = beside.equations(strength_of(discrepancy), set);
+    ColumnSet all;
+    for (std::size_t k = 0; k < set.size(); ++k) all.push_back(static_cast<Eigen::Index>(k));
+    return set_evidence(equations, system_.regressors, all, collector_.noise()).log_evidence +
+           collector_.log_prior_of(set, discrepancy);
+  }
+
+  const LinearisedSystem& system_;
+  const NormalEquations& plain_;
+  const std::vector<std::vector<int>>& leading_;
+  const ModelCollector& collector_;
+  std::vector<double> prior_;
+  double prior_of_nothing_ = 0.0;
+};
+
+/// The sets beside one discrepancy, each weighed in full.
+class Search {
+ public:
+  Search(const LinearisedSystem& system,
+         NormalEquations equations,
+         int discrepancy,
+         ModelCollector& collector)
+      : system_(system),
+        equations_(std::move(equations)),
+        discrepancy_(discrepancy),
+        collector_(collector) {}
+
+  void run(const std::vector<int>& singles, const std::vector<std::vector<int>>& leading) {
+    consider({});
+    std::vector<WeighedSet> parents;
+    for (const int k : singles) {
+      const ColumnSet set = {equations_.position(k)};
+      parents.push_back({consider(set), set});
+    }
+    for (const std::vector<int>& regressors : leading) {
+      ColumnSet set;
+      for (const int k : regressors) set.push_back(equations_.position(k));
+      if (known_.contains(set)) continue;
+      grown_[set.size()].push_back({consider(set), set});
+    }
+    const std::vector<WeighedSet> alone = parents;
+    for (std::size_t size = 2; size <= kMostCauses; ++size) {
+      std::stable_sort(parents.begin(), parents.end(), heavier);
+      if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
+      parents.resize(std::min(parents.size(), kBeamBesideDiscrepancy));
+      for (const WeighedSet& parent : parents) extend(parent.set, alone);
+      parents = grown_[size];
+    }
+  }
+
+ private:
+  double consider(const ColumnSet& set) {
+    const double weight = collector_.consider(set, discrepancy_, equations_);
+    known_.emplace(set, weight);
+    return weight;
+  }
+
+  void extend(const ColumnSet& parent, const std::vector<WeighedSet>& alone) {
+    for (const WeighedSet& one : alone) {
+      const Eigen::Index own = one.set.front();
+      const bool fits = std::all_of(parent.begin(), parent.end(), [&](Eigen::Index p) {
+        return compatible(regressor(p), regressor(own));
+      });
+      if (!fits) continue;
+      ColumnSet set = parent;
+      set.insert(std::lower_bound(set.begin(), set.end(), own), own);
+      if (known_.contains(set)) continue;
+      grown_[set.size()].push_back({consider(set), set});
+    }
+  }
+
+  [[nodiscard]] const Regressor& regressor(Eigen::Index i) const {
+    return system_
+        .regressors[static_cast<std::size_t>(equations_.columns[static_cast<std::size_t>(i)])];
+  }
+
+  const LinearisedSystem& system_;
+  NormalEquations equations_;
+  int discrepancy_;
+  ModelCollector& collector_;
+  std::map<ColumnSet, double> known_;
+  std::array<std::vector<WeighedSet>, kMostCauses + 1> grown_;
+};
+
+/// Of each cause its best places alone.
+std::vector<int> worth_trying(const LinearisedSystem& system, const Scouted& scouted) {
+  constexpr int kPlacesOfACause = 2;
+  std::vector<int> result;
+  std::vector<CauseId> taken;
+  for (const auto& [weight, k] : scouted.singles) {
+    if (weight < scouted.weight - kNegligibleModel) break;
+    const CauseId& cause = system.regressors[static_cast<std::size_t>(k)].cause;
+    if (std::count(taken.begin(), taken.end(), cause) == kPlacesOfACause) continue;
+    taken.push_back(cause);
+    result.push_back(k);
+  }
+  return result;
+}
+
+/// Of each cause the places that fit best where nothing acts beside it, and all that lead.
+std::vector<int> columns_to_scout(const LinearisedSystem& system,
+                                  const NormalEquations& plain,
+                                  const std::vector<std::vector<int>>& leading) {
+  constexpr int kPlacesOfACause = 4;
+  std::vector<std::pair<double, int>> order;
+  for (std::size_t k = 0; k < plain.columns.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const bool fixed = system.regressors[static_cast<std::size_t>(plain.columns[k])].fixed;
+    const double gain = fixed ? 2.0 * plain.ge(at) - plain.gg(at, at)
+                              : plain.ge(at) * plain.ge(at) / plain.gg(at, at);
+    order.emplace_back(-gain, plain.columns[k]);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<int> result;
+  std::vector<CauseId> taken;
+  for (const auto& [gain, k] : order) {
+    const CauseId& cause = system.regressors[static_cast<std::size_t>(k)].cause;
+    if (std::count(taken.begin(), taken.end(), cause) == kPlacesOfACause) continue;
+    taken.push_back(cause);
+    result.push_back(k);
+  }
+  for (const auto& set : leading) result.insert(result.end(), set.begin(), set.end());
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+/// Those that hold a share of the weight, best first.
+std::vector<int> worth_searching(std::vector<Scouted> scouted) {
+  std::stable_sort(scouted.begin(), scouted.end(), [](const Scouted& a, const Scouted& b) {
+    return a.weight > b.weight;
+  });
+  std::vector<int> result;
+  for (const Scouted& one : scouted) {
+    if (one.weight < scouted.front().weight - kDiscrepanciesWithin) break;
+    if (result.size() == kMostDiscrepanciesSearched) break;
+    result.push_back(one.discrepancy);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> search_beside_discrepancies(const LinearisedSystem& system,
+                                                MarginalisedSystem& marginalised,
+                                                const ComparisonOptions& options,
+                                                const NormalEquations& plain,
+                                                const std::vector<std::vector<int>>& leading,
+                                                const std::vector<std::size_t>& kernels,
+                                                ModelCollector& collector) {
+  DiscrepancyBasis basis(system, marginalised, kernels);
+  const NormalEquations few =
+      normal_equations(marginalised, columns_to_scout(system, plain, leading));
+  const Scout first_look(system, few, leading, collector);
+  const auto strengths = static_cast<int>(std::size(kDiscrepancyStrengths));
+  std::vector<Scouted> scouted;
+  std::vector<double> of_kernel;
+  for (const std::size_t kernel : kernels) {
+    const DiscrepancyBasis::Beside beside = basis.beside(kernel, few);
+    double best = kMinusInfinity;
+    for (int strength = 0; strength < strengths; ++strength) {
+      scouted.push_back(
+          first_look.look_at(beside, static_cast<int>(kernel) * strengths + strength));
+      best = std::max(best, scouted.back().weight);
+    }
+    of_kernel.push_back(best);
+  }
+  const Scout closer_look(system, plain, leading, collector);
+  std::map<std::size_t, DiscrepancyBasis::Beside> all_columns;
+  for (const int discrepancy : worth_searching(std::move(scouted))) {
+    const std::size_t kernel = kernel_of(discrepancy);
+    if (!all_columns.contains(kernel)) all_columns.emplace(kernel, basis.beside(kernel, plain));
+    const DiscrepancyBasis::Beside& beside = all_columns.at(kernel);
+    const std::vector<int> singles =
+        options.told ? plain.columns
+                     : worth_trying(system, closer_look.look_at(beside, discrepancy));
+    std::vector<int> used = singles;
+    for (const auto& set : leading) used.insert(used.end(), set.begin(), set.end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    Search(system, beside.equations(strength_of(discrepancy), used), discrepancy, collector)
+        .run(singles, leading);
+  }
+  return of_kernel;
+}
+
+}  // namespace chaintrue::grid::diagnosis

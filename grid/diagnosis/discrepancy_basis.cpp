@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/discrepancy_basis.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// What is left of the field's variance of one at any place.
+/// A hundredth of its sigma, which is seldom beyond a millimetre.
+constexpr double kLeftOfField = 1e-4;
+
+/// F, a line a place.
+Eigen::MatrixXd low_rank_field(const DiscrepancyField& field,
+                               const std::vector<DiscrepancyPlace>& places) {
+  const auto n = static_cast<Eigen::Index>(places.size());
+  Eigen::MatrixXd factor(n, 0);
+  Eigen::VectorXd left = Eigen::VectorXd::Ones(n);
+  for (Eigen::Index rank = 0; rank < n; ++rank) {
+    Eigen::Index pivot = 0;
+    const double most = left.maxCoeff(&pivot);
+    if (most < kLeftOfField) break;
+    Eigen::VectorXd column(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      column(i) = field_correlation(
+          field, places[static_cast<std::size_t>(i)], places[static_cast<std::size_t>(pivot)]);
+    }
+    column -= factor * factor.row(pivot).transpose();
+    column /= std::sqrt(most);
+    factor.conservativeResize(n, rank + 1);
+    factor.col(rank) = column;
+    left -= column.cwiseAbs2();
+  }
+  return factor;
+}
+
+/// L^-1 of what a field makes of the kept rows, through either component of its entry.
+struct Components {
+  Eigen::MatrixXd first, second;  ///< N x r
+};
+
+Components components_of(const LinearisedSystem& system,
+                         const MarginalisedSystem& marginalised,
+                         const DiscrepancyField& field,
+                         const std::vector<DiscrepancyPlace>& places) {
+  const Eigen::MatrixXd factor = low_rank_field(field, places);
+  const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
+  Components result{Eigen::MatrixXd::Zero(n, factor.cols()),
+                    Eigen::MatrixXd::Zero(n, factor.cols())};
+  for (const auto& [row, number] : units_in(system, marginalised.kept)) {
+    const SystemUnit& unit = system.units[number];
+    for (const SeenPlace& seen : unit.places) {
+      const Eigen::Matrix2d entry = seen.by_chain * field_entry(field, places[seen.place]);
+      const auto at = static_cast<Eigen::Index>(seen.place);
+      for (Eigen::Index k = 0; k < unit.rows; ++k) {
+        result.first.row(row + k) += entry(k, 0) * factor.row(at);
+        result.second.row(row + k) += entry(k, 1) * factor.row(at);
+      }
+    }
+  }
+  const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
+  lower.solveInPlace(result.first);
+  lower.solveInPlace(result.second);
+  return result;
+}
+
+/// One field's inner products, by component.
+struct Products {
+  DiscrepancyField field;  ///< without its direction
+  Components parts;
+  Eigen::MatrixXd gram11, gram12, gram22;  ///< r x r
+  /// With the residual and the columns of some normal equations, r x (1 + columns) each.
+  std::map<const NormalEquations*, std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> with;
+};
+
+/// A share of a kernel's basis: c times a field's first component plus s times its second.
+struct Block {
+  Products* products = nullptr;
+  double c = 0.0;
+  double s = 0.0;
+};
+
+Eigen::MatrixXd gram(const Block& a, const Block& b) {
+  const Products& p = *a.products;
+  if (a.products == b.products) {
+    return a.c * b.c * p.gram11 + a.c * b.s * p.gram12 + a.s * b.c * p.gram12.transpose() +
+           a.s * b.s * p.gram22;
+  }
+  const Products& q = *b.products;
+  return (a.c * p.parts.first + a.s * p.parts.second).transpose() *
+         (b.c * q.parts.first + b.s * q.parts.second);
+}
+
+}  // namespace
+
+/// Fields that several kernels share.
+class DiscrepancyBasis::Fields {
+ public:
+  Fields(const LinearisedSystem& system, const MarginalisedSystem& marginalised)
+      : system_(system), marginalised_(marginalised) {
+    for (const SystemPlace& place : system.places) places_.push_back(discrepancy_place(place));
+  }
+
+  Products& of(DiscrepancyField field) {
+    field.direction_rad.reset();
+    const auto known = std::find_if(
+        all_.begin(), all_.end(), [&](const Products& p) { return p.field == field; });
+    if (known != all_.end()) return *known;
+    Products& p = all_.emplace_back();
+    p.field = field;
+    p.parts = components_of(system_, marginalised_, field, places_);
+    p.gram11 = p.parts.first.transpose() * p.parts.first;
+    p.gram12 = p.parts.first.transpose() * p.parts.second;
+    p.gram22 = p.parts.second.transpose() * p.parts.second;
+    return p;
+  }
+
+  /// Inner products of a block with the residual and these columns.
+  Eigen::MatrixXd with(const Block& block, const NormalEquations& plain) {
+    auto [at, is_new] = block.products->with.try_emplace(&plain);
+    auto& [first, second] = at->second;
+    if (is_new) {
+      const Components& parts = block.products->parts;
+      Eigen::MatrixXd e(marginalised_.e.size(),
+                        static_cast<Eigen::Index>(plain.columns.size()) + 1);
+      e.col(0) = marginalised_.e;
+      e.rightCols(e.cols() - 1) = marginalised_.g(Eigen::all, plain.columns);
+      first = parts.first.transpose() * e;
+      second = parts.second.transpose() * e;
+    }
+    return block.c * first + block.s * second;
+  }
+
+ private:
+  const LinearisedSystem& system_;
+  const MarginalisedSystem& marginalised_;
+  std::vector<DiscrepancyPlace> places_;
+  std::deque<Products> all_;  ///< blocks point into it
+};
+
+struct DiscrepancyBasis::Kernel {
+  std::vector<Block> blocks;
+  Eigen::ArrayXd lambda;
+  Eigen::MatrixXd vectors;
+};
+
+DiscrepancyBasis::DiscrepancyBasis(const LinearisedSystem& system,
+                                   MarginalisedSystem& marginalised,
+                                   const std::vector<std::size_t>& kernels)
+    : marginalised_(marginalised),
+      fields_(std::make_unique<Fields>(system, marginalised)),
+      kernels_(discrepancy_kernels().size()) {
+  marginalised.discrepancy_trace.resize(kernels_.size(), 0.0);
+  for (const std::size_t number : kernels) {
+    const DiscrepancyKernel& kernel = discrepancy_kernels()[number];
+    Kernel& own = kernels_[number];
+    const double share = 1.0 / std::sqrt(static_cast<double>(kernel.fields.size()));
+    for (const DiscrepancyField& field : kernel.fields) {
+      Products* const products = &fields_->of(field);
+      if (field.direction_rad) {
+        const double angle = *field.direction_rad;
+        own.blocks.push_back({products, share * std::cos(angle), share * std::sin(angle)});
+      } else {
+        own.blocks.push_back({products, share, 0.0});
+        own.blocks.push_back({products, 0.0, share});
+      }
+    }
+    Eigen::Index rank = 0;
+    for (const Block& block : own.blocks) rank += block.products->gram11.cols();
+    Eigen::MatrixXd all(rank, rank);
+    Eigen::Index row = 0;
+    for (const Block& a : own.blocks) {
+      Eigen::Index column = 0;
+      for (const Block& b : own.blocks) {
+        const Eigen::MatrixXd part = gram(a, b);
+        all.block(row, column, part.rows(), part.cols()) = part;
+        column += part.cols();
+      }
+      row += a.products->gram11.cols();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(all);
+    own.lambda = eigen.eigenvalues().array().max(0.0);
+    own.vectors = eigen.eigenvectors();
+    marginalised.discrepancy_trace[number] = own.lambda.sum();
+  }
+}
+
+DiscrepancyBasis::~DiscrepancyBasis() = default;
+
+DiscrepancyBasis::Beside DiscrepancyBasis::beside(std::size_t kernel,
+                                                  const NormalEquations& plain) {
+  const Kernel& own = kernels_.at(kernel);
+  Eigen::MatrixXd with(own.vectors.rows(), static_cast<Eigen::Index>(plain.columns.size()) + 1);
+  Eigen::Index row = 0;
+  for (const Block& block : own.blocks) {
+    const Eigen::MatrixXd part = fields_->with(block, plain);
+    with.middleRows(row, part.rows()) = part;
+    row += part.rows();
+  }
+  Beside result;
+  result.plain_ = &plain;
+  result.lambda_ = own.lambda;
+  result.rotated_ = own.vectors.transpose() * with;
+  return result;
+}
+
+Eigen::ArrayXd DiscrepancyBasis::Beside::weights(double strength) const {
+  const double trace = lambda_.sum();
+  const double square = trace > 0.0 ? strength * strength / trace : 0.0;
+  return square / (1.0 + square * lambda_);
+}
+
+double DiscrepancyBasis::Beside::log_det(const Eigen::ArrayXd& weights) const {
+  // 1 + s^2 lambda = 1 / (1 - weight lambda)
+  return plain_->log_det - (1.0 - weights * lambda_).log().sum();
+}
+
+DiscrepancyBasis::Beside::Diagonal DiscrepancyBasis::Beside::diagonal(double strength) const {
+  const Eigen::VectorXd weight = weights(strength);
+  const auto e = rotated_.col(0);
+  const auto g = rotated_.rightCols(rotated_.cols() - 1);
+  const Eigen::VectorXd weighted = weight.cwiseProduct(e);
+  Diagonal result;
+  result.ee = plain_->ee - e.dot(weighted);
+  result.ge = plain_->ge - g.transpose() * weighted;
+  result.gg = plain_->prior_square - g.cwiseAbs2().transpose() * weight;
+  result.log_det = log_det(weight);
+  return result;
+}
+
+NormalEquations DiscrepancyBasis::Beside::equations(double strength,
+                                                    std::vector<int> columns) const {
+  const Eigen::VectorXd weight = weights(strength);
+  std::vector<Eigen::Index> at;
+  std::vector<Eigen::Index> rotated;
+  for (const int k : columns) {
+    at.push_back(plain_->position(k));
+    rotated.push_back(at.back() + 1);
+  }
+  const Eigen::VectorXd e = rotated_.col(0);
+  const Eigen::MatrixXd g = rotated_(Eigen::all, rotated);
+  const Eigen::MatrixXd weighted = weight.asDiagonal() * g;
+  NormalEquations result;
+  result.columns = std::move(columns);
+  result.ee = plain_->ee - e.dot(weight.cwiseProduct(e));
+  result.ge = plain_->ge(at) - weighted.transpose() * e;
+  result.gg = plain_->gg(at, at) - g.transpose() * weighted;
+  result.prior_square = plain_->prior_square(at);
+  result.log_det = log_det(weight);
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The model discrepancy beside some columns, for many kernels and strengths at once: a smooth
+/// field over a bed has few degrees of freedom, so that its covariance is B B' with few columns.
+///
+/// Notation
+///   F      field over the places, low rank: k ~= F F', what is left of its diagonal below 1e-4
+///   B      L^-1 W T F of a marginalised system, N x r; a direction of entry mixes two of these
+///   E      residual and columns of the marginalised system
+///   lambda, V  eigenvalues and vectors of B'B
+///
+///   a'(I + s^2 B B')^-1 b = a'b - sum_i s^2 / (1 + s^2 lambda_i) (V'B'a)_i (V'B'b)_i
+///   det(I + s^2 B B')     = prod_i (1 + s^2 lambda_i)
+///
+/// (Woodbury and Sylvester: G. Golub and C. Van Loan, Matrix Computations (2013), sections 2.1.4
+/// and 2.1.5.) Low rank by a pivoted Cholesky factorisation (H. Harbrecht, M. Peters and R.
+/// Schneider, Applied Numerical Mathematics 62 (2012), 428, algorithm 1).
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "grid/diagnosis/evidence.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+class DiscrepancyBasis {
+ public:
+  /// Of these kernels (numbers in discrepancy_kernels()). Notes their traces in the marginalised
+  /// system. Both references must outlive this.
+  DiscrepancyBasis(const LinearisedSystem& system,
+                   MarginalisedSystem& marginalised,
+                   const std::vector<std::size_t>& kernels);
+  ~DiscrepancyBasis();
+
+  /// Inner products of the residual and of some columns with a kernel's eigenvectors.
+  class Beside {
+   public:
+    /// Inner products of the residual with itself and with each column, and each column's square.
+    struct Diagonal {
+      double ee = 0.0;
+      double log_det = 0.0;  ///< of V and of the discrepancy
+      Eigen::VectorXd ge;    ///< a column each
+      Eigen::VectorXd gg;
+    };
+    [[nodiscard]] Diagonal diagonal(double strength) const;
+    /// All inner products of some of the columns (regressors, ascending).
+    [[nodiscard]] NormalEquations equations(double strength, std::vector<int> columns) const;
+
+   private:
+    friend class DiscrepancyBasis;
+    [[nodiscard]] Eigen::ArrayXd weights(double strength) const;
+    [[nodiscard]] double log_det(const Eigen::ArrayXd& weights) const;
+    const NormalEquations* plain_ = nullptr;  ///< without a discrepancy
+    Eigen::ArrayXd lambda_;                   ///< r
+    Eigen::MatrixXd rotated_;                 ///< V'B'E, r x (1 + columns)
+  };
+  /// `plain`: normal equations of the columns without a discrepancy; kept by reference.
+  [[nodiscard]] Beside beside(std::size_t kernel, const NormalEquations& plain);
+
+ private:
+  class Fields;
+  struct Kernel;
+  const MarginalisedSystem& marginalised_;
+  std::unique_ptr<Fields> fields_;
+  std::vector<Kernel> kernels_;
+};
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/model_collector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace chaintrue::grid::diagnosis {
+
+bool compatible(const Regressor& a, const Regressor& b) {
+  if (a.cause.effect != b.cause.effect) return true;
+  using model::effects::EffectSide;
+  const auto joint = [](EffectSide s) { return s == EffectSide::both || s == EffectSide::none; };
+  return a.cause.side != b.cause.side && !joint(a.cause.side) && !joint(b.cause.side);
+}
+
+ModelCollector::ModelCollector(const LinearisedSystem& system,
+                               const MarginalisedSystem& marginalised,
+                               std::size_t number,
+                               const ComparisonOptions& options)
+    : system_(system),
+      marginalised_(marginalised),
+      number_(number),
+      options_(options),
+      noise_(options.steps.anchor_noise ? system.noise_dof : 1e-3,
+             static_cast<Eigen::Index>(marginalised.kept.size())),
+      best_(-std::numeric_limits<double>::infinity()) {}
+
+double ModelCollector::consider(const ColumnSet& set,
+                                int discrepancy,
+                                const NormalEquations& equations) {
+  const SetEvidence evidence = set_evidence(equations, system_.regressors, set, noise_);
+  if (!std::isfinite(evidence.log_evidence)) return -std::numeric_limits<double>::infinity();
+  CandidateModel model;
+  for (const Eigen::Index i : set) {
+    model.regressors.push_back(equations.columns[static_cast<std::size_t>(i)]);
+  }
+  std::sort(model.regressors.begin(), model.regressors.end());
+  model.discrepancy = discrepancy;
+  model.marginalised = number_;
+  model.log_weight = evidence.log_evidence + marginalised_.log_outliers +
+                     log_prior_of(model.regressors, discrepancy);
+  model.larger_noise = noise_.larger_share(evidence.quadratic);
+  model.quadratic = evidence.quadratic;
+  best_ = std::max(best_, model.log_weight);
+  const double weight = model.log_weight;
+  // Nothing and single causes without a discrepancy are asked for later, however unlikely.
+  const bool asked_for = discrepancy < 0 && set.size() <= 1;
+  if (weight > best_ - kNegligibleModel || asked_for) models_.push_back(std::move(model));
+  return weight;
+}
+
+double ModelCollector::log_prior_of(const std::vector<int>& regressors, int discrepancy) const {
+  double value = log_prior(system_.regressors, regressors, discrepancy >= 0);
+  if (discrepancy >= 0) value += log_share_of_discrepancy(discrepancy);
+  if (!options_.steps.average_location) {
+    for (const int k : regressors) {
+      value -= system_.regressors[static_cast<std::size_t>(k)].log_prior;
+    }
+  }
+  return value;
+}
+
+std::vector<CandidateModel> ModelCollector::take() { return std::exchange(models_, {}); }
+
+}  // namespace chaintrue::grid::diagnosis

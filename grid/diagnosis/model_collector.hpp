@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Weighs sets of causes in one marginalised system and keeps those that matter.
+#pragma once
+
+#include <vector>
+
+#include "grid/diagnosis/model_comparison.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Positions in the normal equations.
+using ColumnSet = std::vector<Eigen::Index>;
+struct WeighedSet {
+  double weight = 0.0;
+  ColumnSet set;
+};
+[[nodiscard]] inline bool heavier(const WeighedSet& a, const WeighedSet& b) {
+  return a.weight > b.weight;
+}
+
+/// May two regressors act together: one cause acts at one place, and an effect that acts on both
+/// chains alike not also on one of them.
+[[nodiscard]] bool compatible(const Regressor& a, const Regressor& b);
+
+class ModelCollector {
+ public:
+  /// `number` is the marginalised system's in its comparison; the references must outlive this.
+  ModelCollector(const LinearisedSystem& system,
+                 const MarginalisedSystem& marginalised,
+                 std::size_t number,
+                 const ComparisonOptions& options);
+
+  /// Weighs a set and keeps it where it matters; minus infinity where it cannot be.
+  double consider(const ColumnSet& set, int discrepancy, const NormalEquations& equations);
+  /// Logarithm of the prior of a set beside a discrepancy or none, the discrepancy's share in it.
+  [[nodiscard]] double log_prior_of(const std::vector<int>& regressors, int discrepancy) const;
+
+  [[nodiscard]] double best() const { return best_; }
+  [[nodiscard]] const NoiseDensity& noise() const { return noise_; }
+  /// All kept so far; none are left.
+  [[nodiscard]] std::vector<CandidateModel> take();
+
+ private:
+  const LinearisedSystem& system_;
+  const MarginalisedSystem& marginalised_;
+  std::size_t number_;
+  const ComparisonOptions& options_;
+  NoiseDensity noise_;
+  std::vector<CandidateModel> models_;
+  double best_;
+};
+
+}  // namespace chaintrue::grid::diagnosis

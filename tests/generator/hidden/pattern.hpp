@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Patterns that no catalogue lists and that act beside a cause: one scalar field of height 1 that
+/// enters the two chains at a fixed ratio, as whatever acts on one chain, one axis or the sled's
+/// height does it.
+///
+/// Two groups. Those of smooth fields (pattern.cpp): dents and waves, at the lengths of the figures
+/// that are asked for and at short ones. Those of other making (other_patterns.cpp): written apart
+/// from whoever set the analysis up, and not looked at while that was done.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "generator/hidden/effects.hpp"
+#include "generator/hidden/random.hpp"
+#include "generator/hidden/strength.hpp"
+
+namespace chaintrue::generator {
+
+enum class PatternGroup {
+  smooth,       ///< dents of 180 to 320 mm (one sigma), waves of 500 to 900 mm
+  short_scale,  ///< dents of 90 to 150 mm, waves of 250 to 450 mm
+  other,        ///< of other making
+};
+
+enum class PatternFamily {
+  dent,
+  wave,
+  fold,         ///< straight on either side of a line, bent along it
+  column_band,  ///< one upright strip of the bed
+  chain_angle,  ///< a function of one chain's angle
+  edge_heave,   ///< rises towards one edge of the bed
+  patch,        ///< one level over a part of the bed, another outside, a short slope between
+  length_steps  ///< along one chain's length: a few levels with slopes between
+};
+[[nodiscard]] std::string_view word(PatternFamily family);
+
+/// Where a field is asked for: the tool's place, and the angles of the chains there.
+struct PatternSite {
+  Vec2 place;
+  std::array<double, 2> angle_rad{};
+  std::array<double, 2> length_mm{};
+};
+
+struct Pattern {
+  PatternFamily family = PatternFamily::dent;
+  double height_mm = 1.0;
+  Lengths entry{1.0, 0.0};     ///< what of it goes into either chain; a unit vector
+  Vec2 centre;                 ///< of a dent or patch; a point of a line
+  double direction_rad = 0.0;  ///< a wave's run; across a line
+  double extent_mm = 0.0;      ///< one sigma, wavelength, width
+  double phase_rad = 0.0;
+  std::size_t chain = 0;         ///< whose angle or length it follows
+  std::array<double, 8> knots{};  ///< what else a family draws
+};
+
+/// Of height 1: its largest over the bed is about that.
+[[nodiscard]] double field(const Pattern& pattern, const PatternSite& site);
+/// The families of other making.
+[[nodiscard]] double other_field(const Pattern& pattern, const PatternSite& site);
+
+/// Family, place and extent; of height 1.
+[[nodiscard]] Pattern draw_family(PatternGroup group, Dice& dice);
+[[nodiscard]] Pattern draw_other_family(Dice& dice);
+
+/// What it adds to the chains at each site.
+[[nodiscard]] std::vector<Lengths> extra_lengths(const Pattern& pattern,
+                                                 std::span<const Visit> visits,
+                                                 const std::vector<Rest>& at_rest);
+
+/// A pattern drawn with its strength in the data and its likeness to what is hidden beside it.
+struct SizedPattern {
+  Pattern pattern;
+  double delta = 0.0;
+  double rho = 0.0;  ///< largest |cosine| with the signatures beside it, or with any effect
+};
+struct PatternRules {
+  PatternGroup group = PatternGroup::smooth;
+  /// Height 1 to 2 mm; a strength outside this is drawn again.
+  double least_delta = 6.0;
+  double most_delta = 30.0;
+  /// Alike to some effect of the catalogue: |cosine| 0.9 to 0.98. Else below 0.5 with `beside`.
+  bool near = false;
+};
+/// \throws std::runtime_error where 20 000 draws find none.
+[[nodiscard]] SizedPattern draw_pattern(const Yardstick& yardstick,
+                                        const PatternRules& rules,
+                                        std::span<const Signature> beside,
+                                        Dice& dice);
+
+}  // namespace chaintrue::generator
