@@ -191,7 +191,8 @@ class Decider {
     if (leading_key_.size() < 2) return leading;
     Key sure;
     for (const std::size_t k : leading_key_) {
-      if (marginal(k) >= kLikelierThanNot) sure.push_back(k);
+      const bool beside = result_.discrepancy > kDiscrepancyLikely;
+      if (marginal(k) >= (beside ? kNamedBesideDiscrepancy : kLikelierThanNot)) sure.push_back(k);
     }
     const auto found = groups_.find(sure);
     if (sure.empty() || found == groups_.end()) return leading;
@@ -207,11 +208,16 @@ class Decider {
     }
     // Beside a pattern that nobody listed a set says something only where one of it surely acts.
     if (result_.discrepancy > kDiscrepancyLikely &&
-        result_.marginal.front().probability < kNamedAlone && result_.caused < kSetHolds) {
+        result_.marginal.front().probability < enough_to_name() && result_.caused < kSetHolds) {
       abstain();
       return;
     }
     name_causes(*leading);
+  }
+
+  /// A pattern beside a cause takes of its probability, not of its right to be named.
+  [[nodiscard]] double enough_to_name() const {
+    return result_.discrepancy > kDiscrepancyLikely ? kNamedBesideDiscrepancy : kNamedAlone;
   }
 
   /// What the table of hypotheses gives as good as surely is never missing among the causes.
@@ -258,7 +264,7 @@ class Decider {
     }
     const double top = result_.marginal.front().probability;
     take(leading);
-    if (top >= kNamedAlone) {
+    if (top >= enough_to_name()) {
       result_.verdict = Verdict::named;
       result_.listed = {result_.marginal.front().index};
       return;

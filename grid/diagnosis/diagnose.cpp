@@ -103,6 +103,8 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.holes = hole_pictures(a);
   d.distances = distance_pictures(a);
   d.left_over = left_over(a);
+  d.unexplained = unexplained(a);
+  d.budget = error_budget(a);
   d.normal_plot = normal_plot(a);
   if (options.gain) d.gain = measure_gain(a);
   extend(a, d);

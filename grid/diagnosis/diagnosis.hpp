@@ -89,6 +89,63 @@ struct LeftOver {
   double p_value = 1.0;
 };
 
+/// Through what a pattern that nobody listed enters: one chain, both alike or opposite to each
+/// other, the tool along an axis of the sheet, or none of these by itself.
+enum class Enters { left, right, alike, opposite, x, y, mixed };
+[[nodiscard]] std::string_view name(Enters enters);
+
+/// What remains besides the causes named, and beside any verdict: a smooth pattern that no cause of
+/// the catalogue makes.
+struct Unexplained {
+  double probability = 0.0;
+  double signal_to_noise = 0.0;  ///< of the pattern as it is estimated
+  double rms_mm = 0.0;           ///< of the tool, at the points (or of the distances)
+  double share = 0.0;            ///< of the mean square of what the settings leave
+  /// The coordinate that it is a function of, as LeftOver has it; empty where it is of the place.
+  std::string follows;
+  double length_mm = 0.0;  ///< over which it changes; of an angle or a pull what that is on the bed
+  Enters enters = Enters::mixed;
+};
+
+/// One part of the tool's error as delivered.
+struct BudgetLine {
+  enum class What { settings, cause, unexplained, noise, inseparable } what = What::noise;
+  std::optional<CauseId> cause{};
+  double mean_square_mm2 = 0.0;  ///< of what cannot be split it may be negative
+  double share = 0.0;            ///< of the whole
+  /// The largest change of the tool's error over 100 mm at the corners of the marked area: what a
+  /// part of that size gets wrong there. Empty where it is not of the place, or not the tool's.
+  std::optional<double> part_mm{};
+  enum class ChangesWith { nothing, place, order, direction } changes_with = ChangesWith::place;
+};
+[[nodiscard]] std::string_view name(BudgetLine::What what);
+[[nodiscard]] std::string_view name(BudgetLine::ChangesWith changes);
+
+/// The mean square of the tool's error as the machine was delivered, split into what makes it:
+/// largest first, what cannot be split last. The lines add up to the whole.
+struct ErrorBudget {
+  double as_delivered_mm = 0.0;  ///< rms at the good points (or of the good distances)
+  std::vector<BudgetLine> lines;
+};
+
+/// A cause's size now and in an earlier diagnosis.
+struct Change {
+  CauseId cause;
+  ParameterEstimate before;
+  ParameterEstimate after;
+  bool named_before = false;
+  bool named_now = false;
+  double probability = 0.5;  ///< that its size changed in the direction that it seems to have
+};
+
+/// What changed since an earlier diagnosis (trend.hpp).
+struct Trend {
+  std::string since;  ///< the earlier file
+  std::vector<Change> changes;
+  std::optional<double> as_delivered_before_mm{};  ///< of the budgets, where they are
+  std::optional<double> as_delivered_mm{};
+};
+
 struct Outlier {
   Observations of = Observations::points;  ///< points or distances
   std::size_t index = 0;
@@ -256,6 +313,9 @@ struct Diagnosis {
   std::vector<Cause> causes;
   std::vector<Hypothesis> hypotheses;
   LeftOver left_over;
+  /// Empty in files written before it was said.
+  std::optional<Unexplained> unexplained;
+  std::optional<ErrorBudget> budget;
   std::vector<Outlier> outliers;
   std::vector<NotTestable> not_testable;
   std::vector<Bound> bounds;
@@ -285,6 +345,8 @@ struct Diagnosis {
   std::optional<NormalPlot> normal_plot;
   /// Another grid predicted; empty where none was asked for.
   std::optional<Transfer> transferred;
+  /// Empty where no earlier diagnosis was given.
+  std::optional<Trend> trend;
 };
 
 }  // namespace chaintrue::grid::diagnosis

@@ -25,7 +25,7 @@ class Kernels {
     // height up to the whole.
     std::vector<DiscrepancyField> group;
     for (const double mm : {140.0, 250.0, 450.0}) at_any_ratio({FieldOf::place, mm}, group);
-    take(group, 0.40);
+    take(group, 0.35);
     // Each chain by itself.
     for (const double mm : {250.0, 450.0, 800.0}) group.push_back({FieldOf::place, mm});
     take(group, 0.15);
@@ -37,7 +37,9 @@ class Kernels {
     for (const FieldOf of : {FieldOf::place, FieldOf::x, FieldOf::y}) {
       for (const double mm : {250.0, 450.0}) along_an_axis({of, mm}, group);
     }
-    take(group, 0.15);
+    // The tool moved the way it goes across something: a board's wave, a fold.
+    for (const double mm : {150.0, 400.0}) oblique({FieldOf::across, mm}, group);
+    take(group, 0.20);
     // A function of one coordinate: a strip of the banner, a beam, a chain, its angle, its pull.
     for (const FieldOf of : {FieldOf::x, FieldOf::y, FieldOf::length_left, FieldOf::length_right}) {
       for (const double mm : {150.0, 400.0}) at_any_ratio({of, mm}, group);
@@ -63,6 +65,16 @@ class Kernels {
     field.entry = FieldEntry::tool;
     for (const double direction : {0.0, 0.5 * std::numbers::pi}) {
       field.direction_rad = direction;
+      group.push_back(field);
+    }
+  }
+  /// Along x and y others have it.
+  static void oblique(DiscrepancyField field, std::vector<DiscrepancyField>& group) {
+    field.entry = FieldEntry::tool;
+    for (int k = 1; k < kDirections; ++k) {
+      if (2 * k == kDirections) continue;
+      field.across_rad = std::numbers::pi * k / kDirections;
+      field.direction_rad = field.across_rad;
       group.push_back(field);
     }
   }
@@ -100,6 +112,7 @@ std::string_view name(FieldOf of) {
                                          "angle_right",
                                          "tension_left",
                                          "tension_right",
+                                         "",
                                          ""};
   return kNames[static_cast<std::size_t>(of)];
 }
@@ -144,12 +157,19 @@ DiscrepancyPlace discrepancy_place(const SystemPlace& place) {
 double field_correlation(const DiscrepancyField& field,
                          const DiscrepancyPlace& a,
                          const DiscrepancyPlace& b) {
-  const auto square = [&](FieldOf of) {
+  const auto difference = [&](FieldOf of) {
     const auto k = static_cast<std::size_t>(of);
-    return std::pow((a.at[k] - b.at[k]) / field.length, 2);
+    return a.at[k] - b.at[k];
   };
-  return std::exp(-0.5 * (field.of == FieldOf::place ? square(FieldOf::x) + square(FieldOf::y)
-                                                     : square(field.of)));
+  const double x = difference(FieldOf::x);
+  const double y = difference(FieldOf::y);
+  const double square =
+      field.of == FieldOf::place    ? x * x + y * y
+      : field.of == FieldOf::across ? std::pow(x * std::cos(field.across_rad) +
+                                                   y * std::sin(field.across_rad),
+                                               2)
+                                    : std::pow(difference(field.of), 2);
+  return std::exp(-0.5 * square / (field.length * field.length));
 }
 
 Eigen::Matrix2d field_entry(const DiscrepancyField& field, const DiscrepancyPlace& place) {

@@ -37,7 +37,9 @@ enum class FieldOf {
   tension_left,   ///< N, at the sprocket
   tension_right,  ///< N
   place,
+  across,  ///< mm, over the bed in a direction of its own
 };
+/// Coordinates that a place has by itself.
 inline constexpr std::size_t kFieldCoordinates = static_cast<std::size_t>(FieldOf::place);
 /// As `follows` has it: x, y, length_left, ...; of the place nothing.
 [[nodiscard]] std::string_view name(FieldOf of);
@@ -48,7 +50,8 @@ struct DiscrepancyField {
   FieldOf of = FieldOf::place;
   double length = 0.0;  ///< in the unit of what it is a function of
   FieldEntry entry = FieldEntry::chains;
-  std::optional<double> direction_rad{};  ///< of (left, right), or of (x, y)
+  std::optional<double> direction_rad{};  ///< of entry: of (left, right), or of (x, y)
+  double across_rad = 0.0;                ///< from x, of FieldOf::across
   bool operator==(const DiscrepancyField&) const = default;
 };
 

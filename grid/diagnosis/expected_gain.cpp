@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/other_places.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -21,43 +22,20 @@ bool hangs_on_visits(const Analysis& a) {
   });
 }
 
-/// The first part at whose marks chains were read.
-std::size_t chain_part(const Session& session) {
-  const auto found = std::find_if(session.parts.begin(),
-                                  session.parts.end(),
-                                  [](const SessionPart& part) { return part.reads_chains(); });
-  return static_cast<std::size_t>(found - session.parts.begin());
-}
-
 /// Places over the rectangle that the marks span, in the middle of cells of equal size.
 Session over_the_area(const Analysis& a) {
-  const Session& session = a.session;
-  const std::size_t part = chain_part(session);
-  const auto& own =
-      dynamic_cast<const observation::ChainLengthReadings&>(*session.parts[part].observation);
-  const auto by_x = [](const auto& p, const auto& q) { return p.mark.x_mm < q.mark.x_mm; };
-  const auto by_y = [](const auto& p, const auto& q) { return p.mark.y_mm < q.mark.y_mm; };
-  const auto x = std::minmax_element(own.places().begin(), own.places().end(), by_x);
-  const auto y = std::minmax_element(own.places().begin(), own.places().end(), by_y);
+  const MarkedArea area = marked_area(a.session);
   const auto between = [](double low, double high, int i, int n) {
     return low + (high - low) * (i + 0.5) / n;
   };
-  const model::ReadingModel model(a.state.machine);
-  const model::SheetPlacement sheet = a.state.sheet_of(session.parts[part]);
-  std::vector<observation::Place> places;
+  std::vector<model::BedPoint> marks;
   for (int j = 0; j < kRows; ++j) {
     for (int i = 0; i < kColumns; ++i) {
-      const model::BedPoint mark{between(x.first->mark.x_mm, x.second->mark.x_mm, i, kColumns),
-                                 between(y.first->mark.y_mm, y.second->mark.y_mm, j, kRows)};
-      if (model.at(sheet.to_bed(mark))) places.push_back({0, "", mark, {}, 0});
+      marks.push_back({between(area.low.x_mm, area.high.x_mm, i, kColumns),
+                       between(area.low.y_mm, area.high.y_mm, j, kRows)});
     }
   }
-  // Nobody goes there: no order of visits.
-  return with_observations(session,
-                           {{std::make_shared<const observation::ChainLengthReadings>(
-                                 observation::ChainLengthReadings::in_given_order(
-                                     std::move(places), false, own.noise(), own.noise_dof(), own.sheet())),
-                             part}});
+  return session_at(a, marks);
 }
 
 /// Drop and doubt of the tool's, or a distance's, error over some units.

@@ -19,6 +19,8 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] std::vector<Outlier> outliers_found(const Analysis& analysis);
 [[nodiscard]] std::vector<Separation> separations(const Analysis& analysis);
 [[nodiscard]] LeftOver left_over(const Analysis& analysis);
+[[nodiscard]] Unexplained unexplained(const Analysis& analysis);
+[[nodiscard]] ErrorBudget error_budget(const Analysis& analysis);
 
 /// In the order of the files' points, holes and distances.
 [[nodiscard]] std::vector<PointPicture> point_pictures(const Analysis& analysis);

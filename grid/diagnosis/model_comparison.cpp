@@ -19,10 +19,15 @@ namespace {
 
 constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
-double prior_of_count(std::size_t causes) {
+double prior_of_count(std::size_t causes, bool beside_discrepancy) {
   const std::array<double, kMostCauses + 1> prior = {
       kPriorOfNothing, kPriorOfOne, kPriorOfTwo, kPriorOfThree, kPriorOfFour};
-  return prior.at(causes);
+  // Beside a pattern the odds of causes against none are others; all priors still add up.
+  if (!beside_discrepancy) return prior.at(causes);
+  const double some = kPriorOfOne + kPriorOfTwo + kPriorOfThree + kPriorOfFour;
+  const double factor = causes > 0 ? kCauseOddsBesideDiscrepancy : 1.0;
+  return factor * prior.at(causes) * (kPriorOfNothing + some) /
+         (kPriorOfNothing + kCauseOddsBesideDiscrepancy * some);
 }
 
 /// Nothing, and each cause alone at its best place.
@@ -66,7 +71,7 @@ double log_prior(const std::vector<Regressor>& regressors,
     value += d.log_prior - std::log(effects);
     if (!d.slip) ++lasting;
   }
-  return value + std::log(prior_of_count(lasting)) + std::lgamma(1.0 + static_cast<double>(lasting));
+  return value + std::log(prior_of_count(lasting, discrepancy)) + std::lgamma(1.0 + static_cast<double>(lasting));
 }
 
 SingleScores single_scores(const LinearisedSystem& system,

@@ -79,6 +79,19 @@ std::vector<std::string> bad_ones(const Diagnosis& d) {
   return result;
 }
 
+/// "; besides, a pattern of 0.4 mm that follows x, which no listed cause makes".
+std::string besides_words(const Diagnosis& d) {
+  if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
+  const Unexplained& left = *d.unexplained;
+  return fmt::format(" Besides, a pattern of {:.2f} mm{}, which no listed cause makes: {}.",
+                     left.rms_mm,
+                     left.follows.empty()
+                         ? fmt::format(" that changes over some {:.0f} mm of the bed",
+                                       left.length_mm)
+                         : fmt::format(" that follows {}", coordinate_words(left.follows)),
+                     percent(left.probability));
+}
+
 std::string named_words(const Diagnosis& d) {
   const Cause& cause = d.causes.front();
   std::string text = fmt::format("Most likely {}: probability {}.",
@@ -89,7 +102,7 @@ std::string named_words(const Diagnosis& d) {
                         name(d.observations),
                         sized(other.cause, other.parameters));
   }
-  return text + assumed_words(d) + gain_words(d);
+  return text + besides_words(d) + assumed_words(d) + gain_words(d);
 }
 
 std::string set_words(const Diagnosis& d) {
@@ -101,7 +114,7 @@ std::string set_words(const Diagnosis& d) {
                      d.causes.size(),
                      name(d.observations),
                      joined(parts, "or")) +
-         assumed_words(d) + gain_words(d);
+         besides_words(d) + assumed_words(d) + gain_words(d);
 }
 
 std::string several_words(const Diagnosis& d) {
@@ -110,7 +123,7 @@ std::string several_words(const Diagnosis& d) {
     parts.push_back(fmt::format("{}, {}", sized(c.cause, c.parameters), percent(c.probability)));
   }
   return fmt::format("{} causes act together: {}.", d.causes.size(), joined(parts, "and")) +
-         assumed_words(d) + gain_words(d);
+         besides_words(d) + assumed_words(d) + gain_words(d);
 }
 
 std::string unknown_words(const Diagnosis& d) {

@@ -193,7 +193,9 @@ Record<Diagnosis> make_diagnosis_record() {
       .required("notes", &Diagnosis::notes, list(text()))
       .required("causes", &Diagnosis::causes, list(object(cause_record())))
       .required("hypotheses", &Diagnosis::hypotheses, list(object(hypothesis_record())))
-      .required("left_over", &Diagnosis::left_over, object(left_over_record()));
+      .required("left_over", &Diagnosis::left_over, object(left_over_record()))
+      .optional("unexplained", &Diagnosis::unexplained, object(unexplained_record()))
+      .optional("budget", &Diagnosis::budget, object(error_budget_record()));
   outlier_keys(record);
   record.required("not_testable", &Diagnosis::not_testable, list(object(not_testable_record())))
       .required("bounds", &Diagnosis::bounds, list(object(bound_record())))
@@ -214,7 +216,8 @@ Record<Diagnosis> make_diagnosis_record() {
       .optional("stated_noise", &Diagnosis::stated_noise, object(noise_record()))
       .optional("stability", &Diagnosis::stability, object(stability_record()))
       .optional("normal_plot", &Diagnosis::normal_plot, object(normal_plot_record()))
-      .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()));
+      .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()))
+      .optional("trend", &Diagnosis::trend, object(trend_record()));
   distance_keys(record);
   record.check(check_diagnosis);
   return record;

@@ -12,6 +12,10 @@ namespace chaintrue::grid::files {
 [[nodiscard]] const Record<diagnosis::Cause>& cause_record();
 [[nodiscard]] const Record<diagnosis::Hypothesis>& hypothesis_record();
 [[nodiscard]] const Record<diagnosis::LeftOver>& left_over_record();
+/// diagnosis_remainder_record.cpp.
+[[nodiscard]] const Record<diagnosis::Unexplained>& unexplained_record();
+[[nodiscard]] const Record<diagnosis::ErrorBudget>& error_budget_record();
+[[nodiscard]] const Record<diagnosis::Trend>& trend_record();
 [[nodiscard]] const Record<diagnosis::NotTestable>& not_testable_record();
 [[nodiscard]] const Record<diagnosis::Bound>& bound_record();
 [[nodiscard]] const Record<diagnosis::CalibratedSetting>& calibrated_setting_record();

@@ -36,11 +36,16 @@ struct Format {
 inline constexpr std::array kOlderMaps = {OlderVersion{
     "1.0", "written before maps carried a hash of their content; taken to be undamaged"}};
 
+inline constexpr std::array kOlderDiagnoses = {OlderVersion{
+    "1.0",
+    "written before a diagnosis said what remains besides its causes and what the error is made of; "
+    "taken to leave nothing unexplained"}};
+
 inline constexpr Format kMachineFormat{"chaintrue_machine", "1.0"};
 inline constexpr Format kGridFormat{"chaintrue_grid", "1.0"};
 inline constexpr Format kHolesFormat{"chaintrue_holes", "1.0"};
 inline constexpr Format kMapFormat{"chaintrue_map", "1.1", kOlderMaps};
-inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.0"};
+inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.1", kOlderDiagnoses};
 inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};
 inline constexpr Format kSweepSummaryFormat{"chaintrue_sweep_summary", "1.0", {}, false};
 inline constexpr Format kAnswerFormat{"chaintrue_answer", "1.0", {}, false};

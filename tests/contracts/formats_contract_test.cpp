@@ -66,6 +66,15 @@ std::string aged_map(std::string text, std::string_view) {
   return print_json(json);
 }
 
+/// Diagnoses of version 1.0 said neither what remains nor what the error is made of.
+std::string aged_diagnosis(std::string text, std::string_view) {
+  Problems problems("diagnosis.json");
+  Json json = parse_json(text, problems);
+  json.erase("unexplained");
+  json.erase("budget");
+  return print_json(json);
+}
+
 /// A sweep names other files by their way from its own.
 std::vector<Warning> read_sweep_text(const std::string& text) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
@@ -109,7 +118,8 @@ const std::map<std::string_view, Sample>& samples() {
           (void)parse_diagnosis(text, "diagnosis.json", &warnings);
           return warnings;
         },
-        text_of("good/diagnosis_every_key.json")}},
+        text_of("good/diagnosis_every_key.json"),
+        aged_diagnosis}},
       {kSweepFormat.file_type, {read_sweep_text, text_of("sweeps/quick.json")}}};
   return by_type;
 }

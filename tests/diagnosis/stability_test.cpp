@@ -113,7 +113,7 @@ TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
       std::vector<bool> excluded(session->units.size(), false);
       for (const std::size_t i : groups[k].units) excluded[i] = true;
       const ModelComparison comparison = compare_models(
-          a->system, excluded, {verdict_alone().steps, true, std::nullopt});
+          a->system, excluded, {.steps = verdict_alone().steps});
       const Decision decision = decide(a->system, comparison, excluded, true, a->decision.classes);
       EXPECT_EQ(stability->removals[k].stands, still_named(a->decision, decision)) << "group " << k;
       // What the models of all points leave aside: sets of outliers and discrepancies that only

@@ -186,5 +186,32 @@ TEST(HiddenMachine, CanBeMeasuredAgain) {
   EXPECT_FALSE(set.machine.read("colour", "", dice));
 }
 
+TEST(Draw, PatternsStandBesideCausesAsTheRulesHaveThem) {
+  for (const Mix mix : {Mix::beside, Mix::two_beside, Mix::pattern, Mix::near}) {
+    for (const PatternGroup group :
+         {PatternGroup::smooth, PatternGroup::short_scale, PatternGroup::other}) {
+      Recipe own = recipe(mix, 60);
+      own.patterns = group;
+      for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        SCOPED_TRACE(std::string(word(mix)) + " seed " + std::to_string(seed));
+        const SealedSet set = draw_set(own, seed);
+        ASSERT_TRUE(set.answer.pattern);
+        const SizedPattern& p = *set.answer.pattern;
+        EXPECT_GE(p.delta, 6.0);
+        EXPECT_EQ(set.answer.hidden.size(), mix == Mix::beside       ? 1U
+                                            : mix == Mix::two_beside ? 2U
+                                                                     : 0U);
+        EXPECT_NEAR(std::hypot(p.pattern.entry[0], p.pattern.entry[1]), 1.0, 1e-12);  // rounding
+        if (mix == Mix::near) {
+          EXPECT_GE(p.rho, 0.9);
+          EXPECT_LE(p.rho, 0.98);
+        } else {
+          EXPECT_LT(p.rho, 0.5);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace chaintrue::generator

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "sealed/judge/pattern_table.hpp"
 #include "sealed/posed.hpp"
 
 namespace chaintrue::sealed {
@@ -74,6 +75,40 @@ TEST(Rates, WhatNoCatalogueListsIsRefused) {
   tell(all, refused);
   EXPECT_GE(count(all, refused), fewest(10, 0.97));
   EXPECT_LE(count(all, misnamed), most(10, 0.01));
+}
+
+TEST(Rates, ACauseIsNamedBesideAPattern) {
+  const auto named = [](const Trial& t) { return names_outright(t) && all_named(t); };
+  const auto all = trials(options(Mix::beside, 28), 9600, 16);
+  tell(all, named);
+  EXPECT_GE(count(all, named), fewest(16, 0.85));
+  EXPECT_GE(count(all, tells_pattern), fewest(16, 0.95));
+  EXPECT_LE(count(all, names_wrongly), most(16, 0.03));
+}
+
+TEST(Rates, APatternAloneIsToldAndNotNamed) {
+  const auto all = trials(options(Mix::pattern, 28), 9700, 12);
+  tell(all, tells_pattern);
+  EXPECT_GE(count(all, tells_pattern), fewest(12, 0.90));
+  EXPECT_LE(count(all, names_wrongly), most(12, 0.01));
+}
+
+// What the table gives as good as surely stands among the causes, whatever the verdict.
+TEST(Rates, TheTableNeverContradictsTheSentence) {
+  for (const Mix mix : {Mix::beside, Mix::two_beside, Mix::unlisted, Mix::near}) {
+    for (const Trial& t : trials(options(mix, 28), 9800, 6)) {
+      SCOPED_TRACE(std::string(word(mix)) + " seed " + std::to_string(t.seed));
+      for (const auto& h : t.hypotheses) {
+        const bool abstains = h.effect == "nothing" || h.effect == "unknown" ||
+                              h.effect == "noise" || h.effect == "bad_points";
+        if (abstains || h.probability < 0.99) continue;
+        const std::string id = h.effect + ":" + (h.side.empty() ? "-" : h.side);
+        EXPECT_TRUE(std::any_of(t.causes.begin(), t.causes.end(), [&](const NamedCause& c) {
+          return means(c, id);
+        })) << id;
+      }
+    }
+  }
 }
 
 TEST(Rates, BadPointsAreSetAside) {

@@ -10,10 +10,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "grid/diagnosis/diagnose.hpp"
+#include "grid/diagnosis/trend.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
@@ -43,6 +45,7 @@ struct DiagnoseCommand {
   std::string extended_machine;
   std::string corrected_grid;
   std::string held_out;
+  std::string before;
   std::string assume_order;
   bool accept_class = false;
   std::uint64_t seed = 1;
@@ -219,12 +222,16 @@ Outcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
 }
 
 int run_diagnose(const DiagnoseCommand& command) {
+  // A wrong file is told before the work.
+  std::optional<Diagnosis> before;
+  if (!command.before.empty()) before = files::read_diagnosis(command.before, nullptr);
   grid::Measured input = read_measured(command.input, command.tape, command.with, MeasuredUse::fit);
-  const auto found = diagnosed(command, input);
+  auto found = diagnosed(command, input);
   if (!found) {
     fmt::print(stderr, "{}\n", found.error());
     return kBadInput;
   }
+  if (before) found->trend = grid::diagnosis::trend(*before, *found, file_name(command.before));
   const std::string source = file_name(command.input.grid);
   const std::string file = files::write_diagnosis(*found);
   std::vector<files::OutputFile> outputs;
@@ -292,6 +299,10 @@ void add_diagnose(CLI::App& app, Run& run) {
             "--held-out",
             command->held_out,
             "Another grid of the same machine: how well what was found foretells it");
+  add_input(*verb,
+            "--before",
+            command->before,
+            "An earlier diagnosis of the same machine (JSON): says what changed since");
   verb->add_option("--assume-order",
                    command->assume_order,
                    "Visiting order of points that bear none, lines from the top left; opens drift, "
@@ -317,7 +328,8 @@ void add_diagnose(CLI::App& app, Run& run) {
       "  build/chaintrue diagnose worn.json -o diagnosis.json --report diagnosis.html "
       "--extended-machine worn_machine.json\n"
       "  build/chaintrue fit worn.json --machine worn_machine.json -o map.json\n"
-      "  build/chaintrue diagnose fixtures/holes/nine_holes.json --report holes.html");
+      "  build/chaintrue diagnose fixtures/holes/nine_holes.json --report holes.html\n"
+      "  build/chaintrue diagnose worn.json --before diagnosis.json");
   verb->callback([command, &run] { run = [command] { return run_diagnose(*command); }; });
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/cli/diagnosis_budget.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_checks.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
@@ -301,6 +302,8 @@ report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
   page.figures = figures_of(found);
   if (!found.not_proved.empty())
     page.not_proved = "What this does not prove: " + typeset(found.not_proved);
+  if (found.budget && !found.budget->lines.empty()) page.sections.push_back(budget_section(found));
+  if (found.trend) page.sections.push_back(trend_section(found));
   if (!found.causes.empty()) page.sections.push_back(causes_section(found));
   if (has_readings) page.sections.push_back(arrows_section(found));
   if (has_readings && !found.causes.empty()) page.sections.push_back(signature_section(found));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "tools/cli/diagnosis_budget.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/map_words.hpp"
 
@@ -53,6 +54,33 @@ void write_causes(Text& text, const Diagnosis& found) {
       text.line("      remedy: {}", same.cause.effect->remedy);
     }
   }
+}
+
+void write_budget(Text& text, const Diagnosis& found) {
+  const std::vector<BudgetRow> rows = budget_rows(found);
+  if (rows.empty()) return;
+  text.heading("What the error is made of");
+  text.line("  {:<38}{:>8}{:>7}{:>16}   {}",
+            "",
+            "rms, mm",
+            "share",
+            "part of 100 mm",
+            "changes with");
+  for (const BudgetRow& row : rows) {
+    text.line("  {:<38}{:>8}{:>7}{:>16}   {}",
+              row.what,
+              row.rms_mm,
+              row.share,
+              row.part_mm,
+              row.changes_with);
+  }
+  text.line("  {}", budget_words(found));
+}
+
+void write_trend(Text& text, const Diagnosis& found) {
+  if (!found.trend) return;
+  text.heading(fmt::format("What changed since {}", found.trend->since));
+  for (const std::string& line : trend_in_words(found)) text.line("  {}", line);
 }
 
 void write_hypotheses(Text& text, const Diagnosis& found) {
@@ -176,6 +204,8 @@ std::string diagnosis_in_words(const Diagnosis& found) {
   }
   if (!found.not_proved.empty()) text.line("\nWhat this does not prove: {}", found.not_proved);
   for (const std::string& note : found.notes) text.line("Note: {}", note);
+  write_budget(text, found);
+  write_trend(text, found);
   write_causes(text, found);
   write_gain(text, found);
   write_follow_up(text, found);

@@ -318,6 +318,7 @@ PatternRules rules_of(const Recipe& recipe) {
   const bool beside = recipe.kind == Mix::beside || recipe.kind == Mix::two_beside;
   if (beside) rules.most_delta = 1e9;
   rules.near = recipe.kind == Mix::near;
+  if (rules.near) rules.group = PatternGroup::broad;
   return rules;
 }
 

@@ -51,17 +51,18 @@ double field(const Pattern& pattern, const PatternSite& site) {
 
 Pattern draw_family(PatternGroup group, Dice& dice) {
   if (group == PatternGroup::other) return draw_other_family(dice);
-  const bool is_short = group == PatternGroup::short_scale;
   Pattern p;
+  const auto extent = [&](double narrowest, double widest, double shortest, double longest) {
+    return p.family == PatternFamily::dent ? dice.uniform(narrowest, widest)
+                                           : dice.uniform(shortest, longest);
+  };
   p.family = dice.sign() > 0.0 ? PatternFamily::dent : PatternFamily::wave;
   p.centre = {dice.uniform(-1000.0, 1000.0), dice.uniform(-450.0, 450.0)};
   p.direction_rad = dice.uniform(-kPi, kPi);
   p.phase_rad = dice.uniform(-kPi, kPi);
-  if (p.family == PatternFamily::dent) {
-    p.extent_mm = is_short ? dice.uniform(90.0, 150.0) : dice.uniform(180.0, 320.0);
-  } else {
-    p.extent_mm = is_short ? dice.uniform(250.0, 450.0) : dice.uniform(500.0, 900.0);
-  }
+  p.extent_mm = group == PatternGroup::short_scale ? extent(90.0, 150.0, 250.0, 450.0)
+                : group == PatternGroup::broad     ? extent(400.0, 900.0, 1200.0, 3000.0)
+                                                   : extent(180.0, 320.0, 500.0, 900.0);
   return p;
 }
 

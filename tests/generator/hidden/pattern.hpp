@@ -24,6 +24,7 @@ namespace chaintrue::generator {
 enum class PatternGroup {
   smooth,       ///< dents of 180 to 320 mm (one sigma), waves of 500 to 900 mm
   short_scale,  ///< dents of 90 to 150 mm, waves of 250 to 450 mm
+  broad,        ///< dents of 400 to 900 mm, waves of 1200 to 3000 mm: as smooth as effects are
   other,        ///< of other making
 };
 

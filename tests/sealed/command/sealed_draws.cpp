@@ -60,6 +60,7 @@ const std::map<std::string, chaintrue::generator::Extent> kExtents = {
 const std::map<std::string, chaintrue::generator::PatternGroup> kPatterns = {
     {"smooth", chaintrue::generator::PatternGroup::smooth},
     {"short_scale", chaintrue::generator::PatternGroup::short_scale},
+    {"broad", chaintrue::generator::PatternGroup::broad},
     {"other", chaintrue::generator::PatternGroup::other}};
 
 std::string known_cause(const std::string& word) {
@@ -130,7 +131,7 @@ int main(int argc, char** argv) {
       });
   app.add_option("--points", arguments.points, "28, 60, 117, 200, 465 or mix")
       ->check(CLI::IsMember({"28", "60", "117", "200", "465", "mix"}));
-  app.add_option("--patterns", arguments.patterns, "smooth, short_scale, other")
+  app.add_option("--patterns", arguments.patterns, "smooth, short_scale, broad, other")
       ->check(CLI::IsMember(kPatterns));
   app.add_option("--first-seed", arguments.first_seed, "of a run of seeds");
   app.add_option("--jobs", arguments.jobs, "threads")->check(CLI::Range(1, 64));

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/other_places.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+std::string_view name(BudgetLine::What what) {
+  constexpr std::string_view kNames[] = {
+      "settings", "cause", "unexplained", "noise", "inseparable"};
+  return kNames[static_cast<std::size_t>(what)];
+}
+
+std::string_view name(BudgetLine::ChangesWith changes) {
+  constexpr std::string_view kNames[] = {"nothing", "place", "order", "direction"};
+  return kNames[static_cast<std::size_t>(changes)];
+}
+
+namespace {
+
+constexpr double kPartMm = 100.0;
+
+using Shifts = std::vector<Eigen::Vector2d>;
+
+double mean_square(const Shifts& shifts) {
+  double sum = 0.0;
+  for (const Eigen::Vector2d& shift : shifts) sum += shift.squaredNorm();
+  return shifts.empty() ? 0.0 : sum / static_cast<double>(shifts.size());
+}
+
+BudgetLine::ChangesWith changes_with(const model::effects::Effect& effect) {
+  if (effect.add_by_direction != nullptr) return BudgetLine::ChangesWith::direction;
+  if (effect.misread != nullptr) return BudgetLine::ChangesWith::order;
+  return BudgetLine::ChangesWith::place;
+}
+
+/// A corner of the marked area, and from it a part's length towards the middle in either direction.
+std::array<model::BedPoint, 3> corner(const MarkedArea& area, bool right, bool top) {
+  const double x = right ? area.high.x_mm : area.low.x_mm;
+  const double y = top ? area.high.y_mm : area.low.y_mm;
+  return {{{x, y}, {x + (right ? -kPartMm : kPartMm), y}, {x, y + (top ? -kPartMm : kPartMm)}}};
+}
+
+/// The corners of the marked area as linear systems, those that the machine reaches.
+struct Corner {
+  Session session;
+  LinearisedSystem system;
+};
+
+std::vector<Corner> corners_of(const Analysis& a) {
+  std::vector<Corner> result;
+  if (!a.session.reads_chains()) return result;
+  const MarkedArea area = marked_area(a.session);
+  for (const bool right : {false, true}) {
+    for (const bool top : {false, true}) {
+      const auto marks = corner(area, right, top);
+      Session session = session_at(a, {marks.begin(), marks.end()});
+      if (session.places.size() != marks.size()) continue;
+      auto system = linearise(session, a.state, a.options.steps);
+      if (system) result.push_back({std::move(session), std::move(*system)});
+    }
+  }
+  return result;
+}
+
+/// The largest change from a corner over a part's length, of what `at` makes of a corner's rows.
+template <class At>
+std::optional<double> over_a_part(const std::vector<Corner>& corners, const At& at) {
+  std::optional<double> most;
+  for (const Corner& there : corners) {
+    const auto whitened = at(there);
+    if (!whitened) continue;
+    const Eigen::Vector2d first = error_of_unit(there.system, *whitened, 0);
+    for (const std::size_t u : {std::size_t{1}, std::size_t{2}}) {
+      const double change = (error_of_unit(there.system, *whitened, u) - first).norm();
+      most = std::max(most.value_or(0.0), change);
+    }
+  }
+  return most;
+}
+
+class Budget {
+ public:
+  explicit Budget(const Analysis& a) : a_(a), corners_(corners_of(a)) {
+    const std::vector<bool>& outliers = marginalised_system(a).outliers;
+    const bool of_tool = a.session.reads_chains();
+    for (std::size_t u = 0; u < outliers.size(); ++u) {
+      if (!outliers[u] && a.system.units[u].reads_chains == of_tool) units_.push_back(u);
+    }
+  }
+
+  [[nodiscard]] ErrorBudget measure() {
+    const auto stated = linearise(a_.session, stated_state(a_.session), {});
+    if (!stated || units_.empty()) return {};
+    Shifts delivered;
+    for (const std::size_t u : units_) delivered.push_back(error_of_unit(*stated, stated->e, u));
+    ErrorBudget budget;
+    budget.as_delivered_mm = std::sqrt(mean_square(delivered));
+    // Every part is what the error would lose with it; together they are the error.
+    Shifts settings = delivered;
+    add_causes(budget, settings);
+    const Shifts pattern =
+        shifts_of(a_.estimate.left - a_.estimate.left_beside_discrepancy);
+    const Shifts noise =
+        shifts_of(left_of_machine(a_.system, a_.estimate, a_.estimate.left_beside_discrepancy));
+    take_away(pattern, settings);
+    take_away(noise, settings);
+    add({.what = BudgetLine::What::settings, .part_mm = settings_over_a_part()}, settings, budget);
+    if (a_.decision.discrepancy_left) {
+      add({.what = BudgetLine::What::unexplained, .part_mm = pattern_over_a_part()},
+          pattern,
+          budget);
+    }
+    add({.what = BudgetLine::What::noise, .changes_with = BudgetLine::ChangesWith::nothing},
+        noise,
+        budget);
+    finish(budget);
+    return budget;
+  }
+
+ private:
+  [[nodiscard]] Shifts shifts_of(const Eigen::VectorXd& whitened) const {
+    Shifts result;
+    for (const std::size_t u : units_) result.push_back(error_of_unit(a_.system, whitened, u));
+    return result;
+  }
+
+  static void take_away(const Shifts& part, Shifts& from) {
+    for (std::size_t i = 0; i < part.size(); ++i) from[i] -= part[i];
+  }
+
+  static void add(BudgetLine line, const Shifts& shifts, ErrorBudget& budget) {
+    line.mean_square_mm2 = mean_square(shifts);
+    budget.lines.push_back(line);
+  }
+
+  void add_causes(ErrorBudget& budget, Shifts& rest) const {
+    for (std::size_t k = 0; k < a_.decision.regressors.size(); ++k) {
+      const int column = a_.decision.regressors[k];
+      const Regressor& own = regressor(a_, column);
+      const double size = a_.estimate.coefficient(static_cast<Eigen::Index>(k));
+      const Shifts shifts = shifts_of(a_.system.g.col(column) * size);
+      take_away(shifts, rest);
+      BudgetLine line{.what = BudgetLine::What::cause, .cause = own.cause};
+      line.changes_with = changes_with(*own.cause.effect);
+      if (line.changes_with == BudgetLine::ChangesWith::place) {
+        line.part_mm = over_a_part(corners_, [&](const Corner& there) {
+          auto g = signature(there.session, a_.state, there.system, own.cause, own.values);
+          if (g) *g *= size;
+          return g;
+        });
+      }
+      add(line, shifts, budget);
+    }
+  }
+
+  [[nodiscard]] std::optional<double> settings_over_a_part() const {
+    const Eigen::VectorXd change =
+        a_.system.setting + a_.estimate.setting_change - a_.session.stated_value;
+    return over_a_part(corners_, [&](const Corner& there) {
+      const Eigen::Index shared = a_.system.setting.size() - a_.system.nuisances;
+      return std::optional<Eigen::VectorXd>(there.system.by_setting.leftCols(shared) *
+                                            change.head(shared));
+    });
+  }
+
+  [[nodiscard]] std::optional<double> pattern_over_a_part() const {
+    return over_a_part(corners_, [&](const Corner& there) {
+      Eigen::VectorXd whitened(there.system.e.size());
+      whitened.setZero();
+      for (const SystemUnit& unit : there.system.units) {
+        const SystemPlace& place = there.system.places[unit.places.front().place];
+        whitened.segment<2>(unit.first_row) =
+            unit.whitening * discrepancy_at(a_.system,
+                                            marginalised_system(a_),
+                                            a_.estimate,
+                                            discrepancy_place(place));
+      }
+      return std::optional<Eigen::VectorXd>(std::move(whitened));
+    });
+  }
+
+  /// Shares, what the parts have in common, and the order.
+  static void finish(ErrorBudget& budget) {
+    const double whole = budget.as_delivered_mm * budget.as_delivered_mm;
+    double sum = 0.0;
+    for (const BudgetLine& line : budget.lines) sum += line.mean_square_mm2;
+    std::stable_sort(
+        budget.lines.begin(), budget.lines.end(), [](const BudgetLine& x, const BudgetLine& y) {
+          return x.mean_square_mm2 > y.mean_square_mm2;
+        });
+    budget.lines.push_back({.what = BudgetLine::What::inseparable,
+                            .mean_square_mm2 = whole - sum,
+                            .changes_with = BudgetLine::ChangesWith::nothing});
+    for (BudgetLine& line : budget.lines) {
+      line.share = whole > 0.0 ? line.mean_square_mm2 / whole : 0.0;
+    }
+  }
+
+  const Analysis& a_;
+  std::vector<Corner> corners_;
+  std::vector<std::size_t> units_;
+};
+
+}  // namespace
+
+ErrorBudget error_budget(const Analysis& analysis) { return Budget(analysis).measure(); }
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/other_places.hpp"
+
+#include <algorithm>
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// The first part at whose marks chains were read.
+std::size_t chain_part(const Session& session) {
+  const auto found = std::find_if(session.parts.begin(),
+                                  session.parts.end(),
+                                  [](const SessionPart& part) { return part.reads_chains(); });
+  return static_cast<std::size_t>(found - session.parts.begin());
+}
+
+const observation::ChainLengthReadings& readings_of(const Session& session, std::size_t part) {
+  return dynamic_cast<const observation::ChainLengthReadings&>(*session.parts[part].observation);
+}
+
+}  // namespace
+
+MarkedArea marked_area(const Session& session) {
+  const auto& places = readings_of(session, chain_part(session)).places();
+  MarkedArea area{places.front().mark, places.front().mark};
+  for (const observation::Place& place : places) {
+    area.low = {std::min(area.low.x_mm, place.mark.x_mm), std::min(area.low.y_mm, place.mark.y_mm)};
+    area.high = {std::max(area.high.x_mm, place.mark.x_mm),
+                 std::max(area.high.y_mm, place.mark.y_mm)};
+  }
+  return area;
+}
+
+Session session_at(const Analysis& a, const std::vector<model::BedPoint>& marks) {
+  const Session& session = a.session;
+  const std::size_t part = chain_part(session);
+  const observation::ChainLengthReadings& own = readings_of(session, part);
+  const model::ReadingModel model(a.state.machine);
+  const model::SheetPlacement sheet = a.state.sheet_of(session.parts[part]);
+  std::vector<observation::Place> places;
+  for (const model::BedPoint& mark : marks) {
+    if (model.at(sheet.to_bed(mark))) places.push_back({0, "", mark, {}, 0});
+  }
+  // Nobody goes there: no order of visits.
+  return with_observations(
+      session,
+      {{std::make_shared<const observation::ChainLengthReadings>(
+            observation::ChainLengthReadings::in_given_order(
+                std::move(places), false, own.noise(), own.noise_dof(), own.sheet())),
+        part}});
+}
+
+}  // namespace chaintrue::grid::diagnosis

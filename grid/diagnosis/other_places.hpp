@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The machine of an analysis at places where nobody measured.
+#pragma once
+
+#include <vector>
+
+#include "grid/diagnosis/analysis.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// The rectangle that the marks span at which chains were read. Precondition: the session reads
+/// chains.
+struct MarkedArea {
+  model::BedPoint low;
+  model::BedPoint high;
+};
+[[nodiscard]] MarkedArea marked_area(const Session& session);
+
+/// A session with a point at each of these marks that the machine can reach, in no order of visits.
+/// Precondition: as above.
+[[nodiscard]] Session session_at(const Analysis& analysis,
+                                 const std::vector<model::BedPoint>& marks);
+
+}  // namespace chaintrue::grid::diagnosis

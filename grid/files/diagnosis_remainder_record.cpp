@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+
+#include "grid/files/diagnosis_keys.hpp"
+#include "grid/files/diagnosis_record.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using diagnosis::BudgetLine;
+using diagnosis::CauseId;
+using diagnosis::Enters;
+using diagnosis::ErrorBudget;
+using diagnosis::Unexplained;
+
+constexpr Range kPositive{"", 0.0, 1e12};
+constexpr Range kAny{"", -1e12, 1e12};
+constexpr Range kShare{"", 0.0, 1.0};
+
+template <class Word, std::size_t kCount>
+Value<Word> words(const std::array<Word, kCount>& all) {
+  std::vector<std::pair<std::string, Word>> names;
+  for (const Word word : all) names.emplace_back(name(word), word);
+  return choice<Word>(std::move(names));
+}
+
+const Record<BudgetLine>& budget_line_record() {
+  using What = BudgetLine::What;
+  using ChangesWith = BudgetLine::ChangesWith;
+  static const auto record =
+      Record<BudgetLine>("a part of the error")
+          .required("what",
+                    &BudgetLine::what,
+                    words(std::array{What::settings,
+                                     What::cause,
+                                     What::unexplained,
+                                     What::noise,
+                                     What::inseparable}))
+          .optional("cause", &BudgetLine::cause, object(cause_id_record()))
+          .required("mean_square_mm2", &BudgetLine::mean_square_mm2, number(kAny))
+          .required("share", &BudgetLine::share, number(kAny))
+          .optional("part_of_100_mm", &BudgetLine::part_mm, number(kPositive))
+          .required("changes_with",
+                    &BudgetLine::changes_with,
+                    words(std::array{ChangesWith::nothing,
+                                     ChangesWith::place,
+                                     ChangesWith::order,
+                                     ChangesWith::direction}));
+  return record;
+}
+
+}  // namespace
+
+const Record<Unexplained>& unexplained_record() {
+  static const auto record = [] {
+    Record<Unexplained> left("what remains besides the causes");
+    left.required("probability", &Unexplained::probability, number(kShare))
+        .required("delta", &Unexplained::signal_to_noise, number(kPositive))
+        .required("rms_mm", &Unexplained::rms_mm, number(kPositive))
+        .required("share", &Unexplained::share, number(kShare));
+    nullable_text(left, "follows", &Unexplained::follows, text());
+    left.required("length_mm", &Unexplained::length_mm, number(kPositive))
+        .required("enters",
+                  &Unexplained::enters,
+                  words(std::array{Enters::left,
+                                   Enters::right,
+                                   Enters::alike,
+                                   Enters::opposite,
+                                   Enters::x,
+                                   Enters::y,
+                                   Enters::mixed}));
+    return left;
+  }();
+  return record;
+}
+
+const Record<ErrorBudget>& error_budget_record() {
+  static const auto record =
+      Record<ErrorBudget>("what the error is made of")
+          .required("as_delivered_mm", &ErrorBudget::as_delivered_mm, number(kPositive))
+          .required("parts", &ErrorBudget::lines, list(object(budget_line_record())));
+  return record;
+}
+
+namespace {
+
+/// A value with its sigma under its parameter's name.
+const Record<diagnosis::ParameterEstimate>& named_estimate_record() {
+  using diagnosis::ParameterEstimate;
+  static const auto record = Record<ParameterEstimate>("a size with its sigma")
+                                 .required("parameter", &ParameterEstimate::parameter, text())
+                                 .required("value", &ParameterEstimate::value, number(kAny))
+                                 .required("sigma", &ParameterEstimate::sigma, number(kPositive));
+  return record;
+}
+
+const Record<diagnosis::Change>& change_record() {
+  using diagnosis::Change;
+  static const auto record = Record<Change>("a change")
+                                 .required("cause", &Change::cause, object(cause_id_record()))
+                                 .required("before", &Change::before, object(named_estimate_record()))
+                                 .required("now", &Change::after, object(named_estimate_record()))
+                                 .required("named_before", &Change::named_before, boolean())
+                                 .required("named_now", &Change::named_now, boolean())
+                                 .required("probability", &Change::probability, number(kShare));
+  return record;
+}
+
+}  // namespace
+
+const Record<diagnosis::Trend>& trend_record() {
+  using diagnosis::Trend;
+  static const auto record =
+      Record<Trend>("what changed since an earlier diagnosis")
+          .required("since", &Trend::since, text())
+          .required("changes", &Trend::changes, list(object(change_record())))
+          .optional("as_delivered_before_mm", &Trend::as_delivered_before_mm, number(kPositive))
+          .optional("as_delivered_mm", &Trend::as_delivered_mm, number(kPositive));
+  return record;
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What remains besides the causes, and what the error is made of: the low-rank discrepancy against
+// dense algebra, shares that add up, and a cause that is named beside a pattern.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "grid/diagnosis/diagnose.hpp"
+#include "grid/diagnosis/discrepancy_basis.hpp"
+#include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/trend.hpp"
+#include "grid/files/diagnosis_file.hpp"
+#include "tests/diagnosis/sessions.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing_support::session_of;
+using testing_support::verdict_alone;
+
+const model::AppliedEffect kLongLeft{"chain_pitch_error", "left", {{"elongation", 0.0015}}};
+
+/// A dent of 1.5 mm and 250 mm (one sigma) that goes into the chains as 0.6 to 0.8.
+MeasuredGrid with_dent(MeasuredGrid grid) {
+  for (LengthPoint& point : grid.points) {
+    const double dx = (point.mark.x_mm - 400.0) / 250.0;
+    const double dy = (point.mark.y_mm + 100.0) / 250.0;
+    const double mm = 1.5 * std::exp(-0.5 * (dx * dx + dy * dy));
+    point.lengths.left_mm += 0.6 * mm;
+    point.lengths.right_mm += 0.8 * mm;
+  }
+  return grid;
+}
+
+Analysis analysis_of(const MeasuredGrid& grid) {
+  auto session = make_session(grid);
+  EXPECT_TRUE(session);
+  auto a = analyse(*std::move(session), verdict_alone());
+  EXPECT_TRUE(a);
+  return *std::move(a);
+}
+
+TEST(Discrepancy, PriorsOfKernelsAddUpToOne) {
+  double sum = 0.0;
+  for (const DiscrepancyKernel& kernel : discrepancy_kernels()) sum += kernel.prior;
+  EXPECT_NEAR(sum, 1.0, 1e-12);  // rounding
+  double shares = 0.0;
+  for (int k = 0; k < discrepancy_count(); ++k) shares += std::exp(log_share_of_discrepancy(k));
+  EXPECT_NEAR(shares, 1.0, 1e-12);  // rounding
+}
+
+TEST(Discrepancy, LowRankIsTheDenseCovariance) {
+  const Analysis a = analysis_of(session_of({kLongLeft}, 3));
+  MarginalisedSystem marginalised = marginalised_system(a);
+  std::vector<std::size_t> kernels(discrepancy_kernels().size());
+  std::iota(kernels.begin(), kernels.end(), std::size_t{0});
+  DiscrepancyBasis basis(a.system, marginalised, kernels);
+  const NormalEquations plain = normal_equations(marginalised, {0, 3, 5});
+  const auto strengths = static_cast<int>(std::size(kDiscrepancyStrengths));
+  // One of each group: of the place and along both axes, of chains and of the tool, of a coordinate.
+  for (std::size_t kernel = 0; kernel < kernels.size(); kernel += 11) {
+    const int discrepancy = static_cast<int>(kernel) * strengths + 1;
+    const double strength = strength_of(discrepancy);
+    SCOPED_TRACE(kernel);
+    const auto own = basis.beside(kernel, plain).equations(strength, plain.columns);
+    const Discrepancy process = discrepancy_of(marginalised, discrepancy);
+    Eigen::MatrixXd v = discrepancy_covariance(a.system, marginalised.kept, process.kernel);
+    const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
+    lower.solveInPlace(v);
+    v = lower.solve(v.transpose()).eval() * (process.sigma_mm * process.sigma_mm);
+    v.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> llt(v);
+    const Eigen::VectorXd e = llt.solve(marginalised.e);
+    const double log_det =
+        marginalised.log_det +
+        2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
+    // A ten-thousandth of the field's variance is left out at any place: of strength squared.
+    const double tolerance = 1e-4 * strength * strength;
+    EXPECT_NEAR(own.log_det, log_det, tolerance);
+    EXPECT_NEAR(own.ee, marginalised.e.dot(e), tolerance * marginalised.e.dot(e));
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const auto g = marginalised.g.col(plain.columns[static_cast<std::size_t>(k)]);
+      EXPECT_NEAR(own.ge(k), g.dot(e), tolerance * g.norm() * e.norm());
+      EXPECT_NEAR(own.gg(k, k), g.dot(llt.solve(g)), tolerance * g.squaredNorm());
+      EXPECT_EQ(own.prior_square(k), plain.gg(k, k));
+    }
+    EXPECT_NEAR(basis.beside(kernel, plain).diagonal(strength).ee, own.ee, 1e-9 * own.ee);
+  }
+}
+
+TEST(Remainder, ACauseIsNamedBesideAPattern) {
+  const auto found =
+      diagnose(with_dent(session_of({kLongLeft}, 11, 10, 6)), verdict_alone());
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->verdict, Verdict::named) << found->sentence;
+  ASSERT_FALSE(found->causes.empty());
+  EXPECT_EQ(found->causes.front().cause.effect->id, "chain_pitch_error");
+  ASSERT_TRUE(found->unexplained);
+  EXPECT_GT(found->unexplained->probability, 0.99);
+  EXPECT_EQ(found->unexplained->enters, Enters::alike);  // 0.6 to 0.8 is 8 degrees beside alike
+  EXPECT_GT(found->unexplained->length_mm, 120.0);       // a dent of one sigma 250 mm, to a factor
+  EXPECT_LT(found->unexplained->length_mm, 500.0);       // of two
+  EXPECT_THAT(found->sentence, HasSubstr("Besides, a pattern of"));
+}
+
+TEST(Remainder, IsNotToldWhereThereIsNone) {
+  const auto found = diagnose(session_of({kLongLeft}, 12), verdict_alone());
+  ASSERT_TRUE(found);
+  ASSERT_TRUE(found->unexplained);
+  EXPECT_LT(found->unexplained->probability, 0.5);
+  EXPECT_THAT(found->sentence, Not(HasSubstr("Besides")));
+}
+
+TEST(Budget, PartsAddUpToTheError) {
+  for (const MeasuredGrid& grid : {session_of({kLongLeft}, 13), with_dent(session_of({}, 14))}) {
+    const auto found = diagnose(grid, verdict_alone());
+    ASSERT_TRUE(found);
+    ASSERT_TRUE(found->budget);
+    double sum = 0.0;
+    double share = 0.0;
+    for (const BudgetLine& line : found->budget->lines) {
+      sum += line.mean_square_mm2;
+      share += line.share;
+    }
+    const double whole = std::pow(found->budget->as_delivered_mm, 2);
+    EXPECT_NEAR(sum, whole, 1e-9 * whole);  // rounding
+    EXPECT_NEAR(share, 1.0, 1e-9);
+    EXPECT_EQ(found->budget->lines.back().what, BudgetLine::What::inseparable);
+  }
+}
+
+// A chain that is 0.15 % long makes 0.15 mm of 100 mm along it, a little more or less at the tool.
+TEST(Budget, APartIsWrongByWhatTheCauseMakesOfIt) {
+  const auto found = diagnose(session_of({kLongLeft}, 13), verdict_alone());
+  ASSERT_TRUE(found);
+  ASSERT_TRUE(found->budget);
+  const auto cause = std::find_if(
+      found->budget->lines.begin(), found->budget->lines.end(), [](const BudgetLine& line) {
+        return line.what == BudgetLine::What::cause;
+      });
+  ASSERT_NE(cause, found->budget->lines.end());
+  ASSERT_TRUE(cause->part_mm);
+  EXPECT_GT(*cause->part_mm, 0.1);
+  EXPECT_LT(*cause->part_mm, 0.6);  // far from the left motor both chains hang steeply: a lever of 3
+}
+
+TEST(Trend, SaysWhatGrewAndHowSurely) {
+  const auto before = diagnose(session_of({kLongLeft}, 21), verdict_alone());
+  const model::AppliedEffect longer{"chain_pitch_error", "left", {{"elongation", 0.0025}}};
+  const auto now = diagnose(session_of({longer}, 22), verdict_alone());
+  const auto same = diagnose(session_of({kLongLeft}, 23), verdict_alone());
+  ASSERT_TRUE(before && now && same);
+  const Trend grown = trend(*before, *now, "old.json");
+  ASSERT_EQ(grown.changes.size(), 1U);
+  EXPECT_TRUE(grown.changes.front().named_before);
+  EXPECT_TRUE(grown.changes.front().named_now);
+  EXPECT_GT(grown.changes.front().probability, 0.99);  // 0.1 % against sigmas of a hundredth of that
+  EXPECT_THAT(change_in_words(grown.changes.front()), HasSubstr("grew"));
+  const Trend nothing = trend(*before, *same, "old.json");
+  ASSERT_EQ(nothing.changes.size(), 1U);
+  EXPECT_LT(nothing.changes.front().probability, 0.999);  // noise alone: 3.1 sigmas
+  // Seen from the other side it became less, as surely.
+  EXPECT_THAT(change_in_words(trend(*now, *before, "new.json").changes.front()),
+              HasSubstr("became less"));
+}
+
+TEST(Remainder, StandsInTheFileAndComesBack) {
+  const auto found = diagnose(with_dent(session_of({kLongLeft}, 11)), verdict_alone());
+  ASSERT_TRUE(found);
+  const Diagnosis again = files::parse_diagnosis(files::write_diagnosis(*found), "d.json");
+  ASSERT_TRUE(again.unexplained);
+  EXPECT_EQ(again.unexplained->enters, found->unexplained->enters);
+  EXPECT_EQ(again.unexplained->follows, found->unexplained->follows);
+  ASSERT_TRUE(again.budget);
+  EXPECT_EQ(again.budget->lines.size(), found->budget->lines.size());
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis
