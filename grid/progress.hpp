@@ -19,8 +19,9 @@ struct WorkStep {
   std::string_view what;  ///< a literal
   int number = 1;         ///< from 1; steps that the data do not ask for are passed over
   int of = 1;
-  double share = -1.0;  ///< of this step that is done, 0 to 1; negative: nobody can know
-  int pass = 0;         ///< of a step that ends when it has settled, from 1; 0: of others
+  /// Of this step, or of its pass, that is done, 0 to 1; negative: nobody can know.
+  double share = -1.0;
+  int pass = 0;  ///< of a step that ends when it has settled, from 1; 0: of others
 };
 
 /// Called by the thread that works; empty where nobody listens.

@@ -165,6 +165,15 @@ TEST_F(Terminal, ShowsHowFarAProgramIsAndHowLongItWillTake) {
   }
 }
 
+TEST_F(Terminal, ShowsHowFarAPlanOfHolesIs) {
+  const Seen seen = shown(
+      fmt::format("plan --machine {}/machines/classic.json --holes 24 -o p.json", CHAINTRUE_FIXTURES),
+      stop_after("s left"));
+  EXPECT_THAT(seen.text,
+              ContainsRegex("plan: [0-9]+ s, step 1 of 2, where the holes are cut, pass 1, [0-9]+ "
+                            "% done, about [0-9]+ s left"));
+}
+
 TEST_F(Terminal, ShowsHowManyPointsOfAQueryAreAnswered) {
   ASSERT_EQ(run(fmt::format("fit {}/grids/seven_by_four.json -o m.json", CHAINTRUE_FIXTURES)).code,
             0);

@@ -38,7 +38,8 @@ Told& told() {
 
 void begin(const grid::WorkStep& step) {
   const std::scoped_lock lock(told().mutex);
-  if (step.number != told().step.number || step.what != told().step.what) {
+  const grid::WorkStep& last = told().step;
+  if (step.number != last.number || step.what != last.what || step.pass != last.pass) {
     told().began = Clock::now();
   }
   told().step = step;
@@ -51,7 +52,7 @@ std::string left_in_words(double elapsed_s, double done) {
       ", {:.0f} % done, about {:.0f} s left", 100.0 * done, elapsed_s * (1.0 - done) / done);
 }
 
-/// Time left is that of the step: how long the others will take nobody knows.
+/// Time left is that of the step, or of its pass: how long the others will take nobody knows.
 std::string in_words(const std::string& verb, double elapsed_s) {
   const std::scoped_lock lock(told().mutex);
   const grid::WorkStep& step = told().step;
@@ -60,7 +61,8 @@ std::string in_words(const std::string& verb, double elapsed_s) {
   if (step.what.empty()) return words + left_in_words(elapsed_s, share);
   if (step.of > 1) words += fmt::format(", step {} of {}", step.number, step.of);
   words += fmt::format(", {}", step.what);
-  if (step.pass > 0) words += fmt::format(", pass {} until it settles", step.pass);
+  if (step.pass > 0)
+    words += fmt::format(", pass {}{}", step.pass, share < 0.0 ? " until it settles" : "");
   return words + left_in_words(seconds_since(told().began), share);
 }
 
