@@ -39,7 +39,9 @@ interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPo
 }
 
 /// What a fit tells of itself: where the noise is to be found, too, it takes two steps more.
-WorkStep first_step(bool noise_stated) { return {"settings and correction", 1, noise_stated ? 2 : 4}; }
+WorkStep first_step(bool noise_stated) {
+  return {"settings and correction", 1, noise_stated ? 2 : 4};
+}
 constexpr WorkStep kSmoother{"a smoother correction", 2, 4};
 constexpr WorkStep kNoise{"how large the noise is", 3, 4};
 WorkStep last_step(bool noise_stated) {

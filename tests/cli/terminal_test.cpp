@@ -113,8 +113,7 @@ TEST_F(Terminal, ShowsHowFarASweepIsAndHowLongItWillTake) {
             [](const std::string& text) {
               return text.find("s left") != std::string::npos ? kCtrlC : "";
             });
-  EXPECT_THAT(seen.text,
-              ContainsRegex("sweep: [0-9]+ s, [0-9]+ % done, about [0-9]+ s left"));
+  EXPECT_THAT(seen.text, ContainsRegex("sweep: [0-9]+ s, [0-9]+ % done, about [0-9]+ s left"));
 }
 
 /// Once `words` have been seen there is no need to wait for the end.
@@ -160,15 +159,16 @@ TEST_F(Terminal, ShowsHowFarAProgramIsAndHowLongItWillTake) {
     SCOPED_TRACE(arguments);
     const Seen seen = shown(arguments, stop_after(std::string(words) + ", "));
     EXPECT_THAT(seen.text,
-                ContainsRegex(fmt::format(
-                    "gcode: [0-9]+ s, {}, [0-9]+ % done, about [0-9]+ s left", words)));
+                ContainsRegex(
+                    fmt::format("gcode: [0-9]+ s, {}, [0-9]+ % done, about [0-9]+ s left", words)));
   }
 }
 
 TEST_F(Terminal, ShowsHowFarAPlanOfHolesIs) {
-  const Seen seen = shown(
-      fmt::format("plan --machine {}/machines/classic.json --holes 24 -o p.json", CHAINTRUE_FIXTURES),
-      stop_after("s left"));
+  const Seen seen =
+      shown(fmt::format("plan --machine {}/machines/classic.json --holes 24 -o p.json",
+                        CHAINTRUE_FIXTURES),
+            stop_after("s left"));
   EXPECT_THAT(seen.text,
               ContainsRegex("plan: [0-9]+ s, step 1 of 2, where the holes are cut, pass 1, [0-9]+ "
                             "% done, about [0-9]+ s left"));

@@ -52,8 +52,7 @@ TEST(LocalDesign, IsTheDenseOne) {
   const Eigen::VectorXd weighted_response = by_row.asDiagonal() * problem.response();
   // Sums of some hundred products of sixteen digits.
   constexpr double kRounding = 1e-13;
-  EXPECT_LE((weighted.gram - gram).cwiseAbs().maxCoeff(),
-            kRounding * gram.cwiseAbs().maxCoeff());
+  EXPECT_LE((weighted.gram - gram).cwiseAbs().maxCoeff(), kRounding * gram.cwiseAbs().maxCoeff());
   EXPECT_EQ(weighted.gram, weighted.gram.transpose());
   const Eigen::VectorXd moment = design.transpose() * weighted_response;
   EXPECT_LE((weighted.moment - moment).cwiseAbs().maxCoeff(),
@@ -71,7 +70,8 @@ TEST(LocalDesign, IsTheDenseOne) {
     const SystemUnit& unit = problem.units()[u];
     const auto rows = design.middleRows(unit.first_row, unit.rows);
     const Eigen::MatrixXd dense = rows * covariance * rows.transpose();
-    const Eigen::MatrixXd terms = rows.cwiseAbs() * covariance.cwiseAbs() * rows.cwiseAbs().transpose();
+    const Eigen::MatrixXd terms =
+        rows.cwiseAbs() * covariance.cwiseAbs() * rows.cwiseAbs().transpose();
     ASSERT_LE((spreads[u] - dense).cwiseAbs().maxCoeff(), kRounding * terms.maxCoeff()) << u;
   }
 }
