@@ -47,6 +47,12 @@ std::string_view name(Observations observations) {
 
 namespace {
 
+// What a diagnosis tells of itself; the gain tells each block (gain.cpp).
+constexpr int kWorkSteps = 4;
+constexpr WorkStep kComparing{"the causes against each other", 1, kWorkSteps};
+constexpr WorkStep kLeavingOut{"the name without each reading", 2, kWorkSteps};
+constexpr WorkStep kPlanning{"what to measure next", 4, kWorkSteps};
+
 Observations observations_of(const Session& session) {
   if (!session.has_distances()) return Observations::points;
   return session.reads_chains() ? Observations::both : Observations::distances;
@@ -77,11 +83,13 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   auto session = make_session(measured);
   if (!session) return tl::unexpected(session.error());
   if (const auto slip = suspected_slip(*session)) return tl::unexpected(*slip);
+  tell(options.progress, kComparing);
   auto analysis = analyse(*std::move(session), options);
   if (!analysis) return tl::unexpected(analysis.error());
   Analysis& a = *analysis;
   Diagnosis d;
   d.observations = observations_of(a.session);
+  tell(options.progress, kLeavingOut);
   if (options.stability) d.stability = examine_stability(a);
   if (auto refused = refuse_name_of_one_reading(d.stability, a)) {
     d.notes.push_back(std::move(*refused));
@@ -107,6 +115,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
   d.budget = error_budget(a);
   d.normal_plot = normal_plot(a);
   if (options.gain) d.gain = measure_gain(a);
+  tell(options.progress, kPlanning);
   extend(a, d);
   if (options.next_measurements) d.next_measurements = next_measurements(a);
   put_into_words(a, d);

@@ -370,6 +370,8 @@ std::optional<Gain> measure_gain(const Analysis& a) {
   std::vector<std::size_t> number;
   Errors all;
   for (std::size_t b = 0; b < blocks.units.size(); ++b) {
+    const double share = static_cast<double>(b) / static_cast<double>(blocks.units.size());
+    tell(a.options.progress, {"what a name gains, block by block", 3, 4, share});
     const Fold fold = folds.hold_out(blocks.units[b]);
     gain.folds += 1;
     gain.folds_agree += names_agree(fold, a) ? 1 : 0;

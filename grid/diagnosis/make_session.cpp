@@ -358,7 +358,7 @@ tl::expected<Session, DiagnosisFailure> make_session(const Measured& measured) {
       if (k > 0) hole.name = fmt::format("{} ({})", hole.name, k + 1);
     }
     auto distances = observation::TapeDistances::of(set, first);
-    if (!distances) return failure(Reason::point_unreachable, distances.error());
+    if (!distances) return failure(Reason::point_unreachable, distances.error().sentence);
     assembly.add(std::make_shared<const observation::TapeDistances>(*std::move(distances)));
     first.hole += set.holes.size();
     first.distance += set.distances.size();

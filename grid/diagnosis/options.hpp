@@ -8,6 +8,7 @@
 #include <string>
 
 #include "grid/diagnosis/cause_id.hpp"
+#include "grid/progress.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -31,6 +32,7 @@ struct DiagnosisOptions {
   /// Nothing but this cause is looked for: what somebody who knew it would find.
   std::optional<CauseId> told;
   Steps steps;
+  Progress progress;
 };
 
 struct DiagnosisFailure {

@@ -139,7 +139,7 @@ std::optional<std::size_t> Estimator::worst_alone() const {
 /// True where the weights changed enough to fit again.
 bool Estimator::update_weights(int pass) {
   LeftOut left_out(*problem_, fit_, weights_);
-  left_out.prepare_all();
+  left_out.prepare_units();
   for (Eigen::Index u = 0; u < distances_.size(); ++u)
     distances_[u] = left_out.distance(static_cast<std::size_t>(u));
   if (input_.fixed_weights) return false;
@@ -171,6 +171,9 @@ tl::expected<void, EstimationFailure> Estimator::settle() {
   settled_ = false;
   Smoothing smoothing = Smoothing::choose;
   for (int pass = 0; pass < settling.most_passes; ++pass) {
+    WorkStep work = input_.step;
+    work.pass = pass + 1;
+    tell(input_.progress, work);
     // Once all but the smoothing has settled, the pass that chooses it may be the last.
     const bool last = pass + 1 == settling.most_passes;
     const bool perhaps_last = settled_ || last || !problem_->has_surface();
@@ -235,7 +238,8 @@ tl::expected<void, EstimationFailure> Estimator::choose_surface() {
 
 void Estimator::fill_units(Estimate& estimate) const {
   LeftOut left_out(*problem_, fit_, weights_);
-  left_out.prepare_all();
+  left_out.prepare_units();
+  if (!input_.held_out_together.empty()) left_out.prepare_all();
   for (std::size_t u = 0; u < problem_->units().size(); ++u) {
     const SystemUnit& unit = problem_->units()[u];
     const auto at = static_cast<Eigen::Index>(u);

@@ -46,6 +46,7 @@
 
 #include "grid/map/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
+#include "grid/progress.hpp"
 #include "interp/reml.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
@@ -106,6 +107,9 @@ struct EstimationInput {
   std::optional<Eigen::VectorXd> fixed_weights;
   std::vector<UnitGroup> held_out_together;
   int most_passes = 0;  ///< 0: as many as such readings need
+  /// Is told of `step` at each pass.
+  Progress progress;
+  WorkStep step{"settings and correction"};
 };
 
 /// A unit after the estimate. Residuals are measured less predicted, in the readings' own unit.

@@ -17,6 +17,10 @@ constexpr auto kMachine = static_cast<Eigen::Index>(model::kMachineSettings.size
 
 void JointProblem::add_rows(interp::PenalisedProblem& problem,
                             const Eigen::VectorXd& weights) const {
+  if (local_) {
+    local_->add_rows(response_, weights, problem);
+    return;
+  }
   Eigen::MatrixXd design(design_.rows(), design_.cols());
   Eigen::VectorXd response(design_.rows());
   Eigen::Index rows = 0;
@@ -116,7 +120,7 @@ void JointProblem::add_surface_prior(interp::PenalisedProblem& problem,
 interp::PenalisedProblem JointProblem::weighted(const Eigen::VectorXd& weights) const {
   const Eigen::Index total = unknowns_->total();
   interp::PenalisedProblem problem(total);
-  problem.keeps_rows = true;
+  problem.keeps_rows = !local_;
   problem.prior_precision = Eigen::MatrixXd::Zero(total, total);
   problem.prior_mean = Eigen::VectorXd::Zero(total);
   problem.noise = input_.noise;

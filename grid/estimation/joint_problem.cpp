@@ -108,6 +108,10 @@ tl::expected<void, EstimationFailure> JointProblem::linearise(const State& state
   observe(std::move(marks));
   fill_design(*system, state);
   eliminate_free_directions(*system, from, state);
+  local_.reset();
+  const bool many = design_.rows() > LocalDesign::kRowsForEachUnknown * unknowns_->total();
+  if (has_surface_ && many && free_.columns.empty())
+    local_.emplace(design_, units_, *unknowns_, *observed_, basis_, surface_marks_);
   return {};
 }
 

@@ -11,6 +11,7 @@
 #include "grid/estimation/estimate.hpp"
 #include "grid/estimation/free_sheet.hpp"
 #include "grid/estimation/linearised_system.hpp"
+#include "grid/estimation/local_design.hpp"
 #include "grid/estimation/surface_correction.hpp"
 #include "grid/estimation/unknowns.hpp"
 #include "grid/map/observed_subspace.hpp"
@@ -49,6 +50,8 @@ class JointProblem {
   [[nodiscard]] const std::vector<SystemUnit>& units() const { return units_; }
   [[nodiscard]] const Eigen::MatrixXd& design() const { return design_; }
   [[nodiscard]] const Eigen::VectorXd& response() const { return response_; }
+  /// The same of many readings under a surface; null: the dense one costs no more.
+  [[nodiscard]] const LocalDesign* local() const { return local_ ? &*local_ : nullptr; }
   /// Marks of an observation's places, a free sheet laid as its frame is defined.
   [[nodiscard]] const std::vector<model::BedPoint>& marks(std::size_t observation) const {
     return laid_marks_[observation];
@@ -88,6 +91,7 @@ class JointProblem {
   std::vector<SystemUnit> units_;
   Eigen::MatrixXd design_;
   Eigen::VectorXd response_;
+  std::optional<LocalDesign> local_;
   /// Rows of readings that nobody slips at.
   Eigen::MatrixXd sure_design_;
   Eigen::VectorXd sure_response_;

@@ -35,7 +35,17 @@ Eigen::VectorXd LeftOut::response_of(std::size_t unit) const {
   return problem_.response().segment(own.first_row, own.rows);
 }
 
+void LeftOut::prepare_units() {
+  if (problem_.local() == nullptr) {
+    prepare_all();
+    return;
+  }
+  spreads_ = problem_.local()->spreads(fit_.covariance);
+  residuals_ = problem_.response() - problem_.design() * fit_.coefficients;
+}
+
 void LeftOut::prepare_all() {
+  if (by_root_.size() > 0) return;
   const Eigen::LLT<Eigen::MatrixXd> factor(fit_.covariance);
   if (factor.info() == Eigen::Success) {
     by_root_ = problem_.design() * factor.matrixL();
@@ -48,6 +58,7 @@ void LeftOut::prepare_all() {
 }
 
 Eigen::MatrixXd LeftOut::spread_of(std::size_t unit) const {
+  if (!spreads_.empty()) return spreads_[unit];
   if (by_root_.size() == 0) {
     const Eigen::MatrixXd design = rows_of(unit);
     return design * fit_.covariance * design.transpose();
@@ -58,6 +69,10 @@ Eigen::MatrixXd LeftOut::spread_of(std::size_t unit) const {
 }
 
 Eigen::VectorXd LeftOut::residual_of(std::size_t unit) const {
+  if (residuals_.size() > 0) {
+    const SystemUnit& own = problem_.units()[unit];
+    return residuals_.segment(own.first_row, own.rows);
+  }
   return response_of(unit) - rows_of(unit) * fit_.coefficients;
 }
 

@@ -26,8 +26,9 @@ class LeftOut {
           const interp::PenalisedFit& fit,
           const Eigen::VectorXd& weights)
       : problem_(problem), fit_(fit), weights_(weights) {}
-  /// Who asks for all units, or for groups, has their X C X' found together first, in a fraction of
-  /// the time.
+  /// Who asks for all units has their X C X' found together first, in a fraction of the time.
+  void prepare_units();
+  /// The same for groups, too.
   void prepare_all();
 
   /// The whitened residual of a unit with it left out. What is set aside is not in the fit.
@@ -49,6 +50,8 @@ class LeftOut {
   const JointProblem& problem_;
   const interp::PenalisedFit& fit_;
   const Eigen::VectorXd& weights_;
+  std::vector<Eigen::MatrixXd> spreads_;  ///< X C X' of each unit, where the design is local
+  Eigen::VectorXd residuals_;             ///< there, of all rows
   Eigen::MatrixXd by_root_;  ///< X R of all units, C = R R'; empty before prepare_all()
 };
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
+#include <utility>
 
 #include "grid/files/json_reader.hpp"
 #include "grid/files/machine_file.hpp"
@@ -199,21 +201,25 @@ void fill_defaults(SweepSpec& spec) {
   if (spec.uses.empty()) spec.uses = {{"the same machine", {}, false}};
 }
 
-model::Machine machine_beside(const fs::path& file, const std::string& name, Problems& problems) {
-  try {
-    return read_machine(file.parent_path() / name);
-  } catch (const InputError& error) {
-    problems.add_all(error);
-    return {};
-  }
-}
-
 void read_machines(const fs::path& path, StatedSweep& stated, Problems& problems) {
+  // Several levels may name one file; what it does not say is told once.
+  std::map<std::string, model::Machine> known;
+  const auto beside = [&](const std::string& name) {
+    const auto [at, is_new] = known.try_emplace(name);
+    if (!is_new) return at->second;
+    try {
+      ReadMachine read = read_machine_with_warnings(path.parent_path() / name);
+      problems.add_warnings(read.warnings);
+      at->second = std::move(read.machine);
+    } catch (const InputError& error) {
+      problems.add_all(error);
+    }
+    return at->second;
+  };
   for (const StatedMachine& from : stated.machines) {
     sweep::MachineLevel level{from.name, {}, {}, from.model, from.unmodelled_mm};
-    level.truth = machine_beside(path, from.machine_file, problems);
-    level.stated =
-        from.stated_file.empty() ? level.truth : machine_beside(path, from.stated_file, problems);
+    level.truth = beside(from.machine_file);
+    level.stated = from.stated_file.empty() ? level.truth : beside(from.stated_file);
     stated.spec.machines.push_back(level);
   }
 }

@@ -67,7 +67,8 @@ std::optional<Eigen::MatrixXd> design_at(const ModelSurface& surface,
 }
 
 tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
-                                         const std::vector<BedPoint>& marks) {
+                                         const std::vector<BedPoint>& marks,
+                                         const Progress& progress) {
   const auto count = static_cast<Eigen::Index>(marks.size());
   MapAt at;
   const auto* surface = std::get_if<ModelSurface>(&map.contents().surface);
@@ -78,6 +79,8 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
   std::optional<model::ReadingModel> model;
   if (surface != nullptr) model.emplace(surface->machine);
   for (Eigen::Index i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count);
+    tell(progress, {"the map at the new points", 1, 2, share});
     const BedPoint mark = marks[static_cast<std::size_t>(i)];
     const auto refused = [&mark](const MapFailure& failure) {
       return fail(Reason::unreachable,
@@ -206,7 +209,7 @@ tl::expected<Part, CheckFailure> part_of(const CompensationMap& map, const Measu
   if (once.holes.size() > kMostCheckedHoles)
     return too_many(once.holes.size(), kMostCheckedHoles, "holes");
   auto distances = observation::TapeDistances::in_given_order(std::move(once));
-  if (!distances) return fail(Reason::no_lengths, distances.error());
+  if (!distances) return fail(Reason::no_lengths, distances.error().sentence);
   Part part;
   for (const observation::Place& place : distances->places()) {
     const auto mark = map.inverse(place.lengths);
@@ -372,7 +375,8 @@ void fill_common(CheckReadings& readings, const CompensationMap& map, const MapA
 }  // namespace
 
 tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& map,
-                                                         const Measured& measured) {
+                                                         const Measured& measured,
+                                                         const Progress& progress) {
   const std::vector<MeasuredFile>& files = measured.files();
   std::vector<Part> parts;
   std::vector<BedPoint> marks;
@@ -385,7 +389,7 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
     marks.insert(marks.end(), part->marks.begin(), part->marks.end());
     parts.push_back(*std::move(part));
   }
-  const auto at = map_at(map, marks);
+  const auto at = map_at(map, marks, progress);
   if (!at) return tl::unexpected(at.error());
   Gathered gathered(*at);
   std::size_t first = 0;

@@ -36,7 +36,7 @@ inline constexpr std::size_t kMostCheckedHoles = 500;
 /// Of all files together: what the map does not know of itself they share. Readings at one and the
 /// same mark, and of one and the same distance in one session, count as their mean: it says as much
 /// of the map as they do. Fails where there are too many, before any work.
-[[nodiscard]] tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& map,
-                                                                       const Measured& measured);
+[[nodiscard]] tl::expected<CheckReadings, CheckFailure> check_readings(
+    const CompensationMap& map, const Measured& measured, const Progress& progress = {});
 
 }  // namespace chaintrue::grid

@@ -136,6 +136,13 @@ DistanceChooser::Choice DistanceChooser::exchange(const Holes& holes, Choice cho
   for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
     moved = false;
     for (std::size_t& one : chosen) {
+      const auto done = static_cast<double>(&one - chosen.data());
+      tell(request_.progress,
+           {"which distances are measured",
+            2,
+            2,
+            done / static_cast<double>(chosen.size()),
+            sweep + 1});
       for (std::size_t other = 0; other < all.distances.size(); ++other) {
         if (std::find(chosen.begin(), chosen.end(), other) != chosen.end()) continue;
         const std::size_t before = std::exchange(one, other);

@@ -81,7 +81,7 @@ tl::expected<Part, FitFailure> part_of(const MeasuredGrid& grid) {
 
 tl::expected<Part, FitFailure> part_of(const MeasuredHoles& set) {
   auto distances = observation::TapeDistances::in_given_order(set);
-  if (!distances) return fail(FitFailure::Reason::no_lengths, distances.error());
+  if (!distances) return fail(FitFailure::Reason::no_lengths, distances.error().sentence);
   Part part;
   part.distances = std::make_shared<const observation::TapeDistances>(*std::move(distances));
   part.observation = part.distances;
@@ -318,14 +318,17 @@ class TogetherMap {
 
 }  // namespace
 
-tl::expected<TogetherFit, FitFailure> fit_together(const Measured& measured) {
+tl::expected<TogetherFit, FitFailure> fit_together(const Measured& measured,
+                                                   const Progress& progress) {
   const std::vector<MeasuredFile>& files = measured.files();
   if (files.empty()) throw std::invalid_argument("no files to fit together");
+  constexpr int kSteps = 3;
   if (auto one = check_one_machine(files); !one) return tl::unexpected(one.error());
   std::vector<CorrectedData> corrected(files.size());
   std::vector<Part> parts;
   std::vector<std::string> corrections;
   for (std::size_t k = 0; k < files.size(); ++k) {
+    tell(progress, {"each file by itself", 1, kSteps});
     const MeasuredGrid* grid = files[k].grid();
     tl::expected<Part, FitFailure> part;
     if (grid != nullptr) {
@@ -343,11 +346,14 @@ tl::expected<TogetherFit, FitFailure> fit_together(const Measured& measured) {
   }
   const model::Machine stated =
       parts.front().grid != nullptr ? *parts.front().grid->machine : *files.front().machine();
-  const estimation::EstimationInput input = estimation_input(stated, parts);
+  estimation::EstimationInput input = estimation_input(stated, parts);
+  input.progress = progress;
+  input.step = {"settings and correction", 2, kSteps};
   const auto estimate = estimation::estimate(input);
   if (!estimate) return tl::unexpected(failure_of(estimate.error()));
   if (auto sound = check_enough_good(files, *estimate); !sound)
     return tl::unexpected(sound.error());
+  tell(progress, {"the map's own error", kSteps, kSteps});
   TogetherFit fit = TogetherMap(files, parts, input, *estimate).assemble();
   if (!corrections.empty()) {
     MapContents contents = fit.map.contents();

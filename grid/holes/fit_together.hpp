@@ -39,6 +39,7 @@ struct TogetherFit {
 /// Fails in words where a file has no machine or another machine's settings than the first, as the
 /// fit of a single file fails, or where a third of a file's readings contradict the others.
 /// \throws std::invalid_argument without a file.
-[[nodiscard]] tl::expected<TogetherFit, FitFailure> fit_together(const Measured& measured);
+[[nodiscard]] tl::expected<TogetherFit, FitFailure> fit_together(
+    const Measured& measured, const Progress& progress = {});
 
 }  // namespace chaintrue::grid

@@ -115,7 +115,9 @@ interp::Rectangle holes_domain(const model::Bed& bed) {
 }
 
 tl::expected<HolesFit, FitFailure> fit_holes(
-    const MeasuredHoles& set, const std::optional<estimation::MachineKnowledge>& knowledge) {
+    const MeasuredHoles& set,
+    const std::optional<estimation::MachineKnowledge>& knowledge,
+    const Progress& progress) {
   if (!set.machine || set.distances.empty()) {
     throw precondition("a fit of {} distances {} a machine",
                        set.distances.size(),
@@ -123,7 +125,7 @@ tl::expected<HolesFit, FitFailure> fit_holes(
   }
   const auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) {
-    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, distances.error()});
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, distances.error().sentence});
   }
   estimation::EstimationInput input;
   input.machine = *set.machine;
@@ -134,6 +136,7 @@ tl::expected<HolesFit, FitFailure> fit_holes(
   input.intervals_x = kHolesIntervalsX;
   input.intervals_y = kHolesIntervalsY;
   input.knowledge = knowledge;
+  input.progress = progress;
   auto estimate = estimation::estimate(input);
   if (!estimate) return tl::unexpected(failure_of(estimate.error()));
   HolesFit fit{fitted_distances(*distances, *estimate, 0),

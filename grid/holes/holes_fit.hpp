@@ -65,7 +65,8 @@ struct HolesFit : FittedDistances {
 /// machine or without distances.
 [[nodiscard]] tl::expected<HolesFit, FitFailure> fit_holes(
     const MeasuredHoles& set,
-    const std::optional<estimation::MachineKnowledge>& knowledge = std::nullopt);
+    const std::optional<estimation::MachineKnowledge>& knowledge = std::nullopt,
+    const Progress& progress = {});
 
 /// The fit as a map, for query, gcode, report and check.
 [[nodiscard]] CompensationMap map_of(const MeasuredHoles& set, const HolesFit& fit);

@@ -78,6 +78,7 @@ Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
 /// Moves single holes as long as one helps.
 DistanceChooser::Choice move_holes(const DistanceChooser& chooser,
                                    const std::vector<PlannedPlace>& places,
+                                   const Progress& progress,
                                    Holes& holes) {
   constexpr int kSweeps = 4;
   constexpr double kWorthwhile = 1e-4;
@@ -85,6 +86,8 @@ DistanceChooser::Choice move_holes(const DistanceChooser& chooser,
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     bool moved = false;
     for (std::size_t i = 0; i < holes.size(); ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(holes.size());
+      tell(progress, {"where the holes are cut", 1, 2, share, sweep + 1});
       for (const PlannedPlace& place : places) {
         if (&place == holes[i] || !is_free(holes, i, place.place)) continue;
         const PlannedPlace* before = holes[i];
@@ -244,7 +247,7 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
   const ToolError error = tool_error(machine, request.edges);
   const DistanceChooser chooser(machine, request, prior, error.root);
   Holes holes = spread(places, static_cast<std::size_t>(request.holes));
-  DistanceChooser::Choice choice = move_holes(chooser, places, holes);
+  DistanceChooser::Choice choice = move_holes(chooser, places, request.progress, holes);
   choice = chooser.exchange(holes, std::move(choice));
   const Eigen::MatrixXd after = chooser.covariance(holes, choice.distances);
   HolesPlan plan;

@@ -25,6 +25,7 @@
 
 #include "grid/holes/holes_fit.hpp"
 #include "grid/map/measurement_plan.hpp"
+#include "grid/progress.hpp"
 
 namespace chaintrue::grid {
 
@@ -43,6 +44,7 @@ struct HolesPlanRequest {
   double margin_mm = 50.0;
   /// The tape's length.
   double longest_mm = 5000.0;
+  Progress progress;
 };
 [[nodiscard]] int distances_of(const HolesPlanRequest& request);
 /// As many as there are unknowns that they tell of: the machine's, and the sheet's place.

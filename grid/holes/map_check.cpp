@@ -140,8 +140,12 @@ std::string_view name(CheckVerdict verdict) {
 }
 
 tl::expected<MapCheck, CheckFailure> check_map(const CompensationMap& map,
-                                               const Measured& measured) {
-  return check_readings(map, measured).map(judge);
+                                               const Measured& measured,
+                                               const Progress& progress) {
+  return check_readings(map, measured, progress).map([&](const CheckReadings& readings) {
+    tell(progress, {"what may have changed", 2, 2});
+    return judge(readings);
+  });
 }
 
 }  // namespace chaintrue::grid

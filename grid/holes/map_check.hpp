@@ -29,6 +29,7 @@
 
 #include "grid/map/compensation_map.hpp"
 #include "grid/measured.hpp"
+#include "grid/progress.hpp"
 
 namespace chaintrue::grid {
 
@@ -112,6 +113,7 @@ struct CheckFailure {
 
 /// Any mix of files.
 [[nodiscard]] tl::expected<MapCheck, CheckFailure> check_map(const CompensationMap& map,
-                                                             const Measured& measured);
+                                                             const Measured& measured,
+                                                             const Progress& progress = {});
 
 }  // namespace chaintrue::grid

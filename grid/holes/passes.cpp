@@ -127,6 +127,7 @@ tl::expected<SimulatedPasses, FitFailure> simulate_passes(const model::Machine& 
   MeasuredHoles last = plan->set;
   std::optional<CompensationMap> map;
   for (int number = 1; number <= request.most; ++number) {
+    tell(request.progress, {"a set of holes, fitted", number, request.most});
     MeasuredHoles design = plan->set;
     for (std::size_t i = 0; map && i < wanted.size(); ++i) {
       const auto lengths = map->lengths(wanted[i]);

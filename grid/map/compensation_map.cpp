@@ -25,11 +25,9 @@ std::string explain(const MapFailure& failure) {
                          failure.pose ? ": " : "",
                          failure.pose ? model::explain(*failure.pose) : "");
     case MapFailure::not_converged:
-      return "no point of the bed was found for these chain lengths";
-    case MapFailure::wave_along_chain:
       break;
   }
-  return "an eccentric sprocket makes a wave along the chain that no table over the bed holds";
+  return "no point of the bed was found for these chain lengths";
 }
 
 namespace {

@@ -204,10 +204,9 @@ class MapField;
 /// Why there is no answer.
 struct MapFailure {
   enum class Reason {
-    outside_map,       ///< off the domain, or refused
-    unreachable,       ///< no pose of the machine there
-    not_converged,     ///< the inverse did not settle
-    wave_along_chain,  ///< an eccentric sprocket's wave, shorter than any table's cells
+    outside_map,    ///< off the domain, or refused
+    unreachable,    ///< no pose of the machine there
+    not_converged,  ///< the inverse did not settle
   };
   using enum Reason;
   MapFailure(Reason why) : reason(why) {}  // NOLINT: most reasons are the whole answer

@@ -10,7 +10,7 @@ tl::expected<CompensationMap, FitFailure> fit(const MeasuredGrid& grid, const Fi
   const auto corrected = corrected_data(grid);
   if (!corrected) return tl::unexpected(corrected.error());
   auto map = options.surface == SurfaceKind::direct ? fit_direct(corrected->grid, options)
-                                                    : fit_residual(corrected->grid);
+                                                    : fit_residual(corrected->grid, options.progress);
   const bool as_it_is = corrected->notes.empty() && options.outside.way == Outside::continued;
   if (!map || as_it_is) return map;
   MapContents contents = map->contents();

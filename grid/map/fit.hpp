@@ -12,6 +12,7 @@
 #include <tl/expected.hpp>
 
 #include "grid/map/compensation_map.hpp"
+#include "grid/progress.hpp"
 
 namespace chaintrue::grid {
 
@@ -26,6 +27,7 @@ struct FitOptions {
   interp::TensorEnds ends;
   /// What the map does beyond the points.
   OutsideRule outside;
+  Progress progress;
 };
 
 struct FitFailure {

@@ -25,6 +25,8 @@ estimation::EstimationInput estimation_input(const PointsFitInput& points) {
   input.noise = points.noise_scale;
   input.bending_order = points.bending_order;
   input.domain = points.domain;
+  input.progress = points.progress;
+  input.step = points.step;
   return input;
 }
 

@@ -26,6 +26,9 @@ struct PointsFitInput {
   /// Order of the derivatives that the surfaces' penalty squares: 2, a thin plate, or 3, smoother
   /// still.
   int bending_order = 2;
+  /// Is told of `step` at each pass.
+  Progress progress;
+  WorkStep step{"settings and correction"};
 };
 
 /// One point after the fit.

@@ -38,6 +38,17 @@ interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPo
   return domain;
 }
 
+/// What a fit tells of itself: where the noise is to be found, too, it takes two steps more.
+WorkStep first_step(bool noise_stated) {
+  return {"settings and correction", 1, noise_stated ? 2 : 4};
+}
+constexpr WorkStep kSmoother{"a smoother correction", 2, 4};
+constexpr WorkStep kNoise{"how large the noise is", 3, 4};
+WorkStep last_step(bool noise_stated) {
+  const int steps = first_step(noise_stated).of;
+  return {"the map's own error", steps, steps};
+}
+
 bool states_noise(const MeasuredGrid& grid) {
   return grid.noise && (grid.noise->length_mm > 0.0 || grid.noise->position_mm > 0.0);
 }
@@ -49,6 +60,7 @@ void prefer_smoother(PointsFitInput& input, PointsFit& joint) {
   constexpr double kClearlyBetter = 0.8;
   PointsFitInput smoother = input;
   smoother.bending_order = 3;
+  smoother.step = kSmoother;
   auto fit = fit_points(smoother);
   if (!fit) return;
   const double before = held_out_accuracy(joint.points).leave_one_out.chain.rms_mm;
@@ -90,6 +102,7 @@ tl::expected<void, FitFailure> find_noise(FittedGrid& fitted) {
     fitted.input.noise.position_mm *= repeats->factor;
     fitted.input.noise_scale = {interp::NoiseKnowledge::from_repeats, repeats->dof};
     fitted.noise_source = "repeats";
+    fitted.input.step = kNoise;
     auto fit = fit_points(fitted.input);
     if (!fit) return tl::unexpected(failure_of(fit.error()));
     fitted.fit = *std::move(fit);
@@ -154,7 +167,7 @@ FitFailure failure_of(const estimation::EstimationFailure& failure) {
   return {FitFailure::Reason::not_converged, failure.sentence};
 }
 
-tl::expected<FittedGrid, FitFailure> fit_grid(const MeasuredGrid& grid) {
+tl::expected<FittedGrid, FitFailure> fit_grid(const MeasuredGrid& grid, const Progress& progress) {
   if (!grid.machine) {
     return tl::unexpected(FitFailure{
         FitFailure::Reason::no_machine,
@@ -164,10 +177,12 @@ tl::expected<FittedGrid, FitFailure> fit_grid(const MeasuredGrid& grid) {
   const auto points = length_points(grid);
   if (!points) return tl::unexpected(points.error());
   if (auto possible = check_machine_read(grid); !possible) return tl::unexpected(possible.error());
+  const bool stated = states_noise(grid);
   PointsFitInput input = points_input(grid, *points);
+  input.progress = progress;
+  input.step = first_step(stated);
   auto fit = fit_points(input);
   if (!fit) return tl::unexpected(failure_of(fit.error()));
-  const bool stated = states_noise(grid);
   FittedGrid fitted{std::move(input), *std::move(fit), stated ? "stated" : "fit", std::nullopt};
   if (!stated) {
     if (auto found = find_noise(fitted); !found) return tl::unexpected(found.error());
@@ -176,9 +191,12 @@ tl::expected<FittedGrid, FitFailure> fit_grid(const MeasuredGrid& grid) {
   return fitted;
 }
 
-tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid) {
-  return fit_grid(grid).map(
-      [&grid](const FittedGrid& fitted) { return map_of(grid, fitted); });
+tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid,
+                                                       const Progress& progress) {
+  return fit_grid(grid, progress).map([&](const FittedGrid& fitted) {
+    tell(progress, last_step(states_noise(grid)));
+    return map_of(grid, fitted);
+  });
 }
 
 }  // namespace chaintrue::grid

@@ -26,12 +26,14 @@ struct FittedGrid {
 [[nodiscard]] tl::expected<void, FitFailure> check_machine_read(const MeasuredGrid& grid);
 
 /// Fails where a third of the points contradict the others.
-[[nodiscard]] tl::expected<FittedGrid, FitFailure> fit_grid(const MeasuredGrid& grid);
+[[nodiscard]] tl::expected<FittedGrid, FitFailure> fit_grid(const MeasuredGrid& grid,
+                                                            const Progress& progress = {});
 /// An estimate's failure as that of a fit.
 [[nodiscard]] FitFailure failure_of(const estimation::EstimationFailure& failure);
 
 /// SurfaceKind::residual
-[[nodiscard]] tl::expected<CompensationMap, FitFailure> fit_residual(const MeasuredGrid& grid);
+[[nodiscard]] tl::expected<CompensationMap, FitFailure> fit_residual(
+    const MeasuredGrid& grid, const Progress& progress = {});
 /// SurfaceKind::direct
 [[nodiscard]] tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
                                                                    const FitOptions& options);

@@ -196,7 +196,7 @@ SheetPrior sheet_measured(const MeasuredHoles& set) {
   return measured;
 }
 
-tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredHoles set) {
+tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(MeasuredHoles set) {
   if (!set.machine) throw std::invalid_argument("holes without a machine predict no distances");
   TapeDistances result(std::move(set));
   const auto controller = model::make_controller_kinematics(*result.set_.machine);
@@ -204,13 +204,13 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
     const Hole& hole = result.set_.holes[i];
     const auto lengths = controller->lengths(hole.commanded);
     if (!lengths) {
-      return tl::unexpected(
-          fmt::format("hole {} at ({:.1f}, {:.1f}) is out of the controller's "
-                      "reach: {}",
+      return tl::unexpected(TapeDistancesFailure{
+          TapeDistancesFailure::Reason::no_lengths,
+          fmt::format("hole {} at ({:.1f}, {:.1f}) is out of the controller's reach: {}",
                       hole.name,
                       hole.commanded.x_mm,
                       hole.commanded.y_mm,
-                      model::explain(lengths.error())));
+                      model::explain(lengths.error()))});
     }
     result.places_.push_back({i, hole.name, hole.commanded, *lengths, static_cast<int>(i)});
   }
@@ -231,7 +231,7 @@ tl::expected<TapeDistances, std::string> TapeDistances::in_given_order(MeasuredH
   return result;
 }
 
-tl::expected<TapeDistances, std::string> TapeDistances::with_hooks(
+tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::with_hooks(
     MeasuredHoles set, std::vector<std::size_t> hook_sessions) {
   auto result = in_given_order(std::move(set));
   if (!result) return result;
@@ -240,8 +240,8 @@ tl::expected<TapeDistances, std::string> TapeDistances::with_hooks(
   return result;
 }
 
-tl::expected<TapeDistances, std::string> TapeDistances::of(const MeasuredHoles& set,
-                                                         NumberedFrom first) {
+tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::of(const MeasuredHoles& set,
+                                                                  NumberedFrom first) {
   const Sorted sorted = sorted_set(set);
   auto result = in_given_order(sorted.set);
   if (!result) return result;

@@ -77,17 +77,24 @@ struct NumberedFrom {
   std::size_t distance = 0;
 };
 
+struct TapeDistancesFailure {
+  enum class Reason { no_lengths };
+  Reason reason = Reason::no_lengths;
+  std::string sentence;
+};
+
 class TapeDistances final : public Observation {
  public:
-  /// Sorts holes by place and distances by their holes. Fails in words where a command is out of
-  /// the controller's reach. \throws std::invalid_argument for a set without a machine.
-  [[nodiscard]] static tl::expected<TapeDistances, std::string> of(const MeasuredHoles& set,
-                                                                   NumberedFrom first = {});
+  /// Sorts holes by place and distances by their holes. Fails with no_lengths where a command is out
+  /// of the controller's reach. \throws std::invalid_argument for a set without a machine.
+  [[nodiscard]] static tl::expected<TapeDistances, TapeDistancesFailure> of(
+      const MeasuredHoles& set, NumberedFrom first = {});
   /// The same in the order of the set.
-  [[nodiscard]] static tl::expected<TapeDistances, std::string> in_given_order(MeasuredHoles set);
+  [[nodiscard]] static tl::expected<TapeDistances, TapeDistancesFailure> in_given_order(
+      MeasuredHoles set);
   /// The same with the hooks of these sessions as nuisances, whether the set has readings of them
   /// or not.
-  [[nodiscard]] static tl::expected<TapeDistances, std::string> with_hooks(
+  [[nodiscard]] static tl::expected<TapeDistances, TapeDistancesFailure> with_hooks(
       MeasuredHoles set, std::vector<std::size_t> hook_sessions);
 
   [[nodiscard]] const Kind& kind() const override { return tape_distances; }

@@ -153,6 +153,35 @@ TEST_F(Options, OfAFarMotorGiveNoTableOfNothing) {
   }
 }
 
+TEST_F(Options, WhatAMachineDoesNotSayIsToldByEveryVerbOnce) {
+  const std::string machine = content_of(fixture("machines/classic.json"));
+  const std::size_t at = machine.find("\"uncertainty\"");
+  ASSERT_NE(at, std::string::npos);
+  std::string silent = machine;
+  silent.replace(at, machine.find('}', at) + 1 - at, "\"comment\": {}");
+  write("m.json", silent);
+  write("b.nc", "G21 G90\nG0 X0 Y0\nG1 X300 Y100 F500\nM2\n");
+  ASSERT_EQ(run("fit " + grid_ + " -o map.json").code, 0);
+  for (const std::string& verb : {
+           std::string("square --machine m.json --controller-machine m.json --at 0 0"),
+           std::string("export groundcontrol m.json"),
+           std::string("effects chain_stretch --machine m.json"),
+           std::string("gcode check b.nc --machine m.json"),
+           std::string("gcode lengths b.nc --map map.json --machine m.json -o -"),
+           "fit " + grid_ + " --with " + grid_ + " --machine m.json -o fitted.json",
+           std::string("plan --machine m.json"),
+           std::string("simulate --machine m.json --grid 7x4"),
+       }) {
+    SCOPED_TRACE(verb);
+    const Outcome outcome = run(verb);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const std::string words = "m.json: /uncertainty: not stated; assumed are motor positions";
+    const std::size_t first = outcome.err.find(words);
+    EXPECT_NE(first, std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find(words, first + 1), std::string::npos) << "told twice";
+  }
+}
+
 TEST_F(Options, TwoByteOrderMarksBeforeACommentAreNoReasonToFall) {
   write("points.csv", "\xEF\xBB\xBF\xEF\xBB\xBF# x\n");
   for (const char* verb : {"fit points.csv -o m.json", "diagnose points.csv"}) {

@@ -13,6 +13,7 @@
 #include <csignal>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "tests/cli/command_fixture.hpp"
 
@@ -20,6 +21,7 @@ namespace chaintrue {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 
 constexpr const char* kCtrlC = "\x03";
@@ -97,7 +99,8 @@ TEST_F(Terminal, ShowsThatWorkGoesOnAndForHowLong) {
   ASSERT_TRUE(WIFEXITED(seen.status));
   EXPECT_EQ(WEXITSTATUS(seen.status), 0) << seen.text;
   EXPECT_GE(seen.quiet_s, 1.0) << "short work is not worth a word";
-  EXPECT_THAT(seen.text, HasSubstr("fit: 1 s"));
+  EXPECT_THAT(seen.text, ContainsRegex("fit: 1 s, step [12] of 2, "));
+  EXPECT_THAT(seen.text, ContainsRegex("settings and correction, pass [0-9]+ until it settles"));
   // The line is gone before the words of the fit.
   const std::size_t words = seen.text.find("With the settings as stated");
   ASSERT_NE(words, std::string::npos);
@@ -110,8 +113,75 @@ TEST_F(Terminal, ShowsHowFarASweepIsAndHowLongItWillTake) {
             [](const std::string& text) {
               return text.find("s left") != std::string::npos ? kCtrlC : "";
             });
+  EXPECT_THAT(seen.text, ContainsRegex("sweep: [0-9]+ s, [0-9]+ % done, about [0-9]+ s left"));
+}
+
+/// Once `words` have been seen there is no need to wait for the end.
+std::function<std::string(const std::string&)> stop_after(std::string words) {
+  return [words = std::move(words)](const std::string& text) {
+    return text.find(words) != std::string::npos ? kCtrlC : "";
+  };
+}
+
+TEST_F(Terminal, ShowsAtWhichStepADiagnosisIsAndHowLongTheGainWillTake) {
+  simulate(kManyPoints);
+  const Seen seen = shown("diagnose g.json -o d.json", stop_after("s left"));
   EXPECT_THAT(seen.text,
-              testing::ContainsRegex("sweep: [0-9]+ s, [0-9]+ % done, about [0-9]+ s left"));
+              ContainsRegex("diagnose: [0-9]+ s, step 1 of 4, the causes against each other"));
+  EXPECT_THAT(seen.text,
+              ContainsRegex("step 3 of 4, what a name gains, block by block, [0-9]+ % done, about "
+                            "[0-9]+ s left"));
+}
+
+TEST_F(Terminal, ShowsHowFarACheckIsAndHowLongItWillTake) {
+  simulate(300);
+  ASSERT_EQ(run("fit g.json -o m.json").code, 0);
+  simulate(20000);
+  const Seen seen = shown("check m.json g.json", stop_after("s left"));
+  EXPECT_THAT(seen.text,
+              ContainsRegex("check: [0-9]+ s, step 1 of 2, the map at the new points, [0-9]+ % "
+                            "done, about [0-9]+ s left"));
+}
+
+TEST_F(Terminal, ShowsHowFarAProgramIsAndHowLongItWillTake) {
+  ASSERT_EQ(run(fmt::format("fit {}/grids/seven_by_four.json -o m.json", CHAINTRUE_FIXTURES)).code,
+            0);
+  std::string program = "G21 G90\nG0 X-500 Y-300\n";
+  // Some seconds of work for every verb, and the end is not waited for.
+  for (int i = 0; i < 400000; ++i)
+    program += fmt::format("G1 X{} Y{} F1500\n", i % 1000 - 500, i / 1000 % 600 - 300);
+  write("b.nc", program + "M2\n");
+  for (const auto& [arguments, words] :
+       {std::pair("gcode compensate b.nc --map m.json -o t.nc", "step 1 of 2, the program"),
+        std::pair("gcode verify b.nc b.nc --map m.json",
+                  "step 1 of 2, the program on the simulated machine"),
+        std::pair("gcode check b.nc --map m.json", "step 2 of 2, its compensation")}) {
+    SCOPED_TRACE(arguments);
+    const Seen seen = shown(arguments, stop_after(std::string(words) + ", "));
+    EXPECT_THAT(seen.text,
+                ContainsRegex(
+                    fmt::format("gcode: [0-9]+ s, {}, [0-9]+ % done, about [0-9]+ s left", words)));
+  }
+}
+
+TEST_F(Terminal, ShowsHowFarAPlanOfHolesIs) {
+  const Seen seen =
+      shown(fmt::format("plan --machine {}/machines/classic.json --holes 24 -o p.json",
+                        CHAINTRUE_FIXTURES),
+            stop_after("s left"));
+  EXPECT_THAT(seen.text,
+              ContainsRegex("plan: [0-9]+ s, step 1 of 2, where the holes are cut, pass 1, [0-9]+ "
+                            "% done, about [0-9]+ s left"));
+}
+
+TEST_F(Terminal, ShowsHowManyPointsOfAQueryAreAnswered) {
+  ASSERT_EQ(run(fmt::format("fit {}/grids/seven_by_four.json -o m.json", CHAINTRUE_FIXTURES)).code,
+            0);
+  std::string points = "x_mm,y_mm\n";
+  for (int i = 0; i < 200000; ++i) points += fmt::format("{},{}\n", i % 2000 - 1000, i / 2000);
+  write("p.csv", points);
+  const Seen seen = shown("query m.json --points p.csv -o a.csv", stop_after("s left"));
+  EXPECT_THAT(seen.text, ContainsRegex("query: [0-9]+ s, [0-9]+ % done, about [0-9]+ s left"));
 }
 
 TEST_F(Terminal, StopsOnControlCAndLeavesNothingBehind) {
@@ -132,7 +202,7 @@ TEST_F(Terminal, StopsOnControlCAndLeavesNothingBehind) {
     SCOPED_TRACE(arguments);
     const Seen seen = shown(arguments, once_seen(verb));
     if (std::string(verb) == "gcode: ")
-      EXPECT_THAT(seen.text, testing::ContainsRegex("[0-9]+ % done, about [0-9]+ s left"));
+      EXPECT_THAT(seen.text, ContainsRegex("[0-9]+ % done, about [0-9]+ s left"));
     EXPECT_TRUE(WIFSIGNALED(seen.status) && WTERMSIG(seen.status) == SIGINT)
         << seen.status << " " << seen.text;
     EXPECT_EQ(files(), before);

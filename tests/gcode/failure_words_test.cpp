@@ -83,12 +83,9 @@ TEST(FailureWords, EveryReasonHasWordsOfItsOwn) {
   for (const CorrectionFailure::Reason reason : {CorrectionFailure::outside_map,
                                                  CorrectionFailure::unreachable,
                                                  CorrectionFailure::not_converged,
-                                                 CorrectionFailure::wave_along_chain,
                                                  CorrectionFailure::controller})
     words.insert(explain(CorrectionFailure(reason)));
-  EXPECT_EQ(words.size(), 5u);
-  EXPECT_THAT(explain(CorrectionFailure(CorrectionFailure::wave_along_chain)),
-              HasSubstr("wave along the chain"));
+  EXPECT_EQ(words.size(), 4u);
 }
 
 TEST(FailureWords, TheMessageAboutALineNamesTheCause) {

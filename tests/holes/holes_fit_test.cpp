@@ -266,6 +266,10 @@ TEST(HolesFit, AHoleOutOfReachIsSaid) {
   ASSERT_FALSE(fit);
   EXPECT_THAT(fit.error().sentence,
               HasSubstr("hole Z at (0.0, 1500.0) is out of the controller's reach"));
+  const auto distances = observation::TapeDistances::of(set);
+  ASSERT_FALSE(distances);
+  EXPECT_EQ(distances.error().reason, observation::TapeDistancesFailure::Reason::no_lengths);
+  EXPECT_EQ(distances.error().sentence, fit.error().sentence);
 }
 
 }  // namespace

@@ -80,6 +80,24 @@ TEST(SweepSpec, ReportsEveryProblemWithItsPlace) {
   }
 }
 
+TEST(SweepSpec, TellsOnceWhatAMachineFileDoesNotSay) {
+  const fs::path folder = fresh_folder("assumed");
+  fs::create_directories(folder);
+  const std::string machine = text_of(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");
+  const std::size_t at = machine.find("\"uncertainty\"");
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t end = machine.find('}', at) + 1;
+  std::ofstream(folder / "m.json")
+      << machine.substr(0, at) << "\"comment\": {}" << machine.substr(end);
+  std::ofstream(folder / "s.json")
+      << R"({"file_type": "chaintrue_sweep", "format_version": "1.0", "name": "x", "repetitions": 1,
+             "machines": [{"name": "a", "machine_file": "m.json"},
+                          {"name": "b", "machine_file": "m.json", "stated_file": "m.json"}]})";
+  const files::ReadSweep read = files::read_sweep(folder / "s.json");
+  ASSERT_EQ(read.warnings.size(), 1U);
+  EXPECT_THAT(read.warnings.front().message(), HasSubstr("not stated; assumed are motor positions"));
+}
+
 TEST(SweepSpec, ChecksEffectsAgainstTheCatalogue) {
   const fs::path folder = fresh_folder("bad_effects");
   fs::create_directories(folder);

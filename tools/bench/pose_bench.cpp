@@ -6,7 +6,6 @@
 #include <random>
 #include <vector>
 
-#include "model/batch_inverse.hpp"
 #include "model/chain_formulas.hpp"
 #include "model/kinematics.hpp"
 
@@ -77,22 +76,9 @@ void jacobian(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(poses.size()));
 }
 
-void batch_inverse(benchmark::State& state) {
-  const std::vector<BedPoint> points = bench_points();
-  const BatchInverse batch(classic());
-  std::vector<BatchInverse::Result> results(points.size());
-  for (auto _ : state) {
-    batch.lengths(points, results);
-    benchmark::DoNotOptimize(results.data());
-    benchmark::ClobberMemory();
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
-}
-
 BENCHMARK(wrap_only)->Name("pose/wrap_only");
 BENCHMARK_CAPTURE(inverse, elastic, Model::elastic, Ring{})->Name("pose/inverse");
 BENCHMARK_CAPTURE(forward, elastic, Ring{})->Name("pose/forward");
-BENCHMARK(batch_inverse)->Name("pose/batch_inverse");
 BENCHMARK(jacobian)->Name("pose/jacobian");
 BENCHMARK_CAPTURE(inverse, brackets, Model::elastic, Brackets{})->Name("pose/inverse/brackets");
 BENCHMARK_CAPTURE(forward, brackets, Brackets{})->Name("pose/forward/brackets");

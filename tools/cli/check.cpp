@@ -16,6 +16,7 @@
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -61,7 +62,7 @@ int run_check(const CheckCommand& command) {
     measured.add({grid::files::name_in_messages(name),
                   read_measured_input(input, command.tape, MeasuredUse::check)});
   }
-  const auto check = grid::check_map(map, measured);
+  const auto check = grid::check_map(map, measured, shown_progress());
   if (!check) {
     fmt::print(stderr,
                "{}: {}\n",

@@ -28,6 +28,7 @@
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -160,6 +161,7 @@ Outcome diagnosis_of(const DiagnoseCommand& command, const grid::Measured& measu
   options.seed = command.seed;
   options.order_assumed = !command.assume_order.empty();
   options.accept_class = command.accept_class;
+  options.progress = shown_progress();
   auto found = grid::diagnosis::diagnose(measured, options);
   if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
   if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);

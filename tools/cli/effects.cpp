@@ -14,13 +14,13 @@
 #include <vector>
 
 #include "grid/files/catalogue_file.hpp"
-#include "grid/files/machine_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/synthetic/effect_picture.hpp"
 #include "model/reading_model.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/effect_drawing.hpp"
+#include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
@@ -260,7 +260,7 @@ std::optional<std::string> unreachable(const model::Machine& machine,
 }
 
 int show_picture(const Effect& effect, const EffectsOptions& options) {
-  const model::Machine machine = files::read_machine(options.machine);
+  const model::Machine machine = read_machine_input(options.machine);
   OptionProblems sound;  // check_options has seen to it
   const EffectSide side = chosen_side(effect, options.side, sound);
   const std::vector<double> values = chosen_values(effect, side, options, machine);

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "grid/files/groundcontrol_file.hpp"
-#include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/machine_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -26,7 +26,7 @@ struct ExportCommand {
 
 int export_groundcontrol(const ExportCommand& command) {
   const files::GroundcontrolText settings =
-      files::write_groundcontrol(files::read_machine(command.machine));
+      files::write_groundcontrol(read_machine_input(command.machine));
   write_output(command.output, settings.text);
   for (const std::string& remark : settings.remarks) fmt::print(stderr, "{}\n", remark);
   return kDone;

@@ -18,6 +18,7 @@
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -43,7 +44,7 @@ const std::map<std::string, interp::EndCondition>& end_conditions() {
   return kByName;
 }
 
-/// Beyond these a fit takes more than a minute (docs/reliability.md).
+/// A fit of these takes some ten seconds (docs/reliability.md).
 constexpr std::size_t kMostPoints = 10000;
 constexpr std::size_t kMostDistances = 5000;
 constexpr std::size_t kMostHoles = 150;
@@ -107,7 +108,7 @@ int fit_the_holes(const FitCommand& command, const grid::MeasuredHoles& set) {
                       "neither, leave --surface out"}),
                   "");
   }
-  const auto fit = grid::fit_holes(set);
+  const auto fit = grid::fit_holes(set, std::nullopt, shown_progress());
   if (!fit) return finish(command, tl::unexpected(fit.error()), "");
   return finish(command,
                 grid::map_of(set, *fit),
@@ -116,7 +117,7 @@ int fit_the_holes(const FitCommand& command, const grid::MeasuredHoles& set) {
 
 /// The file and those of --with in one estimate.
 int fit_all(const FitCommand& command, const grid::Measured& measured) {
-  const auto fit = grid::fit_together(measured);
+  const auto fit = grid::fit_together(measured, shown_progress());
   if (!fit) {
     fmt::print(stderr, "chaintrue fit: {}\n", fit.error().sentence);
     return kBadInput;
@@ -170,6 +171,7 @@ int run_fit(const FitCommand& command) {
   const interp::EndCondition end = end_conditions().at(command.ends);
   options.ends = {{end, end}, {end, end}};
   options.outside = rule_of(command.outside, {});
+  options.progress = shown_progress();
   return finish(command, grid::fit(measured, options), "");
 }
 

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "grid/files/input_error.hpp"
-#include "grid/files/machine_file.hpp"
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/machine_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/gcode/controller_check.hpp"
@@ -24,7 +24,7 @@ using gcode::Findings;
 
 gcode::BedRectangle sheet(const GcodeOptions& options) {
   const model::Bed bed =
-      options.machine.empty() ? model::Bed{} : grid::files::read_machine(options.machine).bed;
+      options.machine.empty() ? model::Bed{} : read_machine_input(options.machine).bed;
   return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
 }
 
@@ -81,7 +81,7 @@ constexpr double kMostRows = 2e7;
 /// About how many rows the table will have. \throws InputError where it would be longer; a program
 /// that cannot be read to its end has none, and is left to whoever reports it.
 double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
-  auto source = text.open();
+  auto source = text.open({"the length of the path", 1, 2});
   Findings ignored;
   const auto survey =
       gcode::survey(source, options.dialect(), options.home_mm(), sheet(options), ignored);
@@ -103,7 +103,9 @@ double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
 
 int run_gcode_check(const GcodeOptions& options) {
   const GcodeText text(options.program);
-  auto source = text.open();
+  const auto kind = controller_kind(options.controller);
+  const int steps = 1 + (kind ? 1 : 0) + (options.map.empty() ? 0 : 1);
+  auto source = text.open({"the program", 1, steps});
   Findings findings;
   const auto survey =
       gcode::survey(source, options.dialect(), options.home_mm(), sheet(options), findings);
@@ -111,20 +113,23 @@ int run_gcode_check(const GcodeOptions& options) {
     report(options.program, findings);
     return report(options.program, survey.error());
   }
-  if (const auto kind = controller_kind(options.controller)) {
+  if (kind) {
     gcode::ControllerCheck check(gcode::firmware(*kind), findings);
-    auto once_more = text.open();
+    auto once_more = text.open({"what the controller makes of it", 2, steps});
     const auto outcome = gcode::run_program(once_more, options.dialect(), check);
     if (!outcome) return report(options.program, outcome.error());
   }
-  print_survey(*survey, options.json);
-  if (options.map.empty()) return report(options.program, findings);
+  if (options.map.empty()) {
+    print_survey(*survey, options.json);
+    return report(options.program, findings);
+  }
   // With a map: everything that compensating would object to; what it would write is thrown away.
   const GcodeMachine machine(options);
   gcode::Compensator compensator(
       machine.corrector(), compensate_options(options, machine), [](std::string_view) {});
-  auto again = text.open();
+  auto again = text.open({"its compensation", steps, steps});
   const auto outcome = compensator.run(again, options.dialect());
+  print_survey(*survey, options.json);
   int code = report(options.program, compensator.findings());
   for (const gcode::Problem& problem : findings.problems) {
     const int own = report(options.program, problem);
@@ -144,6 +149,7 @@ int run_gcode_lengths(const GcodeOptions& options) {
   const GcodeText text(options.program);
   const double rows = rows_of_lengths(options, text);
   auto source = text.open();
+  shown_progress()({"chain lengths", 2, 2});
   grid::files::PendingFile output(options.output);
   if (!options.json) {
     output.write(

@@ -24,7 +24,7 @@ Proof prove(const GcodeOptions& options,
             const GcodeMachine& machine,
             const GcodeText& text,
             grid::files::PendingFile& output) {
-  auto original = text.open();
+  auto original = text.open({"the result on the simulated machine", 2, 2});
   auto written = written_so_far(output);
   const auto outcome = gcode::verify(
       original, written, machine.corrector(), options.dialect(), verify_options(options, machine));
@@ -58,7 +58,7 @@ std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, co
 int run_gcode_compensate(const GcodeOptions& options) {
   const GcodeMachine machine(options);
   const GcodeText text(options.program);
-  auto source = text.open();
+  auto source = text.open({"the program", 1, options.no_verify ? 1 : 2});
   gcode::CompensateOptions settings = compensate_options(options, machine);
   settings.input_hash = text.hash();
   report::PathReport picture;

@@ -80,12 +80,13 @@ int run_gcode_explain(const GcodeOptions& options) {
   const std::string file = options.program.substr(0, colon);
   std::unique_ptr<GcodeMachine> machine;
   if (!options.map.empty()) machine = std::make_unique<GcodeMachine>(options);
-  auto source = GcodeText(file).open();
+  const GcodeText text(file);
+  auto source = text.open({"the program up to that line"});
   LineEvents events;
   gcode::Program program(source, options.dialect(), events);
   const auto print_state = [&](const char* title) {
     fmt::print("{}\n", title);
-    for (const std::string& text : program.interpreter().describe()) fmt::print("  {}\n", text);
+    for (const std::string& words : program.interpreter().describe()) fmt::print("  {}\n", words);
   };
   while (program.next_line() != line) {
     const auto more = program.step();

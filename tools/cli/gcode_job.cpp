@@ -5,16 +5,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include "grid/files/file_identity.hpp"
 #include "grid/files/input_error.hpp"
-#include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/machine_input.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/gcode/file_hash.hpp"
@@ -85,7 +89,7 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options) {
   target_ = std::make_unique<gcode::CompensationTarget>(
       *map_, options.frame == "bed" ? grid::Frame::bed : grid::Frame::marks);
   if (!options.machine.empty()) {
-    machine_ = grid::files::read_machine(options.machine);
+    machine_ = read_machine_input(options.machine);
   } else if (const auto stated = gcode::stated_machine(*map_)) {
     machine_ = *stated;
   } else {
@@ -139,6 +143,20 @@ gcode::LineSource GcodeText::open() const {
   auto source = gcode::LineSource::from_file(path_);
   if (!source) throw InputError({{path_, "", "", "a file that can be read"}});
   return std::move(*source);
+}
+
+gcode::LineSource GcodeText::open(const grid::WorkStep& step) const {
+  gcode::LineSource source = open();
+  std::error_code unknown;
+  const std::uintmax_t size = text_ ? text_->size() : std::filesystem::file_size(path_, unknown);
+  shown_progress()(step);
+  // Loops go back; what was read of the file stays read.
+  source.on_line([total = unknown ? 0.0 : static_cast<double>(size),
+                  furthest = std::uint64_t{0}](std::uint64_t offset) mutable {
+    furthest = std::max(furthest, offset);
+    progress_is(static_cast<double>(furthest), total);
+  });
+  return source;
 }
 
 std::string GcodeText::hash() const {

@@ -11,6 +11,7 @@
 
 #include "grid/files/pending_file.hpp"
 #include "grid/map/compensation_map.hpp"
+#include "grid/progress.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/gcode/compensation_target.hpp"
@@ -89,6 +90,8 @@ class GcodeText {
  public:
   explicit GcodeText(const std::string& path);
   [[nodiscard]] gcode::LineSource open() const;
+  /// The same, which shows this step of the work and how much of the program was read.
+  [[nodiscard]] gcode::LineSource open(const grid::WorkStep& step) const;
   [[nodiscard]] std::string hash() const;
 
  private:

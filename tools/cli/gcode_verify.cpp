@@ -104,7 +104,7 @@ int run_gcode_verify(const GcodeOptions& options) {
   const GcodeText original(options.program);
   const GcodeText other(options.other);
   const gcode::VerifyOptions settings = verify_options(options, machine);
-  auto intended = original.open();
+  auto intended = original.open({"the program on the simulated machine", 1, 2});
   auto run = other.open();
   const auto summary =
       gcode::verify(intended, run, machine.corrector(), options.dialect(), settings);
@@ -112,7 +112,7 @@ int run_gcode_verify(const GcodeOptions& options) {
     return report(summary.error().in_original ? options.program : options.other,
                   summary.error().problem);
   }
-  auto again = original.open();
+  auto again = original.open({"the same without compensation", 2, 2});
   const auto control =
       gcode::uncompensated(again, machine.corrector(), options.dialect(), settings);
   if (options.json) {

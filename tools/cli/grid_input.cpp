@@ -8,10 +8,10 @@
 
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
-#include "grid/files/machine_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/warnings.hpp"
@@ -74,7 +74,7 @@ void check_tape(const TapeInput& tape) {
 
 std::optional<model::Machine> machine_of(const GridInput& input) {
   if (input.machine.empty()) return std::nullopt;
-  return files::read_machine(input.machine);
+  return read_machine_input(input.machine);
 }
 
 }  // namespace

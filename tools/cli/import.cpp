@@ -14,6 +14,7 @@
 #include "grid/files/optical_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
@@ -42,10 +43,8 @@ const std::map<std::string, files::VisitOrder>& orders() {
 }
 
 int import_optical(const OpticalCommand& command) {
-  files::ReadMachine machine = files::read_machine_with_warnings(command.machine);
-  print_warnings(machine.warnings);
   files::OpticalOptions options;
-  options.machine = std::move(machine.machine);
+  options.machine = read_machine_input(command.machine);
   options.pitch_mm = command.pitch_mm;
   if (!command.order.empty()) options.order = orders().at(command.order);
   const files::ReadOptical read = files::read_optical(command.input, options);

@@ -58,7 +58,7 @@ int finish_standard_output(int code, int error_number) {
 int run_verb(const Run& run, const std::string& verb) {
   try {
     check_command_line();
-    const Progress progress(verb);
+    const ProgressLine line(verb);
     return finish_standard_output(run(), 0);
   } catch (const grid::files::InputError& error) {
     return report_bad_input(error);

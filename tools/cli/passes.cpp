@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "grid/files/holes_file.hpp"
-#include "grid/files/machine_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/holes/passes.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
@@ -70,9 +70,10 @@ std::string ending(const grid::HolesPass& last, double worthwhile_mm, std::size_
 }
 
 int simulate(const PassesCommand& command) {
-  const files::ReadMachine read = files::read_machine_with_warnings(command.machine);
-  print_warnings(read.warnings);
-  const auto result = grid::simulate_passes(read.machine, command.request);
+  const model::Machine machine = read_machine_input(command.machine);
+  grid::SimulatedPassesRequest request = command.request;
+  request.progress = shown_progress();
+  const auto result = grid::simulate_passes(machine, request);
   if (!result) {
     fmt::print(stderr, "chaintrue passes: {}\n", result.error().sentence);
     return kNotSupportedOrOutside;
@@ -92,7 +93,7 @@ int simulate(const PassesCommand& command) {
 
 int follow(const PassesCommand& command) {
   files::HolesOptions options;
-  if (!command.machine.empty()) options.machine = files::read_machine(command.machine);
+  if (!command.machine.empty()) options.machine = read_machine_input(command.machine);
   std::vector<grid::MeasuredHoles> sets;
   for (const std::string& path : command.sets) {
     files::ReadHoles read = files::read_holes(path, options);
@@ -108,6 +109,9 @@ int follow(const PassesCommand& command) {
   grid::HolesPass last;
   std::size_t used = 0;
   for (; used < sets.size(); ++used) {
+    shown_progress()({"a set of holes, fitted",
+                      static_cast<int>(used) + 1,
+                      static_cast<int>(sets.size())});
     const auto pass = passes.add(sets[used]);
     if (!pass) {
       fmt::print(stderr, "{}: {}\n", command.sets[used], pass.error().sentence);

@@ -14,9 +14,9 @@
 #include <string>
 #include <utility>
 
-#include "grid/files/machine_file.hpp"
 #include "grid/map/measurement_plan.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_after.hpp"
@@ -24,7 +24,6 @@
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/plan_holes.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -106,26 +105,25 @@ int run_check_plan(PlanOptions options) {
 int run_plan(PlanOptions options) {
   if (!options.follow_up.after.empty()) return run_follow_up(std::move(options));
   if (!options.check.map.empty()) return run_check_plan(std::move(options));
-  const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
-  print_warnings(read.warnings);
+  const model::Machine machine = read_machine_input(options.machine);
   if (options.holes.request.holes != 0) {
     take(options.margin_mm, options.holes.request.margin_mm);
-    return plan_the_holes(options.holes, read.machine, options.output, options.drawing);
+    return plan_the_holes(options.holes, machine, options.output, options.drawing);
   }
   options.request.points = options.points.value_or(options.request.points);
   take(options.margin_mm, options.request.margin_mm);
   take(options.length_noise_mm, options.request.noise.length_mm);
   take(options.position_noise_mm, options.request.noise.position_mm);
-  check_options(options, read.machine.bed);
-  const auto plan = grid::plan_measurement(read.machine, options.request);
+  check_options(options, machine.bed);
+  const auto plan = grid::plan_measurement(machine, options.request);
   if (!plan) {
     fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence);
     return kNotSupportedOrOutside;
   }
-  const ExpectedErrors errors = expected_errors(plan->map, read.machine.bed);
+  const ExpectedErrors errors = expected_errors(plan->map, machine.bed);
   std::vector<files::OutputFile> outputs = {{options.output, marks_csv(plan->marks)}};
   if (!options.drawing.empty())
-    outputs.push_back({options.drawing, draw_plan(*plan, read.machine.bed, errors)});
+    outputs.push_back({options.drawing, draw_plan(*plan, machine.bed, errors)});
   write_outputs(outputs);
   fmt::print(stderr, "{}", in_words(*plan, options, errors));
   return kDone;

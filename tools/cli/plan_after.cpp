@@ -11,11 +11,11 @@
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
-#include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/follow_up.hpp"
 #include "tools/cli/follow_up_holes.hpp"
+#include "tools/cli/machine_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/verb.hpp"
@@ -72,7 +72,7 @@ void read(const std::string& path,
 
 Sources read_sources(const PlanAfterOptions& options) {
   std::optional<model::Machine> machine;
-  if (!options.machine.empty()) machine = files::read_machine(options.machine);
+  if (!options.machine.empty()) machine = read_machine_input(options.machine);
   Sources sources;
   read(options.file, machine, false, sources);
   for (const std::string& path : options.with) read(path, machine, true, sources);

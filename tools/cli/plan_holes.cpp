@@ -15,6 +15,7 @@
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -103,7 +104,9 @@ int plan_the_holes(const HolesPlanOptions& options,
                    const std::string& output,
                    const std::string& drawing) {
   check(options, machine.bed);
-  const auto plan = grid::plan_holes(machine, options.request);
+  grid::HolesPlanRequest request = options.request;
+  request.progress = shown_progress();
+  const auto plan = grid::plan_holes(machine, request);
   if (!plan) {
     fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence);
     return kNotSupportedOrOutside;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -17,13 +18,52 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How much is done, 0 to 1; nobody has said so while it is negative.
-std::atomic<double> share{-1.0};
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What was told last. The share is apart: it may be told millions of times.
+struct Told {
+  std::mutex mutex;
+  grid::WorkStep step;
+  Clock::time_point began = Clock::now();
+  /// How much of the step is done, 0 to 1; negative while nobody knows.
+  std::atomic<double> share{-1.0};
+};
+
+Told& told() {
+  static Told last;
+  return last;
+}
+
+void begin(const grid::WorkStep& step) {
+  const std::scoped_lock lock(told().mutex);
+  const grid::WorkStep& last = told().step;
+  if (step.number != last.number || step.what != last.what || step.pass != last.pass) {
+    told().began = Clock::now();
+  }
+  told().step = step;
+  told().share = step.share;
+}
 
 std::string left_in_words(double elapsed_s, double done) {
   if (!(done > 0.0)) return "";
   return fmt::format(
       ", {:.0f} % done, about {:.0f} s left", 100.0 * done, elapsed_s * (1.0 - done) / done);
+}
+
+/// Time left is that of the step, or of its pass: how long the others will take nobody knows.
+std::string in_words(const std::string& verb, double elapsed_s) {
+  const std::scoped_lock lock(told().mutex);
+  const grid::WorkStep& step = told().step;
+  const double share = std::min(told().share.load(), 1.0);
+  std::string words = fmt::format("{}: {:.0f} s", verb, elapsed_s);
+  if (step.what.empty()) return words + left_in_words(elapsed_s, share);
+  if (step.of > 1) words += fmt::format(", step {} of {}", step.number, step.of);
+  words += fmt::format(", {}", step.what);
+  if (step.pass > 0)
+    words += fmt::format(", pass {}{}", step.pass, share < 0.0 ? " until it settles" : "");
+  return words + left_in_words(seconds_since(told().began), share);
 }
 
 /// Writes its line over and over, in a thread of its own, until it goes.
@@ -50,9 +90,7 @@ class Line {
     const auto over = [this] { return is_over_; };
     if (wake_.wait_for(lock, kQuiet, over)) return;
     do {
-      const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
-      fmt::print(
-          stderr, "\r\x1b[K{}: {:.0f} s{}", verb_, elapsed_s, left_in_words(elapsed_s, share));
+      fmt::print(stderr, "\r\x1b[K{}", in_words(verb_, seconds_since(start)));
       std::fflush(stderr);
     } while (!wake_.wait_for(lock, kStep, over));
     fmt::print(stderr, "\r\x1b[K");
@@ -73,13 +111,17 @@ std::unique_ptr<Line>& line() {
 
 }  // namespace
 
-Progress::Progress(const std::string& verb) {
+ProgressLine::ProgressLine(const std::string& verb) {
   if (::isatty(STDERR_FILENO) != 0) line() = std::make_unique<Line>(verb);
 }
 
-Progress::~Progress() { end_progress(); }
+ProgressLine::~ProgressLine() { end_progress(); }
 
-void progress_is(double finished, double total) { share = total > 0.0 ? finished / total : -1.0; }
+grid::Progress shown_progress() { return begin; }
+
+void progress_is(double finished, double total) {
+  told().share = total > 0.0 ? finished / total : -1.0;
+}
 
 void end_progress() { line().reset(); }
 

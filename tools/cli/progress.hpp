@@ -1,31 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A person at a terminal is told that work goes on, from one second on: for how long, how far it
-/// is and how long it will take yet. Not a byte of it where standard error is no terminal.
+/// A person at a terminal is told that work goes on, from one second on: for how long, at what step
+/// of how many it is and, where that can be known, how much of the step is done and how long it will
+/// take yet. Not a byte of it where standard error is no terminal.
 ///
 /// \code
-///   { const Progress progress("diagnose"); ... }            // main() does this for every verb
-///   progress_is(finished, total);                           // whoever knows how far it is
+///   { const ProgressLine line("diagnose"); ... }            // main() does this for every verb
+///   options.progress = shown_progress();                    // whoever works tells its steps
+///   progress_is(finished, total);                           // or how far its only one is
 ///   end_progress();                                         // before anything is said
 /// \endcode
 #pragma once
 
 #include <string>
 
+#include "grid/progress.hpp"
+
 namespace chaintrue::cli {
 
 /// One at a time.
-class Progress {
+class ProgressLine {
  public:
-  explicit Progress(const std::string& verb);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit ProgressLine(const std::string& verb);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
 };
 
-/// Safe from any thread, and cheap: a store.
+/// Shows the steps that it is told. Safe from any thread, and cheap.
+[[nodiscard]] grid::Progress shown_progress();
+/// Of the step that was told last, or of the whole where none was.
 void progress_is(double finished, double total);
-/// Takes the line away; nothing more is shown. Without a Progress nothing happens.
+/// Takes the line away; nothing more is shown. Without a ProgressLine nothing happens.
 void end_progress();
 
 }  // namespace chaintrue::cli

@@ -17,6 +17,7 @@
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -143,19 +144,24 @@ int run_query(const QueryCommand& command) {
   }
   if (!command.inverse.empty()) return run_inverse(map, command);
   std::vector<AnswerLine> lines;
-  std::size_t outside = 0;
-  for (const model::BedPoint& point : points_asked(command)) {
+  std::string outside;
+  const std::vector<model::BedPoint> points = points_asked(command);
+  for (const model::BedPoint& point : points) {
+    progress_is(static_cast<double>(lines.size()), static_cast<double>(points.size()));
     lines.push_back({point, map.query(point, frame_of(command))});
     if (lines.back().answer) continue;
-    ++outside;
-    fmt::print(stderr,
-               "({}, {}): {}\n",
-               point.x_mm,
-               point.y_mm,
-               grid::explain(lines.back().answer.error()));
+    fmt::format_to(std::back_inserter(outside),
+                   "({}, {}): {}\n",
+                   point.x_mm,
+                   point.y_mm,
+                   grid::explain(lines.back().answer.error()));
+  }
+  if (!outside.empty()) {
+    end_progress();
+    fmt::print(stderr, "{}", outside);
   }
   write_output(command.output, command.json ? as_json(lines) : as_csv(lines));
-  return outside == 0 ? kDone : kNotSupportedOrOutside;
+  return outside.empty() ? kDone : kNotSupportedOrOutside;
 }
 
 /// What CLI11 cannot say of the options together.

@@ -12,17 +12,16 @@
 
 #include "grid/files/answer_file.hpp"
 #include "grid/files/grid_file.hpp"
-#include "grid/files/machine_file.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/calibration/setting.hpp"
+#include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/simulate_options.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -76,12 +75,11 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
 }
 
 int run_simulate(const SimulateOptions& options) {
-  const files::ReadMachine read = files::read_machine_with_warnings(options.machine);
-  print_warnings(read.warnings);
+  const model::Machine machine = read_machine_input(options.machine);
   if (options.holes.plan.holes != 0) {
     synthetic::HolesSpec spec;
     OptionProblems problems;
-    spec.hidden = parse_effects(options.effects, read.machine, problems);
+    spec.hidden = parse_effects(options.effects, machine, problems);
     const std::vector<synthetic::SettingOffset> offsets = parse_offsets(options.offsets, problems);
     for (const synthetic::SettingOffset& offset : offsets) {
       if (offset.setting < model::Setting::sheet_x_mm || options.holes.plan.edges) continue;
@@ -93,14 +91,14 @@ int run_simulate(const SimulateOptions& options) {
     problems.throw_if_any();
     spec.draw_settings = options.draw_settings;
     spec.seed = options.seed;
-    model::Machine truth = synthetic::hidden_truth(read.machine, spec);
+    model::Machine truth = synthetic::hidden_truth(machine, spec);
     for (const synthetic::SettingOffset& offset : offsets) {
       synthetic::offset_setting(truth, spec.sheet, offset);
     }
-    return simulate_the_holes(options.holes, read.machine, truth, spec, options.output);
+    return simulate_the_holes(options.holes, machine, truth, spec, options.output);
   }
-  return options.points.empty() ? simulate_session(options, read.machine)
-                                : simulate_places(options, read.machine);
+  return options.points.empty() ? simulate_session(options, machine)
+                                : simulate_places(options, machine);
 }
 
 void add_design_options(CLI::App& verb, SimulateOptions& o) {

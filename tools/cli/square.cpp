@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/square.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/square_drawing.hpp"
@@ -94,8 +94,8 @@ std::string as_json(const model::CutSquare& square, const model::SquareTask& tas
 
 int run_square(const SquareOptions& options) {
   const model::SquareTask task = checked_task(options);
-  const model::Machine machine = files::read_machine(options.machine);
-  const model::Machine believed = files::read_machine(options.controller_machine);
+  const model::Machine machine = read_machine_input(options.machine);
+  const model::Machine believed = read_machine_input(options.controller_machine);
   const auto square = model::predict_square(machine, believed, task);
   if (!square) {
     const model::SquareFailure& failure = square.error();

@@ -15,11 +15,9 @@ CorrectionFailure from(const grid::MapFailure& failure) {
     case grid::MapFailure::unreachable:
       return {CorrectionFailure::unreachable, failure.pose};
     case grid::MapFailure::not_converged:
-      return CorrectionFailure::not_converged;
-    case grid::MapFailure::wave_along_chain:
       break;
   }
-  return CorrectionFailure::wave_along_chain;
+  return CorrectionFailure::not_converged;
 }
 
 TargetStatus from(grid::MapStatus status) {

@@ -27,9 +27,6 @@ std::string explain(const CorrectionFailure& failure) {
       return "cannot be reached by the machine" + cause;
     case CorrectionFailure::not_converged:
       return "has no answer in the map: the iteration did not settle";
-    case CorrectionFailure::wave_along_chain:
-      return "has no answer in a table of the map: an eccentric sprocket makes a wave along the "
-             "chain that is shorter than its cells";
     case CorrectionFailure::controller:
       break;
   }

@@ -82,6 +82,7 @@ Result<bool> LineSource::next(SourceLine& line) {
     end = after < buffer_.size() && buffer_[after] == '\n' ? after + 1 : end + 1;
   }
   begin_ = end;
+  if (listener_) listener_(buffer_offset_ + begin_);
   return true;
 }
 

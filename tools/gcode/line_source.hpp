@@ -8,10 +8,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <istream>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "tools/gcode/problem.hpp"
 
@@ -45,6 +47,8 @@ class LineSource {
   /// Of the line that next() would give.
   [[nodiscard]] Position position() const;
   void seek(Position position);
+  /// `listener` is told with every line how many bytes of the file lie before its end.
+  void on_line(std::function<void(std::uint64_t)> listener) { listener_ = std::move(listener); }
 
  private:
   bool refill();
@@ -55,6 +59,7 @@ class LineSource {
   std::uint64_t buffer_offset_ = 0;  // of buffer_[0] in the file
   std::size_t lines_before_ = 0;
   bool exhausted_ = false;
+  std::function<void(std::uint64_t)> listener_;
 };
 
 }  // namespace chaintrue::gcode

@@ -21,8 +21,7 @@ struct CorrectionFailure {
     outside_map,
     unreachable,  ///< the machine has no pose there
     not_converged,
-    wave_along_chain,  ///< too short for the table that answers
-    controller,        ///< out of reach of the controller's own kinematics
+    controller,  ///< out of reach of the controller's own kinematics
   };
   using enum Reason;
   CorrectionFailure(Reason why, std::optional<model::PoseFailure> from = std::nullopt)  // NOLINT

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/estimation/local_design.hpp"
+
+#include <algorithm>
+
+namespace chaintrue::grid::estimation {
+
+using model::Side;
+
+LocalDesign::LocalDesign(const Eigen::MatrixXd& design,
+                         const std::vector<SystemUnit>& units,
+                         const Unknowns& unknowns,
+                         const ObservedSubspace& observed,
+                         const interp::BsplineBasis& basis,
+                         const std::vector<model::BedPoint>& marks)
+    : units_(units), rows_(static_cast<std::size_t>(design.rows())) {
+  const Eigen::Index bends = observed.bends();
+  const Eigen::Index first_bend = unknowns.bend(Side::left);
+  const Eigen::Index plain = unknowns.total() - 2 * bends;
+  const auto splines = [&](Side side) { return plain + row_of(side) * basis.size(); };
+  to_unknowns_ = Eigen::MatrixXd::Zero(plain + 2 * basis.size(), unknowns.total());
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < unknowns.total(); ++k) {
+    if (k >= first_bend && k < first_bend + 2 * bends) continue;
+    to_unknowns_(static_cast<Eigen::Index>(columns.size()), k) = 1.0;
+    columns.push_back(k);
+  }
+  for (const Side side : model::kSides) {
+    to_unknowns_.block(splines(side), unknowns.bend(side), basis.size(), bends) =
+        observed.bend_coefficients();
+  }
+  for (Eigen::Index k = 0; k < plain; ++k) {
+    const auto column = design.col(columns[static_cast<std::size_t>(k)]);
+    for (Eigen::Index row = 0; row < design.rows(); ++row) {
+      if (column[row] != 0.0) rows_[static_cast<std::size_t>(row)].emplace_back(k, column[row]);
+    }
+  }
+  for (const SystemUnit& unit : units) {
+    for (const observation::PlaceColumns& place : unit.places) {
+      const interp::BasisSupport at = basis.at(marks[place.place].x_mm, marks[place.place].y_mm);
+      for (Eigen::Index i = 0; i < unit.rows; ++i) {
+        auto& row = rows_[static_cast<std::size_t>(unit.first_row + i)];
+        for (const Side side : model::kSides) {
+          const double by_chain = place.by_chain(i, row_of(side));
+          for (std::size_t k = 0; by_chain != 0.0 && k < at.index.size(); ++k)
+            row.emplace_back(splines(side) + at.index[k], by_chain * at.value[k]);
+        }
+      }
+    }
+  }
+}
+
+void LocalDesign::add_rows(const Eigen::VectorXd& response,
+                           const Eigen::VectorXd& weights,
+                           interp::PenalisedProblem& problem) const {
+  const Eigen::Index size = to_unknowns_.rows();
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd moment = Eigen::VectorXd::Zero(size);
+  for (std::size_t u = 0; u < units_.size(); ++u) {
+    const double weight = weights[static_cast<Eigen::Index>(u)];
+    if (weight == 0.0) continue;
+    for (Eigen::Index i = 0; i < units_[u].rows; ++i) {
+      const Eigen::Index at = units_[u].first_row + i;
+      const auto& row = rows_[static_cast<std::size_t>(at)];
+      // Columns rise along a row but where two places meet: what is above the diagonal is added
+      // below it.
+      for (std::size_t a = 0; a < row.size(); ++a) {
+        const double value = weight * row[a].second;
+        moment[row[a].first] += value * response[at];
+        for (std::size_t b = 0; b <= a; ++b) {
+          const auto [low, high] = std::minmax(row[a].first, row[b].first);
+          const bool twice = a != b && low == high;
+          gram(high, low) += (twice ? 2.0 : 1.0) * value * row[b].second;
+        }
+      }
+      problem.response_square += weight * response[at] * response[at];
+      ++problem.rows;
+    }
+  }
+  const Eigen::MatrixXd turned = gram.selfadjointView<Eigen::Lower>() * to_unknowns_;
+  problem.gram.triangularView<Eigen::Lower>() += to_unknowns_.transpose() * turned;
+  problem.gram.triangularView<Eigen::StrictlyUpper>() = problem.gram.transpose();
+  problem.moment.noalias() += to_unknowns_.transpose() * moment;
+}
+
+std::vector<Eigen::MatrixXd> LocalDesign::spreads(const Eigen::MatrixXd& covariance) const {
+  const Eigen::MatrixXd turned = to_unknowns_ * covariance;
+  Eigen::MatrixXd local(to_unknowns_.rows(), to_unknowns_.rows());
+  local.noalias() = turned * to_unknowns_.transpose();
+  std::vector<Eigen::MatrixXd> result;
+  result.reserve(units_.size());
+  for (const SystemUnit& unit : units_) {
+    Eigen::MatrixXd spread(unit.rows, unit.rows);
+    for (Eigen::Index i = 0; i < unit.rows; ++i) {
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        double sum = 0.0;
+        for (const auto& [a, left] : rows_[static_cast<std::size_t>(unit.first_row + j)]) {
+          double part = 0.0;
+          for (const auto& [b, right] : rows_[static_cast<std::size_t>(unit.first_row + i)])
+            part += local(b, a) * right;
+          sum += left * part;
+        }
+        spread(i, j) = spread(j, i) = sum;
+      }
+    }
+    result.push_back(std::move(spread));
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid::estimation

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The machine that a verb works with; what its file does not say, and is assumed, is told on
+/// standard error.
+#pragma once
+
+#include <string>
+
+#include "model/machine.hpp"
+
+namespace chaintrue::cli {
+
+/// "-" is standard input. A file that is read again says nothing new. \throws files::InputError.
+[[nodiscard]] model::Machine read_machine_input(const std::string& path);
+
+}  // namespace chaintrue::cli
