@@ -18,6 +18,9 @@ double strength_number(std::size_t index) { return kDiscrepancyStrengths[index];
 /// loses at most 4 % of its square to the other component.
 constexpr int kDirections = 8;
 
+/// Length of a trend over the bed: two thirds of its height, a third of its width.
+constexpr double kTrendMm = 800.0;
+
 class Kernels {
  public:
   Kernels() {
@@ -30,8 +33,11 @@ class Kernels {
     for (const double mm : {250.0, 450.0, 800.0}) group.push_back({FieldOf::place, mm});
     take(group, 0.15);
     // The tool moved along x and along y by functions of x alone and of y alone, as edges, boards
-    // and folds do it.
-    all_.push_back({{{FieldOf::x, 180.0, FieldEntry::tool}, {FieldOf::y, 180.0, FieldEntry::tool}},
+    // and folds do it. These have a trend over the whole bed, which must not pass for a scale.
+    all_.push_back({{{FieldOf::x, 180.0, FieldEntry::tool},
+                     {FieldOf::y, 180.0, FieldEntry::tool},
+                     {FieldOf::x, kTrendMm, FieldEntry::tool},
+                     {FieldOf::y, kTrendMm, FieldEntry::tool}},
                     0.15});
     // The tool moved along one axis of the sheet.
     for (const FieldOf of : {FieldOf::place, FieldOf::x, FieldOf::y}) {
@@ -78,9 +84,19 @@ class Kernels {
       group.push_back(field);
     }
   }
+  /// The same with a trend.
+  static DiscrepancyField trend_of(DiscrepancyField field) {
+    field.length = kTrendMm;
+    return field;
+  }
   void take(std::vector<DiscrepancyField>& group, double prior) {
     for (const DiscrepancyField& field : group) {
-      all_.push_back({{field}, prior / static_cast<double>(group.size())});
+      const double share = prior / static_cast<double>(group.size());
+      if (field.entry == FieldEntry::tool && field.of != FieldOf::place) {
+        all_.push_back({{field, trend_of(field)}, share});
+      } else {
+        all_.push_back({{field}, share});
+      }
     }
     group.clear();
   }

@@ -12,7 +12,7 @@
 ///   k(t, u) = exp(-|t - u|^2 / (2 length^2)),  t what the field is a function of
 ///   T  identity where it enters the chains, J = d(L, R)/d(mark) where it moves the tool
 ///   D  d d' with d = (cos, sin) of the direction of entry, or the identity where it has none
-///   F  fields of the kernel, one or two
+///   F  fields of the kernel; of several lengths where something displaced has a trend as well
 #pragma once
 
 #include <Eigen/Core>
@@ -56,7 +56,7 @@ struct DiscrepancyField {
 };
 
 struct DiscrepancyKernel {
-  std::vector<DiscrepancyField> fields;  ///< one or two
+  std::vector<DiscrepancyField> fields;  ///< alike in variance
   double prior = 0.0;                    ///< share among all kernels
 };
 

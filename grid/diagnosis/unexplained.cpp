@@ -22,7 +22,11 @@ constexpr double kMost = 0.5;
 
 Enters entry_of(const DiscrepancyKernel& kernel) {
   const DiscrepancyField& field = kernel.fields.front();
-  if (kernel.fields.size() > 1 || !field.direction_rad) return Enters::mixed;
+  const bool one_way = std::all_of(
+      kernel.fields.begin(), kernel.fields.end(), [&](const DiscrepancyField& other) {
+        return other.direction_rad == field.direction_rad;
+      });
+  if (!one_way || !field.direction_rad) return Enters::mixed;
   // The nearest of the four directions of a half turn; those between two are mixed.
   const double eighths = *field.direction_rad / (0.25 * std::numbers::pi);
   const long nearest = std::lround(eighths);
@@ -35,7 +39,11 @@ Enters entry_of(const DiscrepancyKernel& kernel) {
 }
 
 FieldOf argument_of(const DiscrepancyKernel& kernel) {
-  return kernel.fields.size() > 1 ? FieldOf::place : kernel.fields.front().of;
+  const FieldOf first = kernel.fields.front().of;
+  const bool of_one = std::all_of(kernel.fields.begin(),
+                                  kernel.fields.end(),
+                                  [&](const DiscrepancyField& f) { return f.of == first; });
+  return of_one ? first : FieldOf::place;
 }
 
 /// Length of a field on the bed: of an angle or a pull by how much of it the bed holds.
