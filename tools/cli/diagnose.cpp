@@ -26,6 +26,7 @@
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -218,6 +219,10 @@ Outcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
   return found;
 }
 
+std::string page_beside(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".html").string();
+}
+
 int run_diagnose(const DiagnoseCommand& command) {
   grid::Measured input = read_measured(command.input, command.tape, command.with, MeasuredUse::fit);
   const auto found = diagnosed(command, input);
@@ -247,6 +252,8 @@ int run_diagnose(const DiagnoseCommand& command) {
   }
   if (!command.report.empty() && command.report != "-")
     fmt::print(stderr, "The report is {}: open it in any browser.\n", command.report);
+  if (!command.output.empty() && command.report.empty())
+    say_next({"report", command.output, "-o", page_beside(command.output)});
   return kDone;
 }
 

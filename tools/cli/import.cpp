@@ -16,6 +16,7 @@
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/cli/warnings.hpp"
 
@@ -58,6 +59,7 @@ int import_optical(const OpticalCommand& command) {
              read.grid.sheet->shift_mm,
              read.grid.sheet->rotation_mrad,
              options.order ? "" : "; the order of the visits is not known");
+  say_next({"fit", command.output, "-o", "map.json"});
   return kDone;
 }
 
@@ -108,6 +110,7 @@ int import_groundcontrol(const GroundcontrolCommand& command) {
   for (const files::Warning& warning : read.warnings) comments.push_back(warning.sentence);
   write_output(command.output, files::write_machine(read.machine, comments));
   print_warnings(read.warnings);
+  say_next({"plan", "--machine", command.output, "-o", "marks.csv", "--page", "marks.html"});
   return kDone;
 }
 
