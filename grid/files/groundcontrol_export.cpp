@@ -79,6 +79,8 @@ class Lines {
 struct TypedMachine {
   Machine machine;
   model::PerSide<double> tolerance_percent;
+  /// Something says of the chain's pitch; where nothing does, the tolerance stays as it is.
+  model::PerSide<bool> pitch_is_stated;
   bool stretch_was_named = false;
   bool sag_was_named = false;
 };
@@ -97,8 +99,11 @@ void take_ring_radius(TypedMachine& typed, const model::AppliedEffect& effect) {
 
 void take_pitch_error(TypedMachine& typed, const model::AppliedEffect& effect) {
   const double percent = 100.0 * parameter_of(effect, "elongation");
-  if (effect.side != "right") typed.tolerance_percent.left += percent;
-  if (effect.side != "left") typed.tolerance_percent.right += percent;
+  for (const Side side : model::kSides) {
+    if (effect.side == (side == Side::left ? "right" : "left")) continue;
+    typed.tolerance_percent[side] += percent;
+    typed.pitch_is_stated[side] = true;
+  }
 }
 
 void take_sag(TypedMachine& typed, const model::AppliedEffect& effect) {
@@ -129,7 +134,7 @@ const std::map<std::string, TakeUp>& take_ups() {
 }
 
 TypedMachine typed_machine(const Machine& machine, std::vector<std::string>& remarks) {
-  TypedMachine typed{machine, {}, false, false};
+  TypedMachine typed{machine, {}, {}, false, false};
   for (const model::AppliedEffect& effect : machine.effects) {
     const auto take_up = take_ups().find(effect.effect);
     if (take_up != take_ups().end()) {
@@ -292,12 +297,15 @@ GroundcontrolText write_groundcontrol(const Machine& stated) {
   }
   lines.number("chainpitch", machine.sprocket.pitch_mm, now.chain_pitch_mm, kBySprocket);
   lines.number("gearteeth", machine.sprocket.teeth, now.gear_teeth, kBySprocket);
+  const auto tolerance = [&](Side side, std::optional<double> in_force) {
+    return typed.pitch_is_stated[side] ? typed.tolerance_percent[side] : in_force.value_or(0.0);
+  };
   lines.number("leftchaintolerance",
-               typed.tolerance_percent.left,
+               tolerance(Side::left, now.left_chain_tolerance_percent),
                now.left_chain_tolerance_percent,
                kByPitch);
   lines.number("rightchaintolerance",
-               typed.tolerance_percent.right,
+               tolerance(Side::right, now.right_chain_tolerance_percent),
                now.right_chain_tolerance_percent,
                kByPitch);
   write_weights(typed, lines, out.remarks);

@@ -227,7 +227,9 @@ Machine machine_of(const Numbers& numbers, bool has_brackets, bool over_top) {
 
 }  // namespace
 
-ReadMachine machine_of_settings(const IniTable& table, Problems& problems) {
+ReadMachine machine_of_settings(const IniTable& table,
+                                Tolerances tolerances,
+                                Problems& problems) {
   IniReader reader(table, problems);
   if (is_in_inches(table)) {
     problems.add(reader.place_of_key("bedwidth"),
@@ -247,7 +249,7 @@ ReadMachine machine_of_settings(const IniTable& table, Problems& problems) {
   problems.throw_if_any();
   ReadMachine read;
   read.machine = machine_of(numbers, *has_brackets, *feed == "Top");
-  state_pitch(numbers, read.machine, problems);
+  if (tolerances == Tolerances::are_pitch) state_pitch(numbers, read.machine, problems);
   read.machine.name = std::filesystem::path(problems.file()).filename().string();
   weigh(numbers, read.machine, problems);
   for (const model::MachineProblem& problem : model::problems_of(read.machine)) {
@@ -259,15 +261,17 @@ ReadMachine machine_of_settings(const IniTable& table, Problems& problems) {
   return read;
 }
 
-ReadMachine parse_groundcontrol(const std::string& text, const std::string& file) {
+ReadMachine parse_groundcontrol(const std::string& text,
+                                const std::string& file,
+                                Tolerances tolerances) {
   Problems problems(file);
   const IniTable table(text, problems);
   problems.throw_if_any();
-  return machine_of_settings(table, problems);
+  return machine_of_settings(table, tolerances, problems);
 }
 
-ReadMachine read_groundcontrol(const std::filesystem::path& path) {
-  return parse_groundcontrol(read_whole_file(path), name_in_messages(path));
+ReadMachine read_groundcontrol(const std::filesystem::path& path, Tolerances tolerances) {
+  return parse_groundcontrol(read_whole_file(path), name_in_messages(path), tolerances);
 }
 
 }  // namespace chaintrue::grid::files

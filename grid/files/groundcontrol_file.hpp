@@ -9,6 +9,10 @@
 /// as a chain_pitch_error, which a reading of link_pitch_mm replaces. A later chain_pitch_error
 /// comes on top of it.
 ///
+/// Of tolerances that nobody knows the origin of, or that were tuned to take up something else, the
+/// machine may leave that out (Tolerances::unexplained): its links are then nominal, and a diagnosis
+/// finds for itself what they are.
+///
 /// Exporting an imported machine returns every number as it came, but for those that the machine
 /// says otherwise now; import, export, import gives the same machine.
 ///
@@ -44,12 +48,17 @@ namespace chaintrue::grid::files {
 /// sledweight is the sled's mass under this gravity.
 inline constexpr double kGroundcontrolGravity_m_per_s2 = 9.80665;
 
+enum class Tolerances { are_pitch, unexplained };
+
 /// "-" reads standard input. The warnings say what was assumed.
 /// \throws InputError with every problem of the file: missing settings, wrong types, inches, values
 /// out of range.
-[[nodiscard]] ReadMachine read_groundcontrol(const std::filesystem::path& path);
+[[nodiscard]] ReadMachine read_groundcontrol(const std::filesystem::path& path,
+                                             Tolerances tolerances = Tolerances::are_pitch);
 /// `file` is the name used in messages and, without its folder, the machine's.
-[[nodiscard]] ReadMachine parse_groundcontrol(const std::string& text, const std::string& file);
+[[nodiscard]] ReadMachine parse_groundcontrol(const std::string& text,
+                                              const std::string& file,
+                                              Tolerances tolerances = Tolerances::are_pitch);
 
 struct GroundcontrolText {
   /// `key = value` under GroundControl's sections: what changes to 0.0001 of each setting's unit,

@@ -4,12 +4,14 @@
 /// to grid/files.
 #pragma once
 
+#include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/ini_table.hpp"
-#include "grid/files/machine_file.hpp"
 
 namespace chaintrue::grid::files {
 
 /// As groundcontrol_file.hpp says. \throws InputError with every problem of the file.
-[[nodiscard]] ReadMachine machine_of_settings(const IniTable& table, Problems& problems);
+[[nodiscard]] ReadMachine machine_of_settings(const IniTable& table,
+                                              Tolerances tolerances,
+                                              Problems& problems);
 
 }  // namespace chaintrue::grid::files

@@ -37,7 +37,7 @@ ReadMachine parse_webcontrol(const std::string& text, const std::string& file) {
                                    fmt::format("/{}/{}/value", section, i)});
     }
   }
-  return machine_of_settings(IniTable(std::move(sections)), problems);
+  return machine_of_settings(IniTable(std::move(sections)), Tolerances::are_pitch, problems);
 }
 
 }  // namespace chaintrue::grid::files

@@ -363,6 +363,20 @@ TEST(GroundcontrolSettings, OfTwoHundredRandomFilesGoThereAndBack) {
   }
 }
 
+TEST(GroundcontrolSettings, TolerancesThatNobodyExplainsStayWithTheController) {
+  const std::string ini = read_whole_file(std::filesystem::path(CHAINTRUE_FIXTURES) / "good" /
+                                          "groundcontrol_ring.ini");
+  model::Machine machine = parse_groundcontrol(ini, "any.ini", Tolerances::unexplained).machine;
+  EXPECT_TRUE(machine.effects.empty());
+  EXPECT_EQ(machine.controller.settings.left_chain_tolerance_percent, 0.12);
+  // Nothing says what the pitch is, so nothing changes; where something does, it takes their place.
+  EXPECT_TRUE(write_groundcontrol(machine).remarks.empty());
+  machine.effects.push_back({"chain_pitch_error", "right", {{"elongation", 0.0005}}});
+  EXPECT_THAT(write_groundcontrol(machine).remarks,
+              ::testing::ElementsAre("rightchaintolerance changes from 0.17 to 0.05, by the pitch of "
+                                     "the chain (the effect chain_pitch_error)"));
+}
+
 TEST(GroundcontrolSettings, SayByWhatANumberChanges) {
   const std::string ini = read_whole_file(std::filesystem::path(CHAINTRUE_FIXTURES) / "good" /
                                           "groundcontrol_ring.ini");

@@ -76,7 +76,7 @@ TEST_F(DiagnosisPage, HoldsTheNumbersOfTheFile) {
   const std::string html = page_of(sample_diagnosis());
   for (const char* text : {"chain pitch error, left (order assumed)",
                            "or tape scale, both",
-                           "sheet placed, machine as stated",
+                           "as delivered, sheet placed",
                            "3.42 to 4.38",
                            "7 of 8 named the same",
                            "On other points: a day later (60)",

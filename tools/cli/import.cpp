@@ -101,11 +101,14 @@ void add_optical(CLI::App& import, Run& run) {
 
 struct GroundcontrolCommand {
   std::string input;
+  bool nominal_pitch = false;
   std::string output = "-";
 };
 
 int import_groundcontrol(const GroundcontrolCommand& command) {
-  const files::ReadMachine read = files::read_groundcontrol(command.input);
+  const files::ReadMachine read = files::read_groundcontrol(
+      command.input,
+      command.nominal_pitch ? files::Tolerances::unexplained : files::Tolerances::are_pitch);
   std::vector<std::string> comments;
   for (const files::Warning& warning : read.warnings) comments.push_back(warning.sentence);
   write_output(command.output, files::write_machine(read.machine, comments));
@@ -125,6 +128,10 @@ void add_groundcontrol(CLI::App& import, Run& run) {
              {Origin::machine},
              "The machine file; - is standard output")
       ->capture_default_str();
+  verb->add_flag("--nominal-pitch",
+                 command->nominal_pitch,
+                 "Do not take the chain tolerances for the pitch of the chains: nobody knows where "
+                 "they come from, or they were tuned to take up something else");
   verb->footer(
       "What the settings do not say is assumed, and said so here and in the file.\n\n"
       "Example:\n"

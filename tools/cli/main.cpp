@@ -95,6 +95,8 @@ int run_verb(const Run& run, const std::string& verb) {
 /// --quiet may stand behind the verb as well.
 void let_verbs_pass_on(CLI::App& app) {
   for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    // A group of options has no name and belongs to its verb.
+    if (verb->get_name().empty()) continue;
     verb->fallthrough();
     let_verbs_pass_on(*verb);
   }
