@@ -11,8 +11,7 @@ Eigen::VectorXd as_delivered(const Session& session, const LinearisedSystem& sta
     if (!unit.reads_chains) continue;
     const std::size_t number = unit.places.front().place;
     const SessionPart& part = session.parts[session.places[number].part];
-    const observation::Place& place =
-        part.observation->places()[number - part.first_place];
+    const observation::Place& place = part.observation->places()[number - part.first_place];
     if (!place.commanded) continue;
     const Eigen::Vector2d beside(place.commanded->x_mm - place.mark.x_mm,
                                  place.commanded->y_mm - place.mark.y_mm);

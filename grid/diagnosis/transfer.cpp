@@ -148,8 +148,8 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   };
   Transfer result;
   result.points = second->places.size();
-  result.as_delivered = summary(
-      *second, *stated, Placed(*stated)(as_delivered(*second, *stated)), options.seed);
+  result.as_delivered =
+      summary(*second, *stated, Placed(*stated)(as_delivered(*second, *stated)), options.seed);
   result.calibrated = predicted_by({}, -1);
   result.extended = predicted_by(a.decision.regressors, -1);
   result.extended_and_surface = predicted_by(a.decision.regressors, a.decision.best_discrepancy);

@@ -77,7 +77,8 @@ bool looks_like_fluidnc(std::string_view text) {
 ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   Problems problems(file);
   if (!looks_like_fluidnc(text)) {
-    problems.add("", "no WallPlotter", "kinematics: WallPlotter: with its anchors, as FluidNC has it");
+    problems.add(
+        "", "no WallPlotter", "kinematics: WallPlotter: with its anchors, as FluidNC has it");
     problems.throw_if_any();
   }
   YamlReader reader(values_of(text), problems);
@@ -101,16 +102,17 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
         fmt::format("the machine's {}", problem.parameter), problem.value, problem.expected);
   }
   problems.throw_if_any();
-  problems.warn("",
-                fmt::format("FluidNC does not say what hangs on the anchors; assumed are a sled of "
-                            "{} kg, a ring of {} mm, sprockets of {} teeth of {} mm, a chain of {} "
-                            "kg/m, a frame that leans {} degrees: put your own into the machine file",
-                            machine.sled.mass_kg,
-                            std::get<model::Ring>(machine.attachment).radius_mm,
-                            machine.sprocket.teeth,
-                            machine.sprocket.pitch_mm,
-                            machine.chain.mass_kg_per_m,
-                            machine.frame.tilt_from_vertical_deg));
+  problems.warn(
+      "",
+      fmt::format("FluidNC does not say what hangs on the anchors; assumed are a sled of "
+                  "{} kg, a ring of {} mm, sprockets of {} teeth of {} mm, a chain of {} "
+                  "kg/m, a frame that leans {} degrees: put your own into the machine file",
+                  machine.sled.mass_kg,
+                  std::get<model::Ring>(machine.attachment).radius_mm,
+                  machine.sprocket.teeth,
+                  machine.sprocket.pitch_mm,
+                  machine.chain.mass_kg_per_m,
+                  machine.frame.tilt_from_vertical_deg));
   read.warnings = problems.warnings();
   return read;
 }

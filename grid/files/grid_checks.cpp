@@ -206,8 +206,8 @@ bool check_axes(const MeasuredGrid& grid, const PointPlaces& places, Problems& p
   const char* swapped = "x_mm to the right and y_mm up the sheet; the two columns look swapped";
   const auto left = slope_of(grid.points, left_of);
   const auto right = slope_of(grid.points, right_of);
-  if (left && right && left->per_y > kClearly && right->per_y < -kClearly &&
-      left->per_x < 0.0 && right->per_x < 0.0) {
+  if (left && right && left->per_y > kClearly && right->per_y < -kClearly && left->per_x < 0.0 &&
+      right->per_x < 0.0) {
     problems.add(places.all, "left lengths growing and right ones shrinking with y_mm", swapped);
     return true;
   }
@@ -296,57 +296,6 @@ bool warn_of_a_tiny_area(const MeasuredGrid& grid, const PointPlaces& places, Pr
 
 }  // namespace
 
-void leave_out_blanks(std::vector<StatedPoint>& points, PointPlaces& places, Problems& problems) {
-  std::vector<std::size_t> kept;
-  std::vector<std::string> blank;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].is_blank) {
-      blank.push_back(fmt::format("{}", points[i].order.value_or(static_cast<int>(i) + 1)));
-    } else {
-      kept.push_back(i);
-    }
-  }
-  if (blank.empty()) return;
-  if (kept.empty()) {
-    problems.add(places.all,
-                 fmt::format("{} points, all left blank", blank.size()),
-                 "what was read at them, written into the empty columns");
-    problems.throw_if_any();
-  }
-  problems.warn(places.all,
-                fmt::format("{} of {} points are left blank and left out: {}",
-                            blank.size(),
-                            points.size(),
-                            joined(blank)));
-  std::vector<StatedPoint> others;
-  for (const std::size_t i : kept) others.push_back(points[i]);
-  points = std::move(others);
-  places.of = [kept, of = places.of](std::size_t index, std::string_view field) {
-    return of(kept[index], field);
-  };
-}
-
-void warn_of_copies(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
-  std::vector<std::string> copies;
-  for (std::size_t i = 0; i < grid.points.size(); ++i) {
-    const MeasuredPoint& point = grid.points[i];
-    if (!point.commanded || point.commanded->x_mm != point.mark.x_mm ||
-        point.commanded->y_mm != point.mark.y_mm)
-      continue;
-    copies.push_back(fmt::format("{}", point.order.value_or(static_cast<int>(i) + 1)));
-  }
-  if (copies.empty()) return;
-  problems.warn(places.all,
-                fmt::format("{} lie exactly where they were commanded, to the last digit. Were "
-                            "they measured? Leave x_mm and y_mm blank where not",
-                            copies.size() == grid.points.size()
-                                ? fmt::format("all {} points", copies.size())
-                                : fmt::format("{} of {} points ({})",
-                                              copies.size(),
-                                              grid.points.size(),
-                                              joined(copies))));
-}
-
 std::vector<MeasuredPoint> measured_points(const std::vector<StatedPoint>& stated,
                                            const PointPlaces& places,
                                            Problems& problems) {
@@ -389,7 +338,8 @@ void check_points_together(const MeasuredGrid& grid,
                  "a machine with the controller that was commanded (\"machine\", \"machine_file\" "
                  "or --machine)");
   }
-  if (count == 0 || check_inches(grid, places, problems) || check_axes(grid, places, problems)) return;
+  if (count == 0 || check_inches(grid, places, problems) || check_axes(grid, places, problems))
+    return;
   check_sides(grid, places, problems);
   const bool is_tiny = count >= kSpanFrom && warn_of_a_tiny_area(grid, places, problems);
   if (fewest_points < kSpanFrom || count < fewest_points) return;

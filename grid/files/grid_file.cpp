@@ -72,7 +72,9 @@ const Record<StatedPoint>& point_record() {
 /// A point of a list to fill in: a mark with null for both lengths, or a command with null for both
 /// coordinates.
 bool is_blank(const Cursor& at) {
-  const auto is_null = [&at](const char* key) { return at.has(key) && at.child(key).json().is_null(); };
+  const auto is_null = [&at](const char* key) {
+    return at.has(key) && at.child(key).json().is_null();
+  };
   if (!at.json().is_object()) return false;
   return at.has("commanded_x_mm") ? is_null("x_mm") && is_null("y_mm")
                                   : is_null("left_mm") && is_null("right_mm");
@@ -181,11 +183,8 @@ ReadGrid parse_json_grid(const std::string& text, const GridOptions& options, Pr
 }
 
 /// A row without any of what was to be read is blank; with half of it, it is reported.
-void take_blanks(const CsvTable& table,
-                 std::size_t i,
-                 bool commanded,
-                 StatedPoint& point,
-                 Problems& problems) {
+void take_blanks(
+    const CsvTable& table, std::size_t i, bool commanded, StatedPoint& point, Problems& problems) {
   if (point.is_spoilt) return;
   const std::size_t first = commanded ? 0 : 2;  // columns x_mm and y_mm, or left_mm and right_mm
   const auto& row = table.rows[i];

@@ -45,7 +45,10 @@ class Lines {
   void number(const std::string& key, double value) {
     word(key, imported_ ? fmt::format("{}", value) : to_type(value));
   }
-  void number(const std::string& key, double value, std::optional<double> now, std::string_view by) {
+  void number(const std::string& key,
+              double value,
+              std::optional<double> now,
+              std::string_view by) {
     const std::string typed = to_type(value);
     // The settings went through sines and sums on their way to the machine and back; 1e-9 of them
     // is a thousand roundings, and far below what anybody types.
@@ -163,11 +166,11 @@ constexpr double kWorthSayingMm = 0.05;
 /// Of a controller whose settings have no topbeamtilt.
 void remark_on_the_beam(double right_above_left_mm, std::vector<std::string>& remarks) {
   if (std::abs(right_above_left_mm) <= kWorthSayingMm) return;
-  remarks.push_back(
-      fmt::format("these settings have no topbeamtilt, and the right motor is {:.2f} mm {} than the "
-                  "left: level the beam, or compensate the G-code with a map",
-                  std::abs(right_above_left_mm),
-                  right_above_left_mm > 0.0 ? "higher" : "lower"));
+  remarks.push_back(fmt::format(
+      "these settings have no topbeamtilt, and the right motor is {:.2f} mm {} than the "
+      "left: level the beam, or compensate the G-code with a map",
+      std::abs(right_above_left_mm),
+      right_above_left_mm > 0.0 ? "higher" : "lower"));
 }
 
 void remark_on_what_cannot_be_typed(const Machine& machine, std::vector<std::string>& remarks) {
@@ -220,7 +223,8 @@ void write_attachment(const TypedMachine& typed, Lines& lines) {
   if (ring == nullptr) {
     lines.word("kinematicstype", "Quadrilateral");
     if (now.chain_sag_correction)
-      lines.number("chainsagcorrection", *now.chain_sag_correction, now.chain_sag_correction, kBySag);
+      lines.number(
+          "chainsagcorrection", *now.chain_sag_correction, now.chain_sag_correction, kBySag);
     return;
   }
   lines.word("kinematicstype", "Triangular");
@@ -276,10 +280,8 @@ GroundcontrolText write_groundcontrol(const Machine& stated) {
   lines.number("bedwidth", machine.bed.width_mm, now.bed_width_mm, kByBed);
   lines.number("bedheight", machine.bed.height_mm, now.bed_height_mm, kByBed);
   lines.number("motorspacingx", std::hypot(dx_mm, dy_mm), now.motor_spacing_mm, kByMotors);
-  lines.number("motoroffsety",
-               middle_y_mm - 0.5 * machine.bed.height_mm,
-               now.motor_offset_y_mm,
-               kByMotors);
+  lines.number(
+      "motoroffsety", middle_y_mm - 0.5 * machine.bed.height_mm, now.motor_offset_y_mm, kByMotors);
   if (const auto* brackets = std::get_if<model::Brackets>(&machine.attachment)) {
     lines.number("sledwidth", brackets->spacing_mm);
     lines.number("sledheight", brackets->height_mm);

@@ -227,9 +227,7 @@ Machine machine_of(const Numbers& numbers, bool has_brackets, bool over_top) {
 
 }  // namespace
 
-ReadMachine machine_of_settings(const IniTable& table,
-                                Tolerances tolerances,
-                                Problems& problems) {
+ReadMachine machine_of_settings(const IniTable& table, Tolerances tolerances, Problems& problems) {
   IniReader reader(table, problems);
   if (is_in_inches(table)) {
     problems.add(reader.place_of_key("bedwidth"),

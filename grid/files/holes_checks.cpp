@@ -268,8 +268,7 @@ void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problem
     const double beside_mm = std::abs(distance.distance_mm - commanded_mm(set, distance));
     // Halves of a millimetre are what a tape is read to.
     const bool by_eye = 2.0 * distance.distance_mm == std::round(2.0 * distance.distance_mm);
-    if (beside_mm < kSameMm && !by_eye)
-      exact.push_back(words_of(set, distance));
+    if (beside_mm < kSameMm && !by_eye) exact.push_back(words_of(set, distance));
     if (distance.distance_mm == std::round(commanded_mm(set, distance)) || beside_mm < kSameMm)
       rounded.push_back(words_of(set, distance));
   }

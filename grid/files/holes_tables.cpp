@@ -66,10 +66,7 @@ void read_hole_row(const CsvRow& row, StatedHoles& stated, Problems& problems) {
   stated.is_hole_spoilt.push_back(problems.list().size() > before);
 }
 
-void read_distance_row(const CsvRow& row,
-                       bool has_sigma,
-                       StatedHoles& stated,
-                       Problems& problems) {
+void read_distance_row(const CsvRow& row, bool has_sigma, StatedHoles& stated, Problems& problems) {
   const std::size_t before = problems.list().size();
   StatedDistance distance;
   distance.from = cell_of(row, 0).text;

@@ -61,8 +61,7 @@ IniTable::IniTable(std::string_view text, Problems& problems) {
           return other.key == entry.key;
         });
     if (same != section->end()) {
-      problems.add(
-          place, line, fmt::format("this key once; it stands at {} already", same->place));
+      problems.add(place, line, fmt::format("this key once; it stands at {} already", same->place));
     } else {
       section->push_back(std::move(entry));
     }

@@ -266,7 +266,8 @@ void check_machine(const Cursor& at, Machine& machine) {
 
 /// An object without a key is what somebody writes who wants to be told what belongs there.
 void refuse_emptiness(const std::string& text, Problems& problems) {
-  if (text.find_first_not_of(" \t\r\n{}") != std::string::npos || text.find('{') == std::string::npos)
+  if (text.find_first_not_of(" \t\r\n{}") != std::string::npos ||
+      text.find('{') == std::string::npos)
     return;
   problems.add("",
                "an empty machine",

@@ -18,17 +18,16 @@ std::vector<model::BedPoint> parse_points(const std::string& text, const std::st
   // A list of commands: there the tool was sent, wherever it went.
   const std::vector<std::string> header = csv_header(text);
   const bool is_sheet = std::find(header.begin(), header.end(), "commanded_x_mm") != header.end();
-  const CsvTable table = read_csv(
-      text,
-      {{"x_mm", kCoordinate, true, is_sheet},
-       {"y_mm", kCoordinate, true, is_sheet},
-       {"number", kNumber, false},
-       {"order", kNumber, false},
-       {"left_mm", kLength, false},
-       {"right_mm", kLength, false},
-       {"commanded_x_mm", kCoordinate, is_sheet},
-       {"commanded_y_mm", kCoordinate, is_sheet}},
-      problems);
+  const CsvTable table = read_csv(text,
+                                  {{"x_mm", kCoordinate, true, is_sheet},
+                                   {"y_mm", kCoordinate, true, is_sheet},
+                                   {"number", kNumber, false},
+                                   {"order", kNumber, false},
+                                   {"left_mm", kLength, false},
+                                   {"right_mm", kLength, false},
+                                   {"commanded_x_mm", kCoordinate, is_sheet},
+                                   {"commanded_y_mm", kCoordinate, is_sheet}},
+                                  problems);
   if (table.rows.empty() && !problems.any()) {
     problems.add("", "a header line only", "at least one line of numbers below it");
   }

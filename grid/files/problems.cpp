@@ -96,10 +96,8 @@ void Problems::throw_if_any() const {
   if (shown.size() > kMostProblems) {
     const std::size_t more = shown.size() - kMostProblems;
     shown.resize(kMostProblems);
-    shown.push_back({file_,
-                     "",
-                     fmt::format("{} more problems", more),
-                     "those above to be mended first"});
+    shown.push_back(
+        {file_, "", fmt::format("{} more problems", more), "those above to be mended first"});
   }
   throw InputError(std::move(shown));
 }

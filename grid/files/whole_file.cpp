@@ -61,7 +61,9 @@ void refuse_what_is_no_text(const std::string& text, const std::string& name) {
       {"\xD0\xCF\x11\xE0"sv,
        "a spreadsheet of an old Excel (.xls)",
        "text: open it in a spreadsheet and save it as CSV"},
-      {"%PDF"sv, "a PDF", "text: what a PDF shows has to be typed, or saved as CSV where it was made"},
+      {"%PDF"sv,
+       "a PDF",
+       "text: what a PDF shows has to be typed, or saved as CSV where it was made"},
       {"\x89PNG"sv, "a picture", "text: the numbers have to be typed"},
       {"\xFF\xD8\xFF"sv, "a picture", "text: the numbers have to be typed"},
   };

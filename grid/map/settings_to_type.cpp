@@ -32,8 +32,7 @@ std::vector<FreeSetting> free_settings(const Machine& machine) {
   const double motor_mm = machine.uncertainty.motor_position_mm;
   const double spacing_mm = machine.motors.right.x_mm - machine.motors.left.x_mm;
   const double pitch_percent =
-      100.0 *
-      model::effects::find_effect("chain_pitch_error")->parameters.front().prior_sigma;
+      100.0 * model::effects::find_effect("chain_pitch_error")->parameters.front().prior_sigma;
   // Owners' calibrations ended between 20 and 35 where the chain's weight makes 6 to 8.
   constexpr double kSagSigma = 10.0;
   const std::vector<FreeSetting> all = {
@@ -128,8 +127,8 @@ std::optional<ControllerSettings> improved(const Machine& machine,
     const auto down = tool_errors(machine, less, places);
     if (!up || !down) return std::nullopt;
     by_setting.col(k) = (*up - *down) * (setting.sigma / (2.0 * setting.step));
-    beside[k] = (*(now.*setting.value) -
-                 *(machine.controller.settings.*setting.value)) / setting.sigma;
+    beside[k] =
+        (*(now.*setting.value) - *(machine.controller.settings.*setting.value)) / setting.sigma;
   }
   Eigen::MatrixXd normal = weight * by_setting.transpose() * by_setting;
   normal.diagonal().array() += 1.0;
@@ -176,8 +175,8 @@ tl::expected<SettingsToType, SettingsFailure> settings_to_type(const Compensatio
                    "points again with --machine, and without --surface direct");
   }
   const model::ControllerKind kind = machine->controller.kind;
-  const bool maslow = kind == model::ControllerKind::maslow_classic ||
-                      kind == model::ControllerKind::holey;
+  const bool maslow =
+      kind == model::ControllerKind::maslow_classic || kind == model::ControllerKind::holey;
   const std::vector<Place> places = measured_places(map);
   const auto before = tool_errors(*machine, machine->controller.settings, places);
   if (!maslow || !std::holds_alternative<model::Ring>(machine->attachment) || !before ||

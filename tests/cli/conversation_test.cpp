@@ -39,7 +39,8 @@ TEST_F(Conversation, KnowsWhichVerbWasMeant) {
 TEST_F(Conversation, KnowsWhichOptionWasMeant) {
   const Outcome option = run("fit " + grid_ + " --machin m.json -o map.json");
   EXPECT_EQ(option.code, 2);
-  EXPECT_THAT(option.err, HasSubstr("chaintrue fit has no option --machin. Did you mean --machine?\n"));
+  EXPECT_THAT(option.err,
+              HasSubstr("chaintrue fit has no option --machin. Did you mean --machine?\n"));
   EXPECT_FALSE(exists("map.json"));
 }
 
@@ -63,8 +64,8 @@ TEST_F(Conversation, IsQuietWhereItIsAskedToBe) {
   const Outcome fails = run("fit nothing.json -o map2.json --quiet");
   EXPECT_EQ(fails.code, 3);
   EXPECT_THAT(fails.err, HasSubstr("nothing.json"));
-  const Outcome no_machine = run("fit " + std::string(CHAINTRUE_FIXTURES) +
-                                 "/grids/seed_001.csv -o map2.json --quiet");
+  const Outcome no_machine =
+      run("fit " + std::string(CHAINTRUE_FIXTURES) + "/grids/seed_001.csv -o map2.json --quiet");
   EXPECT_EQ(no_machine.code, 3);
   EXPECT_NE(no_machine.err, "");
 }
@@ -111,9 +112,10 @@ TEST_F(Conversation, NamesAFileOfTheWrongKind) {
   ASSERT_EQ(run("fit " + grid_ + " -o map.json").code, 0);
   const Outcome diagnose = run("diagnose map.json");
   EXPECT_EQ(diagnose.code, 3);
-  EXPECT_THAT(diagnose.err,
-              HasSubstr("expected \"chaintrue_grid\"; this is a map; did you mean chaintrue report, "
-                        "query, gcode or export?"));
+  EXPECT_THAT(
+      diagnose.err,
+      HasSubstr("expected \"chaintrue_grid\"; this is a map; did you mean chaintrue report, "
+                "query, gcode or export?"));
   write("marks.xlsx", std::string("PK\x03\x04", 4) + "zip");
   write("marks.pdf", "%PDF-1.7");
   EXPECT_THAT(run("fit marks.xlsx --machine " + classic_ + " -o m.json").err,

@@ -115,8 +115,7 @@ TEST_F(SheetOfPlan, OfAEuropeanSpreadsheetIsTheSame) {
   write("points.csv", filled("marks.csv", 0));
   write("semicolons.csv", filled("marks.csv", 0, ';'));
   for (const std::string name : {"points", "semicolons"}) {
-    const Outcome fit =
-        run("fit " + name + ".csv --machine " + machine_ + " -o " + name + ".json");
+    const Outcome fit = run("fit " + name + ".csv --machine " + machine_ + " -o " + name + ".json");
     ASSERT_EQ(fit.code, 0) << fit.err;
   }
   EXPECT_EQ(content_of(folder_ / "points.json"), content_of(folder_ / "semicolons.json"));
@@ -133,7 +132,8 @@ TEST_F(SheetOfPlan, CopiedExpectationsAreAskedAbout) {
   }
   write("copied.csv", copied);
   const Outcome fit = run("fit copied.csv --machine " + classic_ + " -o map.json");
-  EXPECT_THAT(fit.err, HasSubstr("all 20 distances read exactly as commanded. Were they measured?"));
+  EXPECT_THAT(fit.err,
+              HasSubstr("all 20 distances read exactly as commanded. Were they measured?"));
 }
 
 TEST_F(SheetOfPlan, HalfAReadingIsReported) {
@@ -161,8 +161,7 @@ TEST_F(SheetOfPlan, ProgramsDriveToTheMarksInTheirOrder) {
   const std::string drill = content_of(folder_ / "marks.nc");
   EXPECT_THAT(drill, HasSubstr("(mark 1)\nG0 X-1119 Y-509\nG1 Z-3 F150\nG0 Z5\n(mark 2)\n"));
   EXPECT_EQ(run("gcode check marks.nc").code, 0);
-  ASSERT_EQ(
-      run("plan --machine " + machine_ + " --measure lengths -o l.csv --gcode l.nc").code, 0);
+  ASSERT_EQ(run("plan --machine " + machine_ + " --measure lengths -o l.csv --gcode l.nc").code, 0);
   EXPECT_THAT(content_of(folder_ / "l.nc"),
               AllOf(HasSubstr("G0 X-1119 Y-509\nM0 (mark 1: write down both chain lengths"),
                     Not(HasSubstr("G1 "))));

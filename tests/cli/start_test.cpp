@@ -95,7 +95,8 @@ TEST_F(Start, NamesThePlaceOfAWrongSetting) {
   write("webcontrol.json", text);
   const Outcome start = run("start webcontrol.json shop");
   EXPECT_EQ(start.code, 3);
-  EXPECT_THAT(start.err, HasSubstr("/Maslow Settings/0/value: found wide, expected a number in mm"));
+  EXPECT_THAT(start.err,
+              HasSubstr("/Maslow Settings/0/value: found wide, expected a number in mm"));
   EXPECT_FALSE(exists("shop"));
 }
 

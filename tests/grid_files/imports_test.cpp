@@ -329,7 +329,8 @@ std::string random_ini(std::mt19937_64& bits) {
   std::string text = "[Maslow Settings]\n";
   const auto number = [&](const char* key, double low, double high) {
     const double value = uniform(low, high);
-    text += coin() ? fmt::format("{} = {}\n", key, value) : fmt::format("{} = {:.4f}\n", key, value);
+    text +=
+        coin() ? fmt::format("{} = {}\n", key, value) : fmt::format("{} = {:.4f}\n", key, value);
   };
   number("bedwidth", 1200.0, 3000.0);
   number("bedheight", 700.0, 1500.0);
@@ -342,7 +343,8 @@ std::string random_ini(std::mt19937_64& bits) {
   number("rotationradius", 120.0, 160.0);
   text += fmt::format("kinematicstype = {}\n", coin() ? "Triangular" : "Quadrilateral");
   text += fmt::format("chainoversprocket = {}\n", coin() ? "Top" : "Bottom");
-  text += coin() ? "gearteeth = 10\nchainpitch = 6.35\n" : "gearteeth = 12\nchainpitch = 6.3512345\n";
+  text +=
+      coin() ? "gearteeth = 10\nchainpitch = 6.35\n" : "gearteeth = 12\nchainpitch = 6.3512345\n";
   if (coin()) number("chainsagcorrection", 0.0, 40.0);
   if (coin()) number("topbeamtilt", -0.5, 0.5);
   if (coin()) number("leftchaintolerance", -0.5, 0.5);
@@ -372,9 +374,10 @@ TEST(GroundcontrolSettings, TolerancesThatNobodyExplainsStayWithTheController) {
   // Nothing says what the pitch is, so nothing changes; where something does, it takes their place.
   EXPECT_TRUE(write_groundcontrol(machine).remarks.empty());
   machine.effects.push_back({"chain_pitch_error", "right", {{"elongation", 0.0005}}});
-  EXPECT_THAT(write_groundcontrol(machine).remarks,
-              ::testing::ElementsAre("rightchaintolerance changes from 0.17 to 0.05, by the pitch of "
-                                     "the chain (the effect chain_pitch_error)"));
+  EXPECT_THAT(
+      write_groundcontrol(machine).remarks,
+      ::testing::ElementsAre("rightchaintolerance changes from 0.17 to 0.05, by the pitch of "
+                             "the chain (the effect chain_pitch_error)"));
 }
 
 TEST(GroundcontrolSettings, SayByWhatANumberChanges) {

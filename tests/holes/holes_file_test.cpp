@@ -130,11 +130,10 @@ TEST(HolesFile, AForgottenHookOffsetIsRefused) {
     FAIL() << "a map bent by 40 mm would have been made";
   } catch (const InputError& error) {
     ASSERT_EQ(error.problems().size(), 1u);
-    EXPECT_THAT(
-        error.problems()[0].message(),
-        AllOf(HasSubstr("distances all about 40.1 mm longer than commanded"),
-              HasSubstr("the tape's hook offset"),
-              HasSubstr("the short ones are off like the long ones: state 40 mm")));
+    EXPECT_THAT(error.problems()[0].message(),
+                AllOf(HasSubstr("distances all about 40.1 mm longer than commanded"),
+                      HasSubstr("the tape's hook offset"),
+                      HasSubstr("the short ones are off like the long ones: state 40 mm")));
   }
   HolesOptions options;
   // Who says that there is none is believed, and asked once more.

@@ -107,7 +107,8 @@ TEST_F(InBrowser, WordsAreExplainedOnceAndAtTheEnd) {
   EXPECT_THAT(html_, HasSubstr("<h2>Words</h2>"));
   const std::string abbr = "<abbr title=\"";
   std::size_t found = 0;
-  for (std::size_t at = html_.find(abbr); at != std::string::npos; at = html_.find(abbr, at + 1)) ++found;
+  for (std::size_t at = html_.find(abbr); at != std::string::npos; at = html_.find(abbr, at + 1))
+    ++found;
   EXPECT_GT(found, 0U);
 }
 

@@ -55,7 +55,8 @@ std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& wo
   if (!verbs_of(*verb).empty() && at < words.size() && words[at].rfind('-', 0) != 0) {
     const std::string near = grid::files::nearest(words[at], verbs_of(*verb));
     if (near.empty()) return {};
-    return fmt::format("There is no {} {}. Did you mean {} {}?\n", verb_name, words[at], verb_name, near);
+    return fmt::format(
+        "There is no {} {}. Did you mean {} {}?\n", verb_name, words[at], verb_name, near);
   }
   std::vector<std::string> known;
   add_options(*verb, known);

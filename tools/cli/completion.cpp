@@ -158,9 +158,8 @@ std::string fish(const std::vector<Command>& commands) {
       "# fish completion of chaintrue: put it into ~/.config/fish/completions/chaintrue.fish.\n";
   for (const Command& command : commands) {
     const std::string when =
-        command.words.empty()
-            ? "__fish_use_subcommand"
-            : fmt::format("__fish_seen_subcommand_from {}", command.words.back());
+        command.words.empty() ? "__fish_use_subcommand"
+                              : fmt::format("__fish_seen_subcommand_from {}", command.words.back());
     for (const CLI::App* verb : command.verbs) {
       fmt::format_to(std::back_inserter(text),
                      "complete -c chaintrue -f -n '{}' -a {} -d '{}'\n",
@@ -227,8 +226,7 @@ std::string manual_of(const Command& command) {
   text += "[\\fIoptions\\fR]\n";
   if (!command.verbs.empty()) text += ".SH VERBS\n";
   for (const CLI::App* verb : command.verbs) {
-    text += fmt::format(
-        ".TP\n\\fB{}\\fR\n{}\n", verb->get_name(), troff(verb->get_description()));
+    text += fmt::format(".TP\n\\fB{}\\fR\n{}\n", verb->get_name(), troff(verb->get_description()));
   }
   if (!command.arguments.empty()) text += ".SH ARGUMENTS\n";
   for (const CLI::Option* argument : command.arguments) text += item_of(*argument);
@@ -236,8 +234,9 @@ std::string manual_of(const Command& command) {
   for (const CLI::Option* option : command.options) text += item_of(*option);
   if (!command.app->get_footer().empty())
     text += fmt::format(".SH NOTES\n.nf\n{}\n.fi\n", troff(command.app->get_footer()));
-  return text + ".SH EXIT STATUS\n0 done; 1 ran, but a check failed; 2 usage; 3 bad input; 4 not "
-                "supported or outside the map; 5 internal.\n";
+  return text +
+         ".SH EXIT STATUS\n0 done; 1 ran, but a check failed; 2 usage; 3 bad input; 4 not "
+         "supported or outside the map; 5 internal.\n";
 }
 
 int print_manual(const CLI::App& app, const std::vector<std::string>& words) {

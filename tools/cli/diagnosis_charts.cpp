@@ -102,7 +102,8 @@ std::vector<Panel> panels_of(const Diagnosis& found) {
 std::string clipped_in_words(const Diagnosis& found, double full_mm) {
   // As residual_strip.vg.json draws: an area of 1.6 times the largest, no more.
   constexpr double kLargestDrawn = 1.6;
-  const double rival_mm = found.causes.front().rival ? largest(found, &PointPicture::rival_mm) : 0.0;
+  const double rival_mm =
+      found.causes.front().rival ? largest(found, &PointPicture::rival_mm) : 0.0;
   if (rival_mm <= kLargestDrawn * full_mm) return {};
   return fmt::format(" The rival's go up to {:.2f} mm and are drawn no larger than {:.2f} mm.",
                      rival_mm,

@@ -51,12 +51,11 @@ Exported of_map(const grid::CompensationMap& map, const std::string& file) {
   }
   const auto typed = grid::settings_to_type(map);
   if (!typed) throw files::InputError({{file, "", "this map", typed.error().sentence}});
-  Exported result{files::write_groundcontrol_settings(
-                      *machine,
-                      typed->settings,
-                      fmt::format("the {} points of {}", typed->points, file)),
-                  "",
-                  typed->worth_typing};
+  Exported result{
+      files::write_groundcontrol_settings(
+          *machine, typed->settings, fmt::format("the {} points of {}", typed->points, file)),
+      "",
+      typed->worth_typing};
   result.words =
       typed->worth_typing
           ? fmt::format(
@@ -87,7 +86,9 @@ Exported export_of(const std::string& path) {
     print_warnings(warnings);
     return of_machine(found.extended_machine);
   }
-  return of_machine(files::parse_machine(text, file));
+  const files::ReadMachine read = files::parse_machine_with_warnings(text, file);
+  print_warnings(read.warnings);
+  return of_machine(read.machine);
 }
 
 int export_groundcontrol(const ExportCommand& command) {
@@ -124,12 +125,12 @@ void add_export(CLI::App& app, Run& run) {
              {Origin::list},
              "Where they go; - is standard output")
       ->capture_default_str();
-  groundcontrol->footer(
-      fmt::format("Of a machine, or of the one that a diagnosis has found, the numbers that it says "
-                  "otherwise than its controller. Of a map the numbers with which the controller "
-                  "as it is comes nearest to it, and how near. All others come back as they "
-                  "came.\n\n{}",
-                  kExample));
+  groundcontrol->footer(fmt::format(
+      "Of a machine, or of the one that a diagnosis has found, the numbers that it says "
+      "otherwise than its controller. Of a map the numbers with which the controller "
+      "as it is comes nearest to it, and how near. All others come back as they "
+      "came.\n\n{}",
+      kExample));
   groundcontrol->callback(
       [command, &run] { run = [command] { return export_groundcontrol(*command); }; });
 }

@@ -90,8 +90,7 @@ int finish(const FitCommand& command,
                map.error().sentence);
     return kBadInput;
   }
-  std::vector<grid::files::OutputFile> outputs = {
-      {command.output, grid::files::write_map(*map)}};
+  std::vector<grid::files::OutputFile> outputs = {{command.output, grid::files::write_map(*map)}};
   if (command.json) outputs.push_back({"-", grid::files::write_fit(*map, fit_sentence(*map))});
   write_outputs(outputs);
   fmt::print(stderr, "{}", fit_in_words(*map));

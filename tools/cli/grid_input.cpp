@@ -108,10 +108,11 @@ grid::MeasuredGrid read_grid_input(const GridInput& input) {
   return grid_of(files::read_whole_file(input.grid), input, std::move(options));
 }
 
-std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(const GridInput& input,
-                                                                          const TapeInput& tape,
-                                                                          MeasuredUse use,
-                                                                          const model::Machine* otherwise) {
+std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(
+    const GridInput& input,
+    const TapeInput& tape,
+    MeasuredUse use,
+    const model::Machine* otherwise) {
   const std::string text = files::read_whole_file(input.grid);
   if (!files::looks_like_holes(text)) {
     files::GridOptions options;

@@ -142,7 +142,8 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
                    distance.distance_mm);
   }
   Labels labels(kLeft, kLeft + kBedWide);
-  for (const grid::Hole& hole : plan.set.holes) labels.keep_free(sheet.x(hole.commanded), sheet.y(hole.commanded));
+  for (const grid::Hole& hole : plan.set.holes)
+    labels.keep_free(sheet.x(hole.commanded), sheet.y(hole.commanded));
   for (const grid::Hole& hole : plan.set.holes) {
     const double x = sheet.x(hole.commanded);
     const double y = sheet.y(hole.commanded);

@@ -73,7 +73,8 @@ std::string workshop_list(const grid::HolesPlan& plan) {
                    hole.commanded.y_mm + 0.0);
   }
   text +=
-      "# Write what the tape says into distance_mm, nothing where it was not held; about how much to "
+      "# Write what the tape says into distance_mm, nothing where it was not held; about how much "
+      "to "
       "expect stands beside it.\n";
   text += "from,to,distance_mm,as_commanded_mm\n";
   for (const grid::HoleDistance& distance : plan.set.distances) {

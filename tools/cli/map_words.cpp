@@ -130,7 +130,8 @@ std::string fit_sentence(const grid::CompensationMap& map) {
 std::string fit_in_words(const grid::CompensationMap& map) {
   const grid::MapContents& contents = map.contents();
   std::string text = fmt::format(
-      "{}\nExpected error of the tool over the measured part (one sigma): {:.2f} mm rms, {:.2f} mm at "
+      "{}\nExpected error of the tool over the measured part (one sigma): {:.2f} mm rms, {:.2f} mm "
+      "at "
       "worst, at ({:.0f}, {:.0f}).\n",
       fit_sentence(map),
       contents.accuracy.expected_tool.rms_mm,

@@ -242,7 +242,8 @@ void write_folder(const CLI::App& verb,
   std::error_code error;
   const bool is_new = fs::create_directories(folder, error);
   if (error)
-    throw files::InputError({{folder, "", error.message(), "a folder that can be made or written to"}});
+    throw files::InputError(
+        {{folder, "", error.message(), "a folder that can be made or written to"}});
   try {
     PlaceCheck check(chosen_places());
     std::vector<files::OutputFile> outputs;

@@ -52,7 +52,8 @@ struct PlanOptions {
 };
 
 PlanOutputs outputs_of(const PlanOptions& options) {
-  return {options.output, options.drawing, options.gcode, options.page, options.drill, options.json};
+  return {
+      options.output, options.drawing, options.gcode, options.page, options.drill, options.json};
 }
 
 void check_options(const PlanOptions& options, const model::Bed& bed) {

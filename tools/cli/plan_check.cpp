@@ -52,13 +52,11 @@ int plan_the_check(const CheckPlanOptions& options, const PlanOutputs& wanted) {
     return kNotSupportedOrOutside;
   }
   const Sheet sheet{plan->marks, sheet_of(options.measure, map.machine())};
-  std::vector<files::OutputFile> outputs =
-      sheet_outputs(sheet,
-                    *map.machine(),
-                    {options.request.length_mm,
-                     options.request.position_mm,
-                     grid::StatedNoise{}.dof},
-                    wanted);
+  std::vector<files::OutputFile> outputs = sheet_outputs(
+      sheet,
+      *map.machine(),
+      {options.request.length_mm, options.request.position_mm, grid::StatedNoise{}.dof},
+      wanted);
   if (!wanted.drawing.empty()) outputs.push_back({wanted.drawing, draw(*plan, map)});
   write_outputs(outputs);
   fmt::print(

@@ -104,8 +104,7 @@ int plan_the_holes(const HolesPlanOptions& options,
     for (const grid::Hole& hole : plan->set.holes)
       places.push_back({"hole " + hole.name, hole.commanded});
     outputs.push_back(
-        {wanted.gcode,
-         drill_gcode(fmt::format("{} holes", places.size()), places, wanted.drill)});
+        {wanted.gcode, drill_gcode(fmt::format("{} holes", places.size()), places, wanted.drill)});
   }
   outputs.push_back({wanted.list,
                      is_json_wanted(wanted.json, wanted.list) ? files::write_holes_sheet(plan->set)

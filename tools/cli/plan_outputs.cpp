@@ -14,14 +14,13 @@ std::vector<grid::files::OutputFile> sheet_outputs(const Sheet& sheet,
                                                    const model::Machine& machine,
                                                    const grid::StatedNoise& noise,
                                                    const PlanOutputs& outputs) {
-  std::vector<grid::files::OutputFile> written = {
-      {outputs.list,
-       is_json_wanted(outputs.json, outputs.list) ? sheet_json(sheet, machine, noise)
-                                                  : sheet_csv(sheet)}};
+  std::vector<grid::files::OutputFile> written = {{outputs.list,
+                                                   is_json_wanted(outputs.json, outputs.list)
+                                                       ? sheet_json(sheet, machine, noise)
+                                                       : sheet_csv(sheet)}};
   if (!outputs.page.empty())
     written.push_back({outputs.page, sheet_page(sheet, machine, outputs.list)});
-  if (!outputs.gcode.empty())
-    written.push_back({outputs.gcode, sheet_gcode(sheet, outputs.drill)});
+  if (!outputs.gcode.empty()) written.push_back({outputs.gcode, sheet_gcode(sheet, outputs.drill)});
   return written;
 }
 

@@ -94,9 +94,7 @@ std::vector<FolderFile> sheets_of(const model::Machine& machine, const Plans& pl
       {"marks.nc", sheet_gcode(sheet, {}), Origin::program},
       {"holes.csv", workshop_list(plans.holes), Origin::list},
       {"holes.html", holes_page(plans.holes, "holes.csv"), Origin::page},
-      {"holes.nc",
-       drill_gcode(fmt::format("{} holes", holes.size()), holes, {}),
-       Origin::program},
+      {"holes.nc", drill_gcode(fmt::format("{} holes", holes.size()), holes, {}), Origin::program},
   };
 }
 
@@ -121,7 +119,8 @@ bool names_a_folder(const std::string& word) {
 
 int run_start(const CLI::App& verb, const StartCommand& command) {
   if (command.file.empty()) return start_template(verb, command.folder);
-  if (command.file != "-" && names_a_folder(command.file)) return start_template(verb, command.file);
+  if (command.file != "-" && names_a_folder(command.file))
+    return start_template(verb, command.file);
   const Started started = started_from(command.file);
   const model::Machine& machine = started.read.machine;
   print_warnings(started.read.warnings);
@@ -141,9 +140,9 @@ int run_start(const CLI::App& verb, const StartCommand& command) {
     machine_path = command.file;
   } else {
     std::vector<std::string> comments;
-    for (const files::Warning& warning : started.read.warnings) comments.push_back(warning.sentence);
-    contents.push_back(
-        {"machine.json", files::write_machine(machine, comments), Origin::machine});
+    for (const files::Warning& warning : started.read.warnings)
+      comments.push_back(warning.sentence);
+    contents.push_back({"machine.json", files::write_machine(machine, comments), Origin::machine});
   }
   write_folder(verb, folder, contents);
   const std::string marks = (fs::path(folder) / "marks.csv").string();
@@ -152,7 +151,8 @@ int run_start(const CLI::App& verb, const StartCommand& command) {
              "write what you read into marks.csv (README.txt says more, and of holes and a "
              "tape).\n",
              folder);
-  say_next({"fit", marks, "--machine", machine_path, "-o", (fs::path(folder) / "map.json").string()});
+  say_next(
+      {"fit", marks, "--machine", machine_path, "-o", (fs::path(folder) / "map.json").string()});
   return kDone;
 }
 
@@ -172,7 +172,8 @@ void add_start(CLI::App& app, Run& run) {
       "Example:\n"
       "  build/chaintrue start fixtures/good/groundcontrol_ring.ini my-machine\n"
       "  build/chaintrue start");
-  verb->callback([command, verb, &run] { run = [command, verb] { return run_start(*verb, *command); }; });
+  verb->callback(
+      [command, verb, &run] { run = [command, verb] { return run_start(*verb, *command); }; });
 }
 
 }  // namespace chaintrue::cli

@@ -12,14 +12,16 @@ constexpr std::string_view kKeys[][2] = {
     {"sprocket", "teeth on a motor, and the chain's pitch: 10 and 6.35 mm on every Maslow"},
     {"feed", "over_top where the chains leave over the sprockets' tops, else off_bottom"},
     {"attachment",
-     "{\"kind\": \"ring\", \"radius_mm\": from the bit to a chain's end}, or {\"kind\": \"brackets\", "
+     "{\"kind\": \"ring\", \"radius_mm\": from the bit to a chain's end}, or {\"kind\": "
+     "\"brackets\", "
      "\"spacing_mm\", \"height_mm\", \"cg_below_bit_mm\"}"},
     {"chain", "its mass, and its stretch per newton; leave them if you do not know better"},
     {"sled", "what the sled weighs with its router, in kg: a bathroom scale will do"},
     {"frame", "how far the frame leans back, in degrees"},
     {"uncertainty", "how well the motors, the chains' zeros and the ring are known, 1 sigma"},
     {"controller",
-     "what the firmware believes: {\"kind\": \"maslow_classic\", \"settings\": {GroundControl's own "
+     "what the firmware believes: {\"kind\": \"maslow_classic\", \"settings\": {GroundControl's "
+     "own "
      "names: motorspacingx, motoroffsety, rotationradius, chainsagcorrection, ...}}"},
 };
 
@@ -33,14 +35,14 @@ std::vector<std::string> template_comments() {
 }
 
 std::string template_readme(const std::string& machine_path) {
-  std::string text =
-      "machine.json describes a classic Maslow. Put your own numbers into it:\n\n";
+  std::string text = "machine.json describes a classic Maslow. Put your own numbers into it:\n\n";
   for (const auto& [key, meaning] : kKeys) text += fmt::format("  {:<13}{}\n", key, meaning);
-  return text + fmt::format(
-                    "\nThen the sheets to print are made by\n\n    chaintrue start {}\n\n"
-                    "If GroundControl, WebControl or FluidNC runs the machine, its settings need no "
-                    "typing:\n\n    chaintrue start groundcontrol.ini\n",
-                    machine_path);
+  return text +
+         fmt::format(
+             "\nThen the sheets to print are made by\n\n    chaintrue start {}\n\n"
+             "If GroundControl, WebControl or FluidNC runs the machine, its settings need no "
+             "typing:\n\n    chaintrue start groundcontrol.ini\n",
+             machine_path);
 }
 
 std::string start_readme(const model::Machine& machine, const StartWays& ways) {

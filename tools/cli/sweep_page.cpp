@@ -117,12 +117,13 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
     const auto level = [&](auto at) {
       return sweep::level_name(spec, factor, static_cast<std::size_t>(at - rms.begin()));
     };
-    sentences.push_back(fmt::format("{}: {} errs least, {:.2f} mm rms at the tool; {} most, {:.2f} mm.",
-                                    kTitles[factor],
-                                    level(least),
-                                    *least,
-                                    level(most),
-                                    *most));
+    sentences.push_back(
+        fmt::format("{}: {} errs least, {:.2f} mm rms at the tool; {} most, {:.2f} mm.",
+                    kTitles[factor],
+                    level(least),
+                    *least,
+                    level(most),
+                    *most));
   }
   return sentences;
 }
