@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/diagnosis/as_delivered.hpp"
 #include "grid/diagnosis/expected_gain.hpp"
 #include "grid/diagnosis/leading.hpp"
 #include "grid/map/spatial_blocks.hpp"
@@ -238,7 +239,7 @@ double noise_floor(const Analysis& a, const std::vector<std::size_t>& units) {
   return std::sqrt(a.estimate.noise_square * sum / static_cast<double>(units.size()));
 }
 
-/// Errors with the settings as stated, and with the sheets alone moved to where they fit.
+/// Errors of the machine as delivered, and with the sheets alone moved to where they fit.
 struct Delivered {
   std::vector<Eigen::Vector2d> as_stated, placed;
 };
@@ -255,7 +256,8 @@ Delivered delivered(const Analysis& a, const std::vector<std::size_t>& units) {
     moves = moves ||
             (session.settings[k] != model::Setting::sheet_rotation_rad && session.knows(k));
   }
-  Eigen::VectorXd placed = stated->e;
+  const Eigen::VectorXd as_stated = as_delivered(session, *stated);
+  Eigen::VectorXd placed = as_stated;
   if (moves) {
     const Eigen::MatrixXd by_sheet = stated->by_setting.middleCols(kOfMachine, sheet);
     const auto& kept = marginalised_system(a).kept;
@@ -264,11 +266,11 @@ Delivered delivered(const Analysis& a, const std::vector<std::size_t>& units) {
     Eigen::MatrixXd normal = scaled.transpose() * scaled;
     normal.diagonal().array() += 1.0;
     const Eigen::VectorXd x =
-        normal.llt().solve(scaled.transpose() * Eigen::VectorXd(stated->e(kept)));
+        normal.llt().solve(scaled.transpose() * Eigen::VectorXd(as_stated(kept)));
     placed -= by_sheet * sigma.cwiseProduct(x);
   }
   for (const std::size_t u : units) {
-    result.as_stated.push_back(error_of_unit(*stated, stated->e, u));
+    result.as_stated.push_back(error_of_unit(*stated, as_stated, u));
     if (moves) result.placed.push_back(error_of_unit(*stated, placed, u));
   }
   return result;

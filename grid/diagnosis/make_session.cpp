@@ -193,7 +193,8 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
                       fmt::format("{}", index + 1),
                       point.mark,
                       point.lengths,
-                      grid.points[point.index].order.value_or(0)});
+                      grid.points[point.index].order.value_or(0),
+                      point.commanded});
   }
   std::optional<observation::SheetPrior> sheet;
   if (grid.sheet) sheet = {grid.sheet->shift_mm, 1e-3 * grid.sheet->rotation_mrad};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/diagnosis/as_delivered.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/gain.hpp"
 #include "grid/diagnosis/leading.hpp"
@@ -147,7 +148,8 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
   };
   Transfer result;
   result.points = second->places.size();
-  result.as_delivered = summary(*second, *stated, Placed(*stated)(stated->e), options.seed);
+  result.as_delivered =
+      summary(*second, *stated, Placed(*stated)(as_delivered(*second, *stated)), options.seed);
   result.calibrated = predicted_by({}, -1);
   result.extended = predicted_by(a.decision.regressors, -1);
   result.extended_and_surface = predicted_by(a.decision.regressors, a.decision.best_discrepancy);

@@ -157,12 +157,29 @@ std::vector<std::optional<double>> read_row(const CsvRow& row,
     if (!cells[c].text.empty()) {
       values[c] =
           checked_number(cells[c].text, cells[c].place(), column.name, column.range, problems);
-    } else if (column.is_required) {
+    } else if (column.is_required && !column.may_be_blank) {
       problems.add(
           cells[c].place(), "", fmt::format("{} ({})", column.range.expected(), column.name));
     }
   }
   return values;
+}
+
+/// Spreadsheets of half the world write 1493,63 and separate by semicolons. One point in a number
+/// of the file, and nobody knows what the commas are.
+void take_decimal_commas(char separator, std::vector<CsvRow>& rows) {
+  if (separator == ',') return;
+  for (const CsvRow& row : rows) {
+    for (const CsvCell& cell : row) {
+      if (is_number(cell.text) && cell.text.find('.') != std::string::npos) return;
+      if (looks_like_decimal_comma(cell.text) && cell.text.find('.') != std::string::npos) return;
+    }
+  }
+  for (CsvRow& row : rows) {
+    for (CsvCell& cell : row) {
+      if (looks_like_decimal_comma(cell.text)) cell.text[cell.text.find(',')] = '.';
+    }
+  }
 }
 
 /// Lines that end in a separator have one empty cell too many.
@@ -190,6 +207,7 @@ std::vector<CsvRow> split_csv(std::string_view text, char separator, Problems& p
     rows.push_back(std::move(row));
     return true;
   });
+  take_decimal_commas(separator, rows);
   return rows;
 }
 

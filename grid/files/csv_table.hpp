@@ -25,7 +25,8 @@ struct CsvCell {
 using CsvRow = std::vector<CsvCell>;
 
 /// The lines that are neither blank nor comments, cut at `separator`. Blanks around cells and
-/// quotes are taken off.
+/// quotes are taken off. Where no comma separates and no number has a point, decimal commas become
+/// points.
 [[nodiscard]] std::vector<CsvRow> split_csv(std::string_view text,
                                             char separator,
                                             Problems& problems);
@@ -38,10 +39,11 @@ struct CsvColumn {
   std::string name;
   Range range;
   bool is_required = true;
+  /// Of a required column: its cells may be empty, as those of a sheet that is not filled in.
+  bool may_be_blank = false;
 };
 
-/// Rows of numbers by column, in the order of `columns`; absent where a cell of an optional column
-/// is empty.
+/// Rows of numbers by column, in the order of `columns`; absent where a cell is empty that may be.
 struct CsvTable {
   std::vector<std::vector<std::optional<double>>> rows;
   /// The cell of each value, for messages; an empty place where there is none.

@@ -50,10 +50,11 @@ inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};
 inline constexpr Format kSweepSummaryFormat{"chaintrue_sweep_summary", "1.0", {}, false};
 inline constexpr Format kAnswerFormat{"chaintrue_answer", "1.0", {}, false};
 inline constexpr Format kCheckFormat{"chaintrue_check", "1.0", {}, false};
+inline constexpr Format kFitFormat{"chaintrue_fit", "1.0", {}, false};
 inline constexpr Format kEffectsFormat{"chaintrue_effects", "1.0", {}, false};
 inline constexpr Format kEffectPictureFormat{"chaintrue_effect_picture", "1.0", {}, false};
 
-inline constexpr std::array<const Format*, 11> kFormats = {&kMachineFormat,
+inline constexpr std::array<const Format*, 12> kFormats = {&kMachineFormat,
                                                            &kGridFormat,
                                                            &kHolesFormat,
                                                            &kMapFormat,
@@ -62,6 +63,7 @@ inline constexpr std::array<const Format*, 11> kFormats = {&kMachineFormat,
                                                            &kSweepSummaryFormat,
                                                            &kAnswerFormat,
                                                            &kCheckFormat,
+                                                           &kFitFormat,
                                                            &kEffectsFormat,
                                                            &kEffectPictureFormat};
 

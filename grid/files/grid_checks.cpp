@@ -199,6 +199,28 @@ double mean_misfit(const MeasuredGrid& grid, double sign) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
+/// Lengths of a machine whose motors are above change with x in opposite ways and shrink towards
+/// them; a command changes with its own coordinate. True where x and y are exchanged, which is said.
+bool check_axes(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
+  constexpr double kClearly = 0.3;
+  const char* swapped = "x_mm to the right and y_mm up the sheet; the two columns look swapped";
+  const auto left = slope_of(grid.points, left_of);
+  const auto right = slope_of(grid.points, right_of);
+  if (left && right && left->per_y > kClearly && right->per_y < -kClearly && left->per_x < 0.0 &&
+      right->per_x < 0.0) {
+    problems.add(places.all, "left lengths growing and right ones shrinking with y_mm", swapped);
+    return true;
+  }
+  const auto x = slope_of(grid.points, commanded_x_of);
+  const auto y = slope_of(grid.points, commanded_y_of);
+  if (x && y && std::abs(x->per_x) < kClearly && std::abs(y->per_y) < kClearly &&
+      x->per_y > kClearly && y->per_x > kClearly) {
+    problems.add(places.all, "commanded_x_mm going with y_mm, commanded_y_mm with x_mm", swapped);
+    return true;
+  }
+  return false;
+}
+
 void check_sides(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {
   const auto left = slope_of(grid.points, left_of);
   const auto right = slope_of(grid.points, right_of);
@@ -316,7 +338,8 @@ void check_points_together(const MeasuredGrid& grid,
                  "a machine with the controller that was commanded (\"machine\", \"machine_file\" "
                  "or --machine)");
   }
-  if (count == 0 || check_inches(grid, places, problems)) return;
+  if (count == 0 || check_inches(grid, places, problems) || check_axes(grid, places, problems))
+    return;
   check_sides(grid, places, problems);
   const bool is_tiny = count >= kSpanFrom && warn_of_a_tiny_area(grid, places, problems);
   if (fewest_points < kSpanFrom || count < fewest_points) return;

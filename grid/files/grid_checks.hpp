@@ -26,6 +26,8 @@ struct StatedPoint {
   std::optional<int> order;
   /// A value of this point was wrong and is reported already.
   bool is_spoilt = false;
+  /// Of a sheet to fill in: nothing was read here yet.
+  bool is_blank = false;
 };
 
 /// Where points stand in their file.
@@ -35,6 +37,13 @@ struct PointPlaces {
   /// One point, or one field of it: "/points/3", "line 5, column 8".
   std::function<std::string(std::size_t index, std::string_view field)> of;
 };
+
+/// Takes the points out that were left blank, and says which; `places` are then those of the others.
+/// \throws InputError where every point is blank.
+void leave_out_blanks(std::vector<StatedPoint>& points, PointPlaces& places, Problems& problems);
+
+/// Warns of points that read exactly as commanded.
+void warn_of_copies(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems);
 
 /// Each point by itself has lengths or a command, whole and not both; all have an order, distinct,
 /// or none.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/grid_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -67,12 +69,31 @@ const Record<StatedPoint>& point_record() {
   return record;
 }
 
-/// Like list(object(point_record())), and notes which points were wrong.
+/// A point of a list to fill in: a mark with null for both lengths, or a command with null for both
+/// coordinates.
+bool is_blank(const Cursor& at) {
+  const auto is_null = [&at](const char* key) {
+    return at.has(key) && at.child(key).json().is_null();
+  };
+  if (!at.json().is_object()) return false;
+  return at.has("commanded_x_mm") ? is_null("x_mm") && is_null("y_mm")
+                                  : is_null("left_mm") && is_null("right_mm");
+}
+
+/// Like list(object(point_record())), and notes which points were wrong and which left blank.
 void read_points(const Cursor& at, StatedGrid& grid) {
   if (!at.json().is_array()) return at.expect("a list of points");
   for (std::size_t i = 0; i < at.json().size(); ++i) {
     const std::size_t problems_before = at.problems().list().size();
-    StatedPoint point = point_record().read(at.element(i)).value_or(StatedPoint{});
+    StatedPoint point;
+    if (is_blank(at.element(i))) {
+      point.is_blank = true;
+      point.order = at.element(i).has("order")
+                        ? at.element(i).child("order").integer(0, kLargestOrder)
+                        : std::nullopt;
+    } else {
+      point = point_record().read(at.element(i)).value_or(StatedPoint{});
+    }
     point.is_spoilt = at.problems().list().size() > problems_before;
     grid.points.push_back(point);
   }
@@ -116,13 +137,15 @@ void fetch_machine(StatedGrid& grid, const GridOptions& options, Problems& probl
       problems.add_all(error);
     }
   }
+  if (!grid.machine && grid.machine_file.empty()) grid.machine = options.otherwise;
 }
 
 /// What JSON and CSV have in common once the fields are read.
 ReadGrid finish(StatedGrid stated,
-                const PointPlaces& places,
+                PointPlaces places,
                 const GridOptions& options,
                 Problems& problems) {
+  leave_out_blanks(stated.points, places, problems);
   fetch_machine(stated, options, problems);
   ReadGrid read;
   MeasuredGrid& grid = read.grid;
@@ -141,6 +164,7 @@ ReadGrid finish(StatedGrid stated,
     check_points_together(grid, options.fewest_points, places, problems);
   }
   problems.throw_if_any();
+  warn_of_copies(grid, places, problems);
   warn_of_repeats_that_disagree(grid, places, problems);
   read.warnings = problems.warnings();
   return read;
@@ -158,6 +182,24 @@ ReadGrid parse_json_grid(const std::string& text, const GridOptions& options, Pr
   return finish(std::move(stated.value()), places, options, problems);
 }
 
+/// A row without any of what was to be read is blank; with half of it, it is reported.
+void take_blanks(
+    const CsvTable& table, std::size_t i, bool commanded, StatedPoint& point, Problems& problems) {
+  if (point.is_spoilt) return;
+  const std::size_t first = commanded ? 0 : 2;  // columns x_mm and y_mm, or left_mm and right_mm
+  const auto& row = table.rows[i];
+  if (row[first] && row[first + 1]) return;
+  point.is_blank = !row[first] && !row[first + 1];
+  if (point.is_blank) return;
+  point.is_spoilt = true;
+  constexpr const char* kNames[] = {"x_mm", "y_mm", "left_mm", "right_mm"};
+  const std::size_t missing = row[first] ? first + 1 : first;
+  const Range& range = commanded ? kCoordinate : kLength;
+  problems.add(table.cells[i][missing].place(),
+               "",
+               fmt::format("{} ({}), or both left blank", range.expected(), kNames[missing]));
+}
+
 ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Problems& problems) {
   constexpr std::size_t kOrder = 4;
   // Lengths are required unless the header has commands in their place.
@@ -165,10 +207,10 @@ ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Pro
   const bool commanded = std::any_of(header.begin(), header.end(), [](const std::string& name) {
     return name.rfind("commanded_", 0) == 0;
   });
-  const std::vector<CsvColumn> columns = {{"x_mm", kCoordinate},
-                                          {"y_mm", kCoordinate},
-                                          {"left_mm", kLength, !commanded},
-                                          {"right_mm", kLength, !commanded},
+  const std::vector<CsvColumn> columns = {{"x_mm", kCoordinate, true, commanded},
+                                          {"y_mm", kCoordinate, true, commanded},
+                                          {"left_mm", kLength, !commanded, true},
+                                          {"right_mm", kLength, !commanded, true},
                                           {"order", {"", 0.0, kLargestOrder}, false},
                                           {"commanded_x_mm", kCoordinate, commanded},
                                           {"commanded_y_mm", kCoordinate, commanded}};
@@ -184,6 +226,7 @@ ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Pro
                       row[6],
                       {},
                       !table.clean[i]};
+    take_blanks(table, i, commanded, point, problems);
     if (row[kOrder]) {
       if (*row[kOrder] == std::floor(*row[kOrder])) {
         point.order = static_cast<int>(*row[kOrder]);
@@ -230,7 +273,9 @@ ReadGrid read_grid(const fs::path& path, const GridOptions& options) {
   return parse_grid(read_whole_file(path), name_in_messages(path), options);
 }
 
-std::string write_grid(const MeasuredGrid& grid) {
+namespace {
+
+StatedGrid stated_grid(const MeasuredGrid& grid) {
   StatedGrid stated{grid.name, grid.machine, {}, grid.noise, grid.sheet, grid.readings, {}};
   for (const MeasuredPoint& point : grid.points) {
     StatedPoint to{point.mark.x_mm, point.mark.y_mm, {}, {}, {}, {}, point.order};
@@ -244,7 +289,23 @@ std::string write_grid(const MeasuredGrid& grid) {
     }
     stated.points.push_back(to);
   }
-  return write_document(grid_record(), stated);
+  return stated;
+}
+
+}  // namespace
+
+std::string write_grid(const MeasuredGrid& grid) {
+  return write_document(grid_record(), stated_grid(grid));
+}
+
+std::string write_grid_sheet(const MeasuredGrid& plan) {
+  Json json = grid_record().write(stated_grid(plan));
+  for (Json& point : json["points"]) {
+    const bool commanded = point.contains("commanded_x_mm");
+    point[commanded ? "x_mm" : "left_mm"] = nullptr;
+    point[commanded ? "y_mm" : "right_mm"] = nullptr;
+  }
+  return print_json(json);
 }
 
 }  // namespace chaintrue::grid::files

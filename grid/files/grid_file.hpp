@@ -5,8 +5,12 @@
 ///
 /// A CSV has a header line with the names of its columns in any order: x_mm, y_mm, left_mm,
 /// right_mm, and where wanted order, commanded_x_mm, commanded_y_mm. Cells are parted by commas,
-/// semicolons or tabs; numbers have a decimal point; lines that begin with # are comments; an empty
-/// cell is an absent value.
+/// semicolons or tabs; numbers have a decimal point, or a decimal comma where commas part no cells
+/// and no number has a point; lines that begin with # are comments; an empty cell is an absent
+/// value.
+///
+/// A point of which nothing was read is left out, and said: a mark with both lengths empty, a
+/// command with x_mm and y_mm empty (in JSON null).
 ///
 /// \code
 ///   const ReadGrid read = read_grid("grid.csv", {.machine = read_machine("machine.json")});
@@ -33,6 +37,8 @@ struct GridOptions {
   /// From this many on, the points must also span an area. A handful that only checks a map
   /// passes 1.
   std::size_t fewest_points = 8;
+  /// Of a file that names no machine: that of the map that is checked.
+  std::optional<model::Machine> otherwise = std::nullopt;
 };
 
 struct ReadGrid {
@@ -53,5 +59,8 @@ struct ReadGrid {
                                   const GridOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_grid(const MeasuredGrid& grid);
+/// A list to fill in, of the same kind: null for both coordinates of a point that has a command,
+/// for both lengths of any other.
+[[nodiscard]] std::string write_grid_sheet(const MeasuredGrid& plan);
 
 }  // namespace chaintrue::grid::files

@@ -7,9 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "grid/files/ini_table.hpp"
+#include "grid/files/groundcontrol_settings.hpp"
 #include "grid/files/number_text.hpp"
 #include "grid/files/whole_file.hpp"
+#include "model/effects/catalogue.hpp"
 #include "model/kinematics.hpp"
 
 namespace chaintrue::grid::files {
@@ -21,7 +22,6 @@ using model::Feed;
 using model::Machine;
 using model::Ring;
 
-constexpr double kStandardGravity_m_per_s2 = 9.80665;
 constexpr double kDegreeRad = std::numbers::pi / 180.0;
 const std::vector<std::string> kSections = {"Maslow Settings", "Advanced Settings"};
 
@@ -35,8 +35,8 @@ struct NumberKey {
   std::optional<double> ControllerSettings::*setting;
 };
 
-// Ranges as in model::problems_of, which a file meets in any case; here they speak of the ini's own
-// lines.
+// Ranges as in model::problems_of and in the catalogue of effects, which a file meets in any case;
+// here they speak of the ini's own lines.
 constexpr NumberKey kNumberKeys[] = {
     {"bedwidth", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_width_mm},
     {"bedheight", {"mm", 200, 20000}, Need::always, &ControllerSettings::bed_height_mm},
@@ -54,11 +54,11 @@ constexpr NumberKey kNumberKeys[] = {
      Need::never,
      &ControllerSettings::chain_sag_correction},
     {"leftchaintolerance",
-     {"percent", -10, 10},
+     {"percent", -5, 5},
      Need::never,
      &ControllerSettings::left_chain_tolerance_percent},
     {"rightchaintolerance",
-     {"percent", -10, 10},
+     {"percent", -5, 5},
      Need::never,
      &ControllerSettings::right_chain_tolerance_percent},
     {"sledweight", {"N", 1, 2000}, Need::never, &ControllerSettings::sled_weight_n},
@@ -76,7 +76,7 @@ class IniReader {
   std::optional<double> number(const NumberKey& key, bool is_needed) {
     const IniEntry* entry = find(key.key, is_needed, key.range.expected());
     if (entry == nullptr) return std::nullopt;
-    return checked_number(entry->text, place_of(*entry), key.key, key.range, problems_);
+    return checked_number(entry->text, entry->place, key.key, key.range, problems_);
   }
 
   std::optional<std::string> word(const std::string& key, const std::vector<std::string>& words) {
@@ -84,18 +84,16 @@ class IniReader {
     const IniEntry* entry = find(key, true, expected);
     if (entry == nullptr) return std::nullopt;
     if (std::find(words.begin(), words.end(), entry->text) != words.end()) return entry->text;
-    problems_.add(place_of(*entry), entry->text.empty() ? "nothing" : entry->text, expected);
+    problems_.add(entry->place, entry->text.empty() ? "nothing" : entry->text, expected);
     return std::nullopt;
   }
 
   [[nodiscard]] std::string place_of_key(const std::string& key) const {
     const IniEntry* entry = table_.find(kSections, key);
-    return entry != nullptr ? place_of(*entry) : std::string();
+    return entry != nullptr ? entry->place : std::string();
   }
 
  private:
-  static std::string place_of(const IniEntry& entry) { return fmt::format("line {}", entry.line); }
-
   const IniEntry* find(const std::string& key, bool is_needed, const std::string& expected) {
     const IniEntry* entry = table_.find(kSections, key);
     if (entry == nullptr && is_needed) {
@@ -141,6 +139,25 @@ void attach_sled(const Numbers& numbers, bool has_brackets, Machine& machine) {
   }
 }
 
+/// A tolerance other than 0 is the pitch that the owner found for this chain.
+void state_pitch(const Numbers& numbers, Machine& machine, Problems& problems) {
+  std::vector<std::string> stated;
+  for (const auto& [key, side] :
+       {std::pair("leftchaintolerance", "left"), std::pair("rightchaintolerance", "right")}) {
+    const double percent = numbers.at(key).value_or(0.0);
+    if (percent == 0.0) continue;
+    machine.effects.push_back({"chain_pitch_error", side, {{"elongation", percent / 100.0}}});
+    stated.push_back(fmt::format("{:g} % on the {}", percent, side));
+  }
+  if (stated.empty()) return;
+  const model::effects::Effect* effect = model::effects::find_effect("chain_pitch_error");
+  problems.warn("",
+                fmt::format("the chain tolerances are taken as how much longer than nominal the "
+                            "links are, {}, each good to {:g} %, 1 sigma (/effects)",
+                            fmt::join(stated, " and "),
+                            100.0 * effect->parameters.front().prior_sigma));
+}
+
 /// Sled, chain and frame: from the file where it says them, otherwise the default machine's, said
 /// as assumed.
 void weigh(const Numbers& numbers, Machine& machine, Problems& problems) {
@@ -148,7 +165,7 @@ void weigh(const Numbers& numbers, Machine& machine, Problems& problems) {
     problems.warn("", fmt::format("the settings do not say {}", std::move(what)));
   };
   if (const auto weight_n = numbers.at("sledweight")) {
-    machine.sled.mass_kg = *weight_n / kStandardGravity_m_per_s2;
+    machine.sled.mass_kg = *weight_n / kGroundcontrolGravity_m_per_s2;
   } else {
     assume(
         fmt::format("what the sled weighs; assumed {} kg (/sled/mass_kg)", machine.sled.mass_kg));
@@ -210,10 +227,7 @@ Machine machine_of(const Numbers& numbers, bool has_brackets, bool over_top) {
 
 }  // namespace
 
-ReadMachine parse_groundcontrol(const std::string& text, const std::string& file) {
-  Problems problems(file);
-  const IniTable table(text, problems);
-  problems.throw_if_any();
+ReadMachine machine_of_settings(const IniTable& table, Tolerances tolerances, Problems& problems) {
   IniReader reader(table, problems);
   if (is_in_inches(table)) {
     problems.add(reader.place_of_key("bedwidth"),
@@ -233,7 +247,8 @@ ReadMachine parse_groundcontrol(const std::string& text, const std::string& file
   problems.throw_if_any();
   ReadMachine read;
   read.machine = machine_of(numbers, *has_brackets, *feed == "Top");
-  read.machine.name = std::filesystem::path(file).filename().string();
+  if (tolerances == Tolerances::are_pitch) state_pitch(numbers, read.machine, problems);
+  read.machine.name = std::filesystem::path(problems.file()).filename().string();
   weigh(numbers, read.machine, problems);
   for (const model::MachineProblem& problem : model::problems_of(read.machine)) {
     problems.add(
@@ -244,8 +259,17 @@ ReadMachine parse_groundcontrol(const std::string& text, const std::string& file
   return read;
 }
 
-ReadMachine read_groundcontrol(const std::filesystem::path& path) {
-  return parse_groundcontrol(read_whole_file(path), name_in_messages(path));
+ReadMachine parse_groundcontrol(const std::string& text,
+                                const std::string& file,
+                                Tolerances tolerances) {
+  Problems problems(file);
+  const IniTable table(text, problems);
+  problems.throw_if_any();
+  return machine_of_settings(table, tolerances, problems);
+}
+
+ReadMachine read_groundcontrol(const std::filesystem::path& path, Tolerances tolerances) {
+  return parse_groundcontrol(read_whole_file(path), name_in_messages(path), tolerances);
 }
 
 }  // namespace chaintrue::grid::files

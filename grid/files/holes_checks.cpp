@@ -195,21 +195,96 @@ void check_enough(const MeasuredHoles& set,
                expected);
 }
 
-void warn_of_hook(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
+/// Without it the map would bend for the hook, by as much.
+void check_hook(const MeasuredHoles& set,
+                bool is_stated,
+                const HolesPlaces& places,
+                Problems& problems) {
   const auto offset = suspected_hook_offset_mm(set);
   if (!offset) return;
-  problems.warn(
-      places.distances,
-      fmt::format("the distances are all about {:.1f} mm {} than commanded, the short ones like "
-                  "the long ones. Was the tape's hook offset left out{}? If so, state {:.0f} mm "
-                  "(hook_offset_mm of the tape, or --hook-offset-mm).",
-                  std::abs(*offset),
-                  *offset > 0.0 ? "longer" : "shorter",
-                  set.tape.hook_offset_mm != 0.0 ? ", or taken off twice" : "",
-                  set.tape.hook_offset_mm + std::round(*offset)));
+  const std::string found = fmt::format("distances all about {:.1f} mm {} than commanded",
+                                        std::abs(*offset),
+                                        *offset > 0.0 ? "longer" : "shorter");
+  const std::string state =
+      fmt::format("state {:.0f} mm (hook_offset_mm of the tape, or --hook-offset-mm)",
+                  set.tape.hook_offset_mm + std::round(*offset));
+  if (is_stated) {
+    problems.warn(places.distances,
+                  fmt::format("{}, the short ones like the long ones. Was the hook's offset taken "
+                              "off twice? If so, {}.",
+                              found,
+                              state));
+    return;
+  }
+  problems.add(places.distances,
+               found,
+               fmt::format("the tape's hook offset, since the short ones are off like the long "
+                           "ones: {}; 0 if they are right as they are",
+                           state));
 }
 
 }  // namespace
+
+void leave_out_blanks(std::vector<StatedDistance>& distances,
+                      HolesPlaces& places,
+                      Problems& problems) {
+  std::vector<std::size_t> kept;
+  std::vector<std::string> blank;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    if (distances[i].is_blank) {
+      blank.push_back(fmt::format("{}-{}", distances[i].from, distances[i].to));
+    } else {
+      kept.push_back(i);
+    }
+  }
+  if (blank.empty()) return;
+  if (kept.empty()) {
+    problems.add(places.distances,
+                 fmt::format("{} distances, all left blank", blank.size()),
+                 "what the tape said, written into distance_mm");
+    problems.throw_if_any();
+  }
+  problems.warn(places.distances,
+                fmt::format("{} of {} distances are left blank and left out: {}",
+                            blank.size(),
+                            distances.size(),
+                            joined(blank)));
+  std::vector<StatedDistance> others;
+  for (const std::size_t i : kept) others.push_back(distances[i]);
+  distances = std::move(others);
+  places.distance = [kept, of = places.distance](std::size_t index, std::string_view field) {
+    return of(kept[index], field);
+  };
+}
+
+void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems) {
+  // A tape that is read to the millimetre falls on the commanded one now and then; to the
+  // hundredth, or on most of the lines, it does not.
+  constexpr double kSameMm = 0.005;
+  std::vector<std::string> exact;
+  std::vector<std::string> rounded;
+  for (const HoleDistance& distance : set.distances) {
+    if (distance.edge) continue;
+    const double beside_mm = std::abs(distance.distance_mm - commanded_mm(set, distance));
+    // Halves of a millimetre are what a tape is read to.
+    const bool by_eye = 2.0 * distance.distance_mm == std::round(2.0 * distance.distance_mm);
+    if (beside_mm < kSameMm && !by_eye) exact.push_back(words_of(set, distance));
+    if (distance.distance_mm == std::round(commanded_mm(set, distance)) || beside_mm < kSameMm)
+      rounded.push_back(words_of(set, distance));
+  }
+  const bool most = 2 * rounded.size() > set.distances.size();
+  const std::vector<std::string>& copies = most ? rounded : exact;
+  if (copies.empty()) return;
+  problems.warn(places.distances,
+                fmt::format("{} read exactly as commanded. Were they measured? Leave distance_mm "
+                            "blank where not",
+                            copies.size() == set.distances.size()
+                                ? fmt::format("all {} distances", copies.size())
+                                : fmt::format("{} of {} distances ({})",
+                                              copies.size(),
+                                              set.distances.size(),
+                                              joined(copies))));
+}
 
 void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& problems) {
   std::map<std::string, std::size_t> first;
@@ -268,13 +343,14 @@ std::vector<HoleDistance> resolved_distances(const std::vector<StatedDistance>& 
 
 void check_holes_together(const MeasuredHoles& set,
                           std::size_t fewest_distances,
+                          bool hook_is_stated,
                           const HolesPlaces& places,
                           Problems& problems) {
   check_apart(set, places, problems);
   if (problems.any() || check_inches(set, places, problems)) return;
   check_triangles(set, places, problems);
   check_enough(set, fewest_distances, places, problems);
-  warn_of_hook(set, places, problems);
+  if (!problems.any()) check_hook(set, hook_is_stated, places, problems);
 }
 
 }  // namespace chaintrue::grid::files

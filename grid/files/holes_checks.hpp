@@ -23,6 +23,8 @@ struct StatedDistance {
   std::optional<double> sigma_mm;
   /// A value was wrong and is reported already.
   bool is_spoilt = false;
+  /// Of a sheet to fill in: nothing was read here yet.
+  bool is_blank = false;
 };
 
 /// Where things stand in their file.
@@ -33,6 +35,12 @@ struct HolesPlaces {
   std::function<std::string(std::size_t index, std::string_view field)> distance;
 };
 
+/// Takes the distances out that were left blank, and says which; `places` are then those of the
+/// others. \throws InputError where every distance is blank.
+void leave_out_blanks(std::vector<StatedDistance>& distances,
+                      HolesPlaces& places,
+                      Problems& problems);
+
 /// Names that are missing become the holes' numbers; names that repeat, or are an edge's, are
 /// reported.
 void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& problems);
@@ -42,9 +50,13 @@ void check_names(std::vector<Hole>& holes, const HolesPlaces& places, Problems& 
     const std::vector<Hole>& holes,
     const HolesPlaces& places,
     Problems& problems);
-/// Units, triangles, and whether there is enough. Call it only when nothing was wrong before.
+/// Warns of distances that read exactly as commanded.
+void warn_of_copies(const MeasuredHoles& set, const HolesPlaces& places, Problems& problems);
+/// Units, triangles, a hook offset that was forgotten, and whether there is enough. An offset that
+/// was stated in so many words is only asked about. Call it only when nothing was wrong before.
 void check_holes_together(const MeasuredHoles& set,
                           std::size_t fewest_distances,
+                          bool hook_is_stated,
                           const HolesPlaces& places,
                           Problems& problems);
 

@@ -27,13 +27,15 @@ void fetch_machine(StatedHoles& stated, const HolesOptions& options, Problems& p
       problems.add_all(error);
     }
   }
+  if (!stated.machine && stated.machine_file.empty()) stated.machine = options.otherwise;
 }
 
 /// What JSON and CSV have in common once the fields are read.
 ReadHoles finish(StatedHoles stated,
-                 const HolesPlaces& places,
+                 HolesPlaces places,
                  const HolesOptions& options,
                  Problems& problems) {
+  leave_out_blanks(stated.distances, places, problems);
   fetch_machine(stated, options, problems);
   ReadHoles read;
   MeasuredHoles& set = read.holes;
@@ -50,8 +52,13 @@ ReadHoles finish(StatedHoles stated,
   set.holes = std::move(stated.holes);
   check_names(set.holes, places, problems);
   set.distances = resolved_distances(stated.distances, set.holes, places, problems);
-  if (!problems.any()) check_holes_together(set, options.fewest_distances, places, problems);
+  if (!problems.any()) {
+    const bool hook_is_stated =
+        options.hook_offset_mm || stated.hook_is_stated || set.tape.hook_offset_mm != 0.0;
+    check_holes_together(set, options.fewest_distances, hook_is_stated, places, problems);
+  }
   problems.throw_if_any();
+  warn_of_copies(set, places, problems);
   read.warnings = problems.warnings();
   return read;
 }
@@ -112,7 +119,9 @@ ReadHoles read_holes(const fs::path& path, const HolesOptions& options) {
   return parse_holes(read_whole_file(path), name_in_messages(path), options);
 }
 
-std::string write_holes(const MeasuredHoles& set) {
+namespace {
+
+StatedHoles stated_holes(const MeasuredHoles& set) {
   StatedHoles stated;
   stated.name = set.name;
   stated.machine = set.machine;
@@ -129,7 +138,22 @@ std::string write_holes(const MeasuredHoles& set) {
          distance.distance_mm,
          distance.sigma_mm});
   }
-  return write_document(holes_record(), stated);
+  return stated;
+}
+
+}  // namespace
+
+std::string write_holes(const MeasuredHoles& set) {
+  return write_document(holes_record(), stated_holes(set));
+}
+
+std::string write_holes_sheet(const MeasuredHoles& plan) {
+  StatedHoles stated = stated_holes(plan);
+  for (StatedDistance& distance : stated.distances) distance.is_blank = true;
+  Json json = holes_record().write(stated);
+  // How the tape will be held nobody knows yet.
+  json["tape"].erase("hook_offset_mm");
+  return print_json(json);
 }
 
 }  // namespace chaintrue::grid::files

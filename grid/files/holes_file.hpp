@@ -20,7 +20,9 @@
 /// `readings` are those of a chaintrue_grid, and optional.
 ///
 /// A CSV has two tables: lines below `hole,x_mm,y_mm`, and lines below
-/// `from,to,distance_mm,sigma_mm` (the last column may be missing). The rest comes as options.
+/// `from,to,distance_mm,sigma_mm` (the last column may be missing; a plan's `as_commanded_mm` is
+/// passed over). The rest comes as options. A distance that is left blank (in JSON null) is left
+/// out, and said.
 ///
 /// \code
 ///   const ReadHoles read = read_holes("holes.json");
@@ -49,6 +51,8 @@ struct HolesOptions {
   std::optional<double> hole_sigma_mm;
   /// A handful that only checks a map passes 1.
   std::size_t fewest_distances = kFewestHoleDistances;
+  /// Of a file that names no machine.
+  std::optional<model::Machine> otherwise = std::nullopt;
 };
 
 struct ReadHoles {
@@ -66,6 +70,8 @@ struct ReadHoles {
                                     const HolesOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_holes(const MeasuredHoles& holes);
+/// A list to fill in, of the same kind: null for every distance.
+[[nodiscard]] std::string write_holes_sheet(const MeasuredHoles& plan);
 /// True for the text of a chaintrue_holes file or of such a CSV, whole or damaged.
 [[nodiscard]] bool looks_like_holes(std::string_view text);
 

@@ -76,7 +76,19 @@ const Record<StatedDistance>& distance_record() {
     Record<StatedDistance> distance("a distance");
     end_of(distance, "from", &StatedDistance::from);
     end_of(distance, "to", &StatedDistance::to);
-    distance.required("distance_mm", &StatedDistance::distance_mm, number(kTapeDistance))
+    distance
+        .custom(
+            "distance_mm",
+            true,
+            kTapeDistance.expected(),
+            [](const Cursor& at, StatedDistance& d) {
+              d.is_blank = at.json().is_null();
+              if (d.is_blank) return;
+              if (const auto value = at.number(kTapeDistance)) d.distance_mm = *value;
+            },
+            [](const StatedDistance& d) {
+              return std::optional<Json>(d.is_blank ? Json(nullptr) : Json(d.distance_mm));
+            })
         .optional("sigma_mm", &StatedDistance::sigma_mm, number(kTapeSigmaMm));
     return distance;
   }();
@@ -142,6 +154,8 @@ const Record<StatedHoles>& holes_record() {
               },
               list_writer(distance_record(), &StatedHoles::distances))
           .check([](const Cursor& at, StatedHoles& stated) {
+            stated.hook_is_stated = at.has("tape") && at.child("tape").json().is_object() &&
+                                    at.child("tape").has("hook_offset_mm");
             if (stated.machine && !stated.machine_file.empty()) {
               at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
             }

@@ -23,6 +23,8 @@ struct StatedHoles {
   std::optional<model::Machine> machine;
   std::string machine_file;
   Tape tape;
+  /// The tape says of its hook, 0 if it is 0.
+  bool hook_is_stated = false;
   double hole_sigma_mm = MeasuredHoles{}.hole_sigma_mm;
   double noise_dof = MeasuredHoles{}.noise_dof;
   SheetSize sheet;

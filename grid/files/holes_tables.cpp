@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::string_view kHoleHeader[] = {"hole", "x_mm", "y_mm"};
 constexpr std::string_view kDistanceHeader[] = {"from", "to", "distance_mm", "sigma_mm"};
+// The last one is a plan's, for the person who holds the tape.
+constexpr std::string_view kPlannedHeader[] = {"from", "to", "distance_mm", "as_commanded_mm"};
 
 bool begins_with(const CsvRow& row, std::string_view word) {
   return !row.empty() && row.front().text == word;
@@ -64,14 +66,18 @@ void read_hole_row(const CsvRow& row, StatedHoles& stated, Problems& problems) {
   stated.is_hole_spoilt.push_back(problems.list().size() > before);
 }
 
-void read_distance_row(const CsvRow& row, StatedHoles& stated, Problems& problems) {
+void read_distance_row(const CsvRow& row, bool has_sigma, StatedHoles& stated, Problems& problems) {
   const std::size_t before = problems.list().size();
   StatedDistance distance;
   distance.from = cell_of(row, 0).text;
   distance.to = cell_of(row, 1).text;
-  distance.distance_mm = required_number(cell_of(row, 2), "distance_mm", kTapeDistance, problems);
+  const CsvCell reading = cell_of(row, 2);
+  distance.is_blank = reading.text.empty();
+  if (!distance.is_blank) {
+    distance.distance_mm = required_number(reading, "distance_mm", kTapeDistance, problems);
+  }
   const CsvCell sigma = cell_of(row, 3);
-  if (!sigma.text.empty()) {
+  if (has_sigma && !sigma.text.empty()) {
     distance.sigma_mm = checked_number(sigma.text, sigma.place(), "sigma_mm", kTapeSigmaMm, problems);
   }
   distance.is_spoilt = problems.list().size() > before;
@@ -87,6 +93,7 @@ HolesTables read_holes_tables(const std::string& text, Problems& problems) {
   std::vector<CsvRow> distance_rows;
   enum class Table { none, holes, distances } table = Table::none;
   bool any_distances = false;
+  bool has_sigma = true;
   for (const CsvRow& row : rows) {
     if (row.empty()) continue;
     if (begins_with(row, "hole")) {
@@ -95,13 +102,18 @@ HolesTables read_holes_tables(const std::string& text, Problems& problems) {
     } else if (begins_with(row, "from")) {
       table = Table::distances;
       any_distances = true;
-      check_header(row, kDistanceHeader, 3, problems);
+      has_sigma = row.size() < 4 || row[3].text != kPlannedHeader[3];
+      if (has_sigma) {
+        check_header(row, kDistanceHeader, 3, problems);
+      } else {
+        check_header(row, kPlannedHeader, 4, problems);
+      }
     } else if (table == Table::holes) {
       hole_cells.push_back(row.front());
       read_hole_row(row, stated, problems);
     } else if (table == Table::distances) {
       distance_rows.push_back(row);
-      read_distance_row(row, stated, problems);
+      read_distance_row(row, has_sigma, stated, problems);
     } else {
       problems.add(row.front().place(),
                    row.front().text,

@@ -55,17 +55,23 @@ IniTable::IniTable(std::string_view text, Problems& problems) {
     }
     IniEntry entry{in_small_letters(trimmed(line.substr(0, sign))),
                    std::string(trimmed(line.substr(sign + 1))),
-                   number};
+                   place};
     const auto same =
         std::find_if(section->begin(), section->end(), [&entry](const IniEntry& other) {
           return other.key == entry.key;
         });
     if (same != section->end()) {
-      problems.add(
-          place, line, fmt::format("this key once; it stands at line {} already", same->line));
+      problems.add(place, line, fmt::format("this key once; it stands at {} already", same->place));
     } else {
       section->push_back(std::move(entry));
     }
+  }
+}
+
+IniTable::IniTable(std::map<std::string, std::vector<IniEntry>> sections) {
+  for (auto& [name, entries] : sections) {
+    for (IniEntry& entry : entries) entry.key = in_small_letters(entry.key);
+    sections_[in_small_letters(name)] = std::move(entries);
   }
 }
 

@@ -16,7 +16,7 @@ namespace chaintrue::grid::files {
 struct IniEntry {
   std::string key;  ///< in small letters
   std::string text;
-  std::size_t line = 0;
+  std::string place;  ///< "line 12"
 };
 
 class IniTable {
@@ -24,6 +24,8 @@ class IniTable {
   /// Reports lines that are neither a section, an entry, a comment nor blank, and keys that stand
   /// twice in a section.
   IniTable(std::string_view text, Problems& problems);
+  /// Of a program that keeps the same sections in another form: entries by section.
+  explicit IniTable(std::map<std::string, std::vector<IniEntry>> sections);
   /// Nothing where no section has the key. `sections` are looked through in turn.
   [[nodiscard]] const IniEntry* find(const std::vector<std::string>& sections,
                                      const std::string& key) const;

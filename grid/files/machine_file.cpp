@@ -264,8 +264,20 @@ void check_machine(const Cursor& at, Machine& machine) {
   }
 }
 
+/// An object without a key is what somebody writes who wants to be told what belongs there.
+void refuse_emptiness(const std::string& text, Problems& problems) {
+  if (text.find_first_not_of(" \t\r\n{}") != std::string::npos ||
+      text.find('{') == std::string::npos)
+    return;
+  problems.add("",
+               "an empty machine",
+               "a machine; chaintrue start writes one to fill in, with every key explained");
+  problems.throw_if_any();
+}
+
 ReadMachine parse_with(const std::string& text, const std::string& file) {
   Problems problems(file);
+  refuse_emptiness(text, problems);
   ReadMachine read;
   read.machine = read_document(machine_record(), text, problems);
   read.warnings = problems.warnings();

@@ -129,7 +129,7 @@ Origin origin_of(std::string_view text) {
 std::string signed_text(const std::string& text, Origin kind) {
   if (text.starts_with("{") && (kind == Origin::measured || kind == Origin::machine))
     return signed_json(text);
-  if (kind == Origin::list) return text + signature_line(text);
+  if (kind == Origin::list && !text.starts_with("{")) return text + signature_line(text);
   if (kind == Origin::page && text.starts_with(kPageHead))
     return std::string(kPageHead) + std::string(kMark) + "\n" + text.substr(kPageHead.size());
   if (kind == Origin::drawing && text.starts_with("<svg")) {

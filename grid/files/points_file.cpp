@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/points_file.hpp"
 
+#include <algorithm>
+
 #include "grid/files/csv_table.hpp"
 #include "grid/files/whole_file.hpp"
 
@@ -8,18 +10,32 @@ namespace chaintrue::grid::files {
 
 std::vector<model::BedPoint> parse_points(const std::string& text, const std::string& file) {
   constexpr Range kCoordinate{"mm", -20000.0, 20000.0};
-  // A plan numbers its points in the order of the walk; the lines stand in that order.
-  constexpr Range kNumber{"", 0.0, 1e6};
+  // A plan numbers its points in the order of the walk; the lines stand in that order. What was, or
+  // will be, read at them is passed over.
+  constexpr Range kNumber{"", 0.0, 1e9};
+  constexpr Range kLength{"mm", 1.0, 20000.0};
   Problems problems(file);
-  const CsvTable table = read_csv(
-      text, {{"x_mm", kCoordinate}, {"y_mm", kCoordinate}, {"number", kNumber, false}}, problems);
+  // A list of commands: there the tool was sent, wherever it went.
+  const std::vector<std::string> header = csv_header(text);
+  const bool is_sheet = std::find(header.begin(), header.end(), "commanded_x_mm") != header.end();
+  const CsvTable table = read_csv(text,
+                                  {{"x_mm", kCoordinate, true, is_sheet},
+                                   {"y_mm", kCoordinate, true, is_sheet},
+                                   {"number", kNumber, false},
+                                   {"order", kNumber, false},
+                                   {"left_mm", kLength, false},
+                                   {"right_mm", kLength, false},
+                                   {"commanded_x_mm", kCoordinate, is_sheet},
+                                   {"commanded_y_mm", kCoordinate, is_sheet}},
+                                  problems);
   if (table.rows.empty() && !problems.any()) {
     problems.add("", "a header line only", "at least one line of numbers below it");
   }
   problems.throw_if_any();
   std::vector<model::BedPoint> points;
   points.reserve(table.rows.size());
-  for (const auto& row : table.rows) points.push_back({row[0].value(), row[1].value()});
+  const std::size_t x = is_sheet ? 6 : 0;
+  for (const auto& row : table.rows) points.push_back({row[x].value(), row[x + 1].value()});
   return points;
 }
 

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace chaintrue::grid::files {
 namespace {
@@ -37,6 +39,31 @@ bool is_without_unit(std::string_view word, std::string_view candidate) {
          });
 }
 
+/// Of one kind are those of one file that expect the same. What is over is counted where the last
+/// one that is listed stands.
+std::vector<InputProblem> few_of_a_kind(const std::vector<InputProblem>& all) {
+  const auto kind_of = [](const InputProblem& problem) {
+    return std::pair(problem.file, problem.expected);
+  };
+  std::map<std::pair<std::string, std::string>, std::size_t> total;
+  for (const InputProblem& problem : all) ++total[kind_of(problem)];
+  std::map<std::pair<std::string, std::string>, std::size_t> listed;
+  std::vector<InputProblem> few;
+  for (const InputProblem& problem : all) {
+    const std::size_t most = Problems::kMostOfAKind;
+    const std::size_t number = ++listed[kind_of(problem)];
+    // One more line takes no more room than a count of one.
+    if (number <= most || total[kind_of(problem)] == most + 1) few.push_back(problem);
+    if (number == most && total[kind_of(problem)] > most + 1) {
+      few.push_back({problem.file,
+                     "",
+                     fmt::format("{} more like these", total[kind_of(problem)] - most),
+                     problem.expected});
+    }
+  }
+  return few;
+}
+
 }  // namespace
 
 void Problems::add(std::string place, std::string_view value, std::string expected) {
@@ -65,13 +92,12 @@ bool Problems::at_or_below(std::string_view pointer) const {
 
 void Problems::throw_if_any() const {
   if (list_.empty()) return;
-  std::vector<InputProblem> shown = list_;
+  std::vector<InputProblem> shown = few_of_a_kind(list_);
   if (shown.size() > kMostProblems) {
+    const std::size_t more = shown.size() - kMostProblems;
     shown.resize(kMostProblems);
-    shown.push_back({file_,
-                     "",
-                     fmt::format("{} more problems", list_.size() - kMostProblems),
-                     "those above to be mended first"});
+    shown.push_back(
+        {file_, "", fmt::format("{} more problems", more), "those above to be mended first"});
   }
   throw InputError(std::move(shown));
 }

@@ -35,10 +35,11 @@ class Problems {
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const std::vector<InputProblem>& list() const { return list_; }
   [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
-  /// \throws InputError with everything gathered; past kMostProblems the rest is counted, not
-  /// listed.
+  /// \throws InputError with everything gathered; past kMostOfAKind of those that expect the same,
+  /// and past kMostProblems in all, the rest is counted, not listed.
   void throw_if_any() const;
 
+  static constexpr std::size_t kMostOfAKind = 5;
   static constexpr std::size_t kMostProblems = 100;
 
  private:

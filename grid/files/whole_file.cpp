@@ -46,6 +46,39 @@ std::string read_to_the_end(std::FILE* file, const std::string& name) {
   return text;
 }
 
+/// Files that people take for text because a program shows them as a table.
+void refuse_what_is_no_text(const std::string& text, const std::string& name) {
+  struct Kind {
+    std::string_view beginning;
+    std::string_view found;
+    std::string_view expected;
+  };
+  using namespace std::string_view_literals;
+  constexpr Kind kKinds[] = {
+      {"PK\x03\x04"sv,
+       "a spreadsheet of Excel or LibreOffice (.xlsx, .ods), or a zip archive",
+       "text: open it in the spreadsheet and save it as CSV"},
+      {"\xD0\xCF\x11\xE0"sv,
+       "a spreadsheet of an old Excel (.xls)",
+       "text: open it in a spreadsheet and save it as CSV"},
+      {"%PDF"sv,
+       "a PDF",
+       "text: what a PDF shows has to be typed, or saved as CSV where it was made"},
+      {"\x89PNG"sv, "a picture", "text: the numbers have to be typed"},
+      {"\xFF\xD8\xFF"sv, "a picture", "text: the numbers have to be typed"},
+  };
+  for (const Kind& kind : kKinds) {
+    if (text.starts_with(kind.beginning))
+      fail(name, std::string(kind.found), std::string(kind.expected));
+  }
+}
+
+std::string read_text(std::FILE* file, const std::string& name) {
+  std::string text = read_to_the_end(file, name);
+  refuse_what_is_no_text(text, name);
+  return text;
+}
+
 }  // namespace
 
 std::string name_in_messages(const fs::path& path) {
@@ -53,12 +86,12 @@ std::string name_in_messages(const fs::path& path) {
 }
 
 std::string read_whole_file(const fs::path& path) {
-  if (path == "-") return read_to_the_end(stdin, name_in_messages(path));
+  if (path == "-") return read_text(stdin, name_in_messages(path));
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) fail(path.string(), "a directory", "a file");
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) fail(path.string(), words_of(errno), "a file that can be opened for reading");
-  return read_to_the_end(file.get(), path.string());
+  return read_text(file.get(), path.string());
 }
 
 void write_whole_file(const fs::path& path, std::string_view text) {

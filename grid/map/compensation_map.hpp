@@ -79,7 +79,7 @@ struct MapNoise {
 };
 
 /// A measured point as the map sees it, in millimetres at the tool: how far the tool was beyond
-/// where each model thinks.
+/// where each model thinks. As stated, of a point that gives a command, is where it was told to be.
 struct MapPoint {
   model::BedPoint mark;
   model::ChainLengths lengths;

@@ -74,7 +74,7 @@ tl::expected<std::vector<LengthPoint>, FitFailure> length_points(const MeasuredG
   std::vector<LengthPoint> points;
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     const MeasuredPoint& point = grid.points[i];
-    LengthPoint result{i, point.mark, {}};
+    LengthPoint result{i, point.mark, {}, std::nullopt};
     if (point.lengths) {
       result.lengths = *point.lengths;
     } else {
@@ -86,6 +86,7 @@ tl::expected<std::vector<LengthPoint>, FitFailure> length_points(const MeasuredG
         return no_lengths(
             i, fmt::format("the controller cannot go there: {}", model::explain(paid_out.error())));
       result.lengths = *paid_out;
+      result.commanded = point.commanded;
     }
     points.push_back(result);
   }

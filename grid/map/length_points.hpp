@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct LengthPoint {
   std::size_t index = 0;  ///< into the grid's points
   model::BedPoint mark;
   model::ChainLengths lengths;
+  /// What the controller was told, where the lengths come of a command.
+  std::optional<model::BedPoint> commanded = std::nullopt;
 };
 
 /// Every point's lengths. A point that gives a command has the lengths that the machine's

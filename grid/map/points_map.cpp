@@ -19,7 +19,17 @@ Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vecto
   return mark_jacobian.inverse() * chain_mm;
 }
 
-/// Fits the placement of the sheet under the machine as stated, by weighted least squares on its
+/// How far the tool was beyond where its command sent it, on the sheet. The controller believes
+/// neither the stated machine nor the catenary: a machine that goes where it is told is right.
+Eigen::Vector2d beyond_mark(model::BedPoint commanded,
+                            const model::SheetPlacement& sheet,
+                            model::BedPoint mark) {
+  const model::BedPoint place = sheet.to_bed(mark);
+  return sheet.rotation().transpose() *
+         Eigen::Vector2d(commanded.x_mm - place.x_mm, commanded.y_mm - place.y_mm);
+}
+
+/// Fits the placement of the sheet under the machine as delivered, by weighted least squares on its
 /// good points.
 model::SheetPlacement fit_sheet_placement(const PointsFitInput& input,
                                           const PointsFit& fit,
@@ -43,8 +53,11 @@ model::SheetPlacement fit_sheet_placement(const PointsFitInput& input,
       const auto row = 2 * static_cast<Eigen::Index>(i);
       const Eigen::Matrix2d weight = line->units[i].covariance.inverse();
       const Eigen::MatrixXd by_sheet = line->by_setting.middleRows(row, 2);
-      const Eigen::VectorXd residual =
-          readings.measured().segment(row, 2) - line->predicted.segment(row, 2);
+      const auto& commanded = good[i].commanded;
+      const Eigen::Vector2d residual =
+          commanded ? line->places[i].by_mark * beyond_mark(*commanded, sheet, good[i].mark)
+                    : Eigen::Vector2d(readings.measured().segment(row, 2) -
+                                      line->predicted.segment(row, 2));
       normal += by_sheet.transpose() * weight * by_sheet;
       right += by_sheet.transpose() * weight * residual;
     }
@@ -56,10 +69,12 @@ model::SheetPlacement fit_sheet_placement(const PointsFitInput& input,
   return sheet;
 }
 
-/// How far the tool was beyond where a machine thinks; zero where that machine has no pose.
+/// How far the tool was beyond where the machine as delivered thinks: the command, or where the
+/// lengths put it; zero where that machine has no pose.
 Eigen::Vector2d tool_residual(const model::ReadingModel& model,
                               const model::SheetPlacement& sheet,
                               const LengthPoint& point) {
+  if (point.commanded) return beyond_mark(*point.commanded, sheet, point.mark);
   const auto reading = model.at(sheet.to_bed(point.mark));
   if (!reading) return Eigen::Vector2d::Zero();
   return to_tool(reading->position_jacobian * sheet.rotation(),

@@ -57,6 +57,8 @@ struct Place {
   model::BedPoint mark;   ///< as it was written, or commanded
   model::ChainLengths lengths;  ///< read there, or paid out to get there
   int order = 0;                ///< of the visit
+  /// What the controller was told, where the lengths come of a command at this mark.
+  std::optional<model::BedPoint> commanded = std::nullopt;
 };
 
 /// Rows that are good or bad together.

@@ -29,7 +29,7 @@ class PlanCommand : public testing_support::CommandFixture {
 TEST_F(PlanCommand, ListsThePointsAndTellsTheErrorApart) {
   const Outcome outcome = run("plan --machine " + machine_ + " --points 28");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, StartsWith("number,x_mm,y_mm\n1,-1209,-599\n2,"));
+  EXPECT_THAT(outcome.out, StartsWith("order,x_mm,y_mm,left_mm,right_mm\n1,-1119,-509,,\n2,"));
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 29);
   EXPECT_THAT(outcome.err, HasSubstr("28 points: "));
   EXPECT_THAT(outcome.err, HasSubstr("mm rms over the bed"));

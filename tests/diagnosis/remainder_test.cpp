@@ -29,7 +29,7 @@ const model::AppliedEffect kLongLeft{"chain_pitch_error", "left", {{"elongation"
 
 /// A dent of 1.5 mm and 250 mm (one sigma) that goes into the chains as 0.6 to 0.8.
 MeasuredGrid with_dent(MeasuredGrid grid) {
-  for (LengthPoint& point : grid.points) {
+  for (MeasuredPoint& point : grid.points) {
     const double dx = (point.mark.x_mm - 400.0) / 250.0;
     const double dy = (point.mark.y_mm + 100.0) / 250.0;
     const double mm = 1.5 * std::exp(-0.5 * (dx * dx + dy * dy));

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The importers on what they were made for: one real machine's scans and settings. The figures were
 // read off the files and worked out by hand.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
+#include <random>
+#include <sstream>
 
 #include "grid/files/grid_file.hpp"
 #include "grid/files/groundcontrol_file.hpp"
@@ -184,8 +188,18 @@ TEST(GroundcontrolSettings, OfARealMachineBecomeMachineAndController) {
   EXPECT_EQ(machine.chain.mass_kg_per_m, 0.14);
   EXPECT_EQ(machine.chain.compliance_per_n, 5.1685e-6);
   EXPECT_EQ(machine.frame.tilt_from_vertical_deg, 15.0);
-  ASSERT_EQ(read.warnings.size(), 5U);
-  for (const Warning& warning : read.warnings) EXPECT_THAT(warning.sentence, HasSubstr("assumed"));
+  ASSERT_EQ(read.warnings.size(), 6U);
+  for (std::size_t i = 1; i < read.warnings.size(); ++i)
+    EXPECT_THAT(read.warnings[i].sentence, HasSubstr("assumed"));
+  // The tolerances are the pitch that the owner found for each chain.
+  EXPECT_THAT(read.warnings.front().sentence,
+              HasSubstr("0.123725 % on the left and 0.16832 % on the right, each good to 0.1 %"));
+  ASSERT_EQ(machine.effects.size(), 2U);
+  EXPECT_EQ(machine.effects[0].effect, "chain_pitch_error");
+  EXPECT_EQ(machine.effects[0].side, "left");
+  EXPECT_EQ(machine.effects[0].parameters.at("elongation"), 0.1237252 / 100.0);
+  EXPECT_EQ(machine.effects[1].side, "right");
+  EXPECT_EQ(machine.effects[1].parameters.at("elongation"), 0.1683196 / 100.0);
 }
 
 TEST(GroundcontrolSettings, OfTheDayBeforeAsWell) {
@@ -253,8 +267,133 @@ TEST(GroundcontrolSettings, WhatHasNoSettingIsSaid) {
   EXPECT_THAT(remarks,
               Contains("GroundControl has no setting for the effect beam_flex; what can be done: "
                        "brace the beam, or put its flexibility into the machine file"));
-  EXPECT_THAT(remarks, Contains("motorspacingx changes from 2975 to 2978.4"));
+  EXPECT_THAT(
+      remarks,
+      Contains("motorspacingx changes from 2975 to 2978.4, by the machine's motors (/motors)"));
   EXPECT_EQ(remarks.size(), 6U);
+}
+
+/// What every number of an ini file is, by its key.
+std::map<std::string, std::string> entries_of(const std::string& ini) {
+  std::map<std::string, std::string> entries;
+  std::istringstream lines(ini);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t sign = line.find(" = ");
+    if (sign != std::string::npos) entries[line.substr(0, sign)] = line.substr(sign + 3);
+  }
+  return entries;
+}
+
+/// Import, export, import is the identity; nothing is said to change, and every number that the
+/// export has is the file's, to the last digit.
+void expect_the_way_there_and_back(const std::string& ini) {
+  const model::Machine machine = parse_groundcontrol(ini, "any.ini").machine;
+  const GroundcontrolText typed = write_groundcontrol(machine);
+  EXPECT_THAT(typed.remarks, Each(Not(HasSubstr("changes"))));
+  EXPECT_EQ(write_machine(parse_groundcontrol(typed.text, "any.ini").machine),
+            write_machine(machine));
+  const auto came = entries_of(ini);
+  for (const auto& [key, value] : entries_of(typed.text)) {
+    const auto own = came.find(key);
+    ASSERT_TRUE(own != came.end()) << key << " = " << value << " was not in the file";
+    if (std::isalpha(static_cast<unsigned char>(value.front())) != 0) {
+      EXPECT_EQ(value, own->second) << key;
+    } else {
+      EXPECT_EQ(std::stod(value), std::stod(own->second)) << key;
+    }
+  }
+}
+
+TEST(GroundcontrolSettings, OfEveryFileThatIsHereGoThereAndBack) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& folder : {std::filesystem::path(CHAINTRUE_FIXTURES) / "good", kSettings}) {
+    if (!std::filesystem::exists(folder)) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() == ".ini") files.push_back(entry.path());
+    }
+  }
+  EXPECT_GE(files.size(), 2U);
+  for (const auto& file : files) {
+    SCOPED_TRACE(file);
+    expect_the_way_there_and_back(read_whole_file(file));
+  }
+}
+
+/// A groundcontrol.ini somebody could have: any kind of sled, keys that some programs do not write
+/// left out, numbers with as many digits as programs print.
+std::string random_ini(std::mt19937_64& bits) {
+  const auto uniform = [&bits](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(bits);
+  };
+  const auto coin = [&bits] { return std::bernoulli_distribution(0.5)(bits); };
+  std::string text = "[Maslow Settings]\n";
+  const auto number = [&](const char* key, double low, double high) {
+    const double value = uniform(low, high);
+    text +=
+        coin() ? fmt::format("{} = {}\n", key, value) : fmt::format("{} = {:.4f}\n", key, value);
+  };
+  number("bedwidth", 1200.0, 3000.0);
+  number("bedheight", 700.0, 1500.0);
+  number("motorspacingx", 3200.0, 4200.0);
+  number("motoroffsety", 300.0, 900.0);
+  number("sledwidth", 250.0, 350.0);
+  number("sledheight", 100.0, 160.0);
+  number("sledcg", 50.0, 90.0);
+  text += "zaxis = 1\n[Advanced Settings]\n";
+  number("rotationradius", 120.0, 160.0);
+  text += fmt::format("kinematicstype = {}\n", coin() ? "Triangular" : "Quadrilateral");
+  text += fmt::format("chainoversprocket = {}\n", coin() ? "Top" : "Bottom");
+  text +=
+      coin() ? "gearteeth = 10\nchainpitch = 6.35\n" : "gearteeth = 12\nchainpitch = 6.3512345\n";
+  if (coin()) number("chainsagcorrection", 0.0, 40.0);
+  if (coin()) number("topbeamtilt", -0.5, 0.5);
+  if (coin()) number("leftchaintolerance", -0.5, 0.5);
+  if (coin()) number("rightchaintolerance", -0.5, 0.5);
+  if (coin()) number("sledweight", 80.0, 130.0);
+  if (coin()) text += fmt::format("chainelongationfactor = {}\n", uniform(4e-6, 9e-6));
+  return text;
+}
+
+TEST(GroundcontrolSettings, OfTwoHundredRandomFilesGoThereAndBack) {
+  constexpr std::uint64_t kSeed = 20260816;
+  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
+  std::mt19937_64 bits(kSeed);
+  for (int i = 0; i < 200; ++i) {
+    const std::string ini = random_ini(bits);
+    SCOPED_TRACE(ini);
+    expect_the_way_there_and_back(ini);
+  }
+}
+
+TEST(GroundcontrolSettings, TolerancesThatNobodyExplainsStayWithTheController) {
+  const std::string ini = read_whole_file(std::filesystem::path(CHAINTRUE_FIXTURES) / "good" /
+                                          "groundcontrol_ring.ini");
+  model::Machine machine = parse_groundcontrol(ini, "any.ini", Tolerances::unexplained).machine;
+  EXPECT_TRUE(machine.effects.empty());
+  EXPECT_EQ(machine.controller.settings.left_chain_tolerance_percent, 0.12);
+  // Nothing says what the pitch is, so nothing changes; where something does, it takes their place.
+  EXPECT_TRUE(write_groundcontrol(machine).remarks.empty());
+  machine.effects.push_back({"chain_pitch_error", "right", {{"elongation", 0.0005}}});
+  EXPECT_THAT(
+      write_groundcontrol(machine).remarks,
+      ::testing::ElementsAre("rightchaintolerance changes from 0.17 to 0.05, by the pitch of "
+                             "the chain (the effect chain_pitch_error)"));
+}
+
+TEST(GroundcontrolSettings, SayByWhatANumberChanges) {
+  const std::string ini = read_whole_file(std::filesystem::path(CHAINTRUE_FIXTURES) / "good" /
+                                          "groundcontrol_ring.ini");
+  model::Machine machine = parse_groundcontrol(ini, "any.ini").machine;
+  machine.motors.left.x_mm -= 1.5;
+  machine.motors.right.x_mm += 1.5;
+  // What a diagnosis finds of the pitch comes on top of what was stated.
+  machine.effects.push_back({"chain_pitch_error", "left", {{"elongation", 0.0005}}});
+  const GroundcontrolText typed = write_groundcontrol(machine);
+  EXPECT_THAT(typed.remarks,
+              ::testing::ElementsAre(
+                  "motorspacingx changes from 2978.4 to 2981.4, by the machine's motors (/motors)",
+                  "leftchaintolerance changes from 0.12 to 0.17, by the pitch of the chain (the "
+                  "effect chain_pitch_error)"));
 }
 
 TEST(GroundcontrolSettings, TakeUpWhatADiagnosisNamed) {

@@ -150,7 +150,7 @@ TEST(Problems, ValuesAreShortenedAndPrintable) {
 
 TEST(Problems, TheFirstHundredAreListedAndTheRestCounted) {
   Problems problems("file");
-  for (int i = 0; i < 140; ++i) problems.add("/x", "1", "2");
+  for (int i = 0; i < 140; ++i) problems.add("/x", "1", std::to_string(i));
   try {
     problems.throw_if_any();
     FAIL() << "no error";
@@ -158,6 +158,22 @@ TEST(Problems, TheFirstHundredAreListedAndTheRestCounted) {
     ASSERT_EQ(error.problems().size(), 101U);
     EXPECT_EQ(error.problems().back().message(),
               "file: found 40 more problems, expected those above to be mended first");
+  }
+}
+
+TEST(Problems, OfAKindFiveAreListedAndTheRestCounted) {
+  Problems problems("file");
+  for (int i = 0; i < 101; ++i) problems.add("/x", "1", "a whole number");
+  for (int i = 0; i < 6; ++i) problems.add("/y", "1", "a word");
+  try {
+    problems.throw_if_any();
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    // A sixth one takes no more room than its count.
+    ASSERT_EQ(error.problems().size(), 6U + 6U);
+    EXPECT_EQ(error.problems()[5].message(),
+              "file: found 96 more like these, expected a whole number");
+    EXPECT_EQ(error.problems().back().message(), "file: /y: found 1, expected a word");
   }
 }
 

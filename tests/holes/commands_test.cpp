@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <sstream>
 
 #include "grid/files/holes_file.hpp"
@@ -41,7 +42,7 @@ TEST_F(HolesCommands, TheFixtureIsWhatSimulateMakes) {
 }
 
 TEST_F(HolesCommands, FitGivesAMapThatQueryAndCheckTake) {
-  const Outcome fit = run("fit " + holes_ + " -o map.json");
+  const Outcome fit = run("fit " + holes_ + " -o map.json --verbose");
   ASSERT_EQ(fit.code, 0) << fit.err;
   EXPECT_THAT(fit.err,
               AllOf(HasSubstr("20 distances between 9 holes fit the calibrated machine"),
@@ -72,7 +73,7 @@ TEST_F(HolesCommands, FitTakesSeveralSetsOfOneMachine) {
 TEST_F(HolesCommands, FitTakesPointsAndDistancesTogether) {
   const std::string grid = fixtures_ + "/grids/seven_by_four.json";
   for (const std::string& files : {grid + " --with " + holes_, holes_ + " --with " + grid}) {
-    const Outcome fit = run("fit " + files + " -o map.json");
+    const Outcome fit = run("fit " + files + " -o map.json --verbose");
     ASSERT_EQ(fit.code, 0) << fit.err;
     EXPECT_THAT(fit.err,
                 AllOf(HasSubstr("Fitted together"),
@@ -109,7 +110,7 @@ TEST_F(HolesCommands, PlanSetsThePointsOfACheck) {
   const Outcome plan = run("plan --check map.json -o five.csv --svg five.svg");
   ASSERT_EQ(plan.code, 0) << plan.err;
   EXPECT_THAT(plan.err, HasSubstr("5 points for chaintrue check"));
-  EXPECT_THAT(content_of(folder_ / "five.csv"), StartsWith("number,x_mm,y_mm\n1,"));
+  EXPECT_THAT(content_of(folder_ / "five.csv"), StartsWith("order,x_mm,y_mm,left_mm,right_mm\n1,"));
   EXPECT_THAT(content_of(folder_ / "five.svg"), StartsWith("<svg "));
   ASSERT_EQ(run("simulate --machine " + classic_ +
                 " --marks five.csv --draw-settings --length-noise-mm 0.3 --position-noise-mm 0 "
@@ -141,8 +142,10 @@ TEST_F(HolesCommands, ThePlannedProgramDrillsEveryHole) {
   EXPECT_EQ(check.code, 0) << check.err;
   EXPECT_THAT(check.out, HasSubstr("9 straight cuts"));
   EXPECT_THAT(content_of(folder_ / "h.svg"), StartsWith("<svg "));
-  // The list is a holes file already: with the commanded distances in it, it fits at once.
-  EXPECT_EQ(run("fit list.csv --machine " + classic_ + " -o map.json").code, 0);
+  // The list is a holes file already, without a reading in it.
+  const Outcome fit = run("fit list.csv --machine " + classic_ + " -o map.json");
+  EXPECT_EQ(fit.code, 3);
+  EXPECT_THAT(fit.err, HasSubstr("found 20 distances, all left blank"));
 }
 
 TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
@@ -162,7 +165,23 @@ TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
   const std::string list = content_of(folder_ / "list.csv");
   grid::files::HolesOptions with_machine;
   with_machine.machine = grid::files::read_machine(classic_);
-  const grid::files::ReadHoles planned = grid::files::parse_holes(list, "list.csv", with_machine);
+  const auto with_readings = [&list](const std::function<std::string(const std::string&)>& read) {
+    std::istringstream lines(list);
+    std::string filled;
+    bool in_distances = false;
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t blank = line.find(",,");
+      if (in_distances && blank != std::string::npos)
+        line.insert(blank + 1, read(line.substr(blank + 2)));
+      in_distances = in_distances || line.starts_with("from,");
+      filled += line + "\n";
+    }
+    return filled;
+  };
+  const grid::files::ReadHoles planned = grid::files::parse_holes(
+      with_readings([](const std::string& as_commanded) { return as_commanded; }),
+      "list.csv",
+      with_machine);
   grid::synthetic::HolesSpec spec;
   spec.draw_settings = true;
   spec.sheet.x_mm = 6.0;
@@ -170,21 +189,11 @@ TEST_F(HolesCommands, APlannedListFilledInGoesIntoFitAsItIs) {
   spec.seed = 4;
   const auto made = grid::synthetic::simulate_holes(planned.holes, spec);
   ASSERT_TRUE(made);
-  std::istringstream lines(list);
-  std::string filled;
   std::size_t reading = 0;
-  bool in_distances = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (in_distances && !line.starts_with('#')) {
-      line = fmt::format("{}{:.1f}",
-                         line.substr(0, line.rfind(',') + 1),
-                         made->set.distances.at(reading++).distance_mm);
-    }
-    in_distances = in_distances || line.starts_with("from,");
-    filled += line + "\n";
-  }
+  write("readings.csv", with_readings([&](const std::string&) {
+          return fmt::format("{:.1f}", made->set.distances.at(reading++).distance_mm);
+        }));
   ASSERT_EQ(reading, made->set.distances.size());
-  write("readings.csv", filled);
   const Outcome fit = run("fit readings.csv --machine " + classic_ + " -o map.json");
   ASSERT_EQ(fit.code, 0) << fit.err;
   EXPECT_THAT(fit.err, HasSubstr("24 distances between 9 holes"));
@@ -235,7 +244,7 @@ TEST_F(HolesCommands, TheCertificateIsOnePage) {
               AllOf(HasSubstr("class=\"one-sheet\""),
                     HasSubstr("95 % interval"),
                     HasSubstr("What was measured"),
-                    HasSubstr("What is named"),
+                    HasSubstr("The machine's settings"),
                     HasSubstr("What remains")));
 }
 

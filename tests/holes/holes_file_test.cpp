@@ -121,18 +121,25 @@ TEST(HolesFile, InchesAreRecognised) {
               ElementsAre(HasSubstr("these and their distances look like inches")));
 }
 
-TEST(HolesFile, AForgottenHookOffsetIsSuspected) {
+TEST(HolesFile, AForgottenHookOffsetIsRefused) {
   const std::string long_by_40 =
       "hole,x_mm,y_mm\nA,-900,400\nB,900,400\nC,900,-400\nD,-900,-400\nfrom,to,distance_mm\n"
       "A,B,1841\nB,C,840\nC,D,1839\nD,A,840\nA,C,2010\nB,D,2010\n";
-  const ReadHoles read = parse_holes(long_by_40, "holes.csv");
-  ASSERT_EQ(read.warnings.size(), 1u);
-  EXPECT_THAT(
-      read.warnings[0].message(),
-      AllOf(HasSubstr("about 40.1 mm longer than commanded, the short ones like the long ones"),
-            HasSubstr("hook offset left out"),
-            HasSubstr("state 40 mm")));
+  try {
+    (void)parse_holes(long_by_40, "holes.csv");
+    FAIL() << "a map bent by 40 mm would have been made";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 1u);
+    EXPECT_THAT(error.problems()[0].message(),
+                AllOf(HasSubstr("distances all about 40.1 mm longer than commanded"),
+                      HasSubstr("the tape's hook offset"),
+                      HasSubstr("the short ones are off like the long ones: state 40 mm")));
+  }
   HolesOptions options;
+  // Who says that there is none is believed, and asked once more.
+  options.hook_offset_mm = 0.0;
+  EXPECT_THAT(parse_holes(long_by_40, "holes.csv", options).warnings[0].message(),
+              HasSubstr("state 40 mm"));
   options.hook_offset_mm = 40.0;
   EXPECT_THAT(parse_holes(long_by_40, "holes.csv", options).warnings, IsEmpty());
   options.hook_offset_mm = 80.0;

@@ -71,6 +71,47 @@ TEST_F(InBrowser, NothingStandsOutOfAPhoneScreen) {
   EXPECT_THAT(visited.dom, HasSubstr("data-overflow=\"0\""));
 }
 
+TEST_F(InBrowser, NoCellIsCutOffOnAPhone) {
+  const Visit visited = visit(html_,
+                              R"(
+    for (const folded of document.querySelectorAll("details")) folded.open = true;
+    const cut = [...document.querySelectorAll("td, caption, p, figcaption")].filter((cell) => {
+      const box = cell.getBoundingClientRect();
+      return box.width > 0 && (box.right > document.documentElement.clientWidth || cell.scrollWidth > cell.clientWidth + 1);
+    });
+    document.documentElement.dataset.cut = cut.length + ": " + cut.slice(0, 3).map((cell) => cell.textContent).join("; ");
+  )",
+                              {390, 844});
+  EXPECT_THAT(visited.console, IsEmpty());
+  EXPECT_THAT(visited.dom, HasSubstr("data-cut=\"0: \""));
+}
+
+TEST_F(InBrowser, LabelsOfAChartDoNotCollide) {
+  const Visit visited = visit(html_, R"(
+    const overlaps = [];
+    for (const chart of document.querySelectorAll("figure.chart")) {
+      const labels = [...chart.querySelectorAll(".role-axis-label text, .role-axis-title text")].filter((t) => t.textContent && getComputedStyle(t).opacity !== "0");
+      labels.forEach((one, i) => labels.slice(i + 1).forEach((other) => {
+        const a = one.getBoundingClientRect(), b = other.getBoundingClientRect();
+        if (Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 3)
+          overlaps.push(chart.dataset.spec + ": " + one.textContent + " on " + other.textContent);
+      }));
+    }
+    document.documentElement.dataset.overlaps = overlaps.length + ": " + overlaps.slice(0, 3).join("; ");
+  )");
+  EXPECT_THAT(visited.console, IsEmpty());
+  EXPECT_THAT(visited.dom, HasSubstr("data-overlaps=\"0: \""));
+}
+
+TEST_F(InBrowser, WordsAreExplainedOnceAndAtTheEnd) {
+  EXPECT_THAT(html_, HasSubstr("<h2>Words</h2>"));
+  const std::string abbr = "<abbr title=\"";
+  std::size_t found = 0;
+  for (std::size_t at = html_.find(abbr); at != std::string::npos; at = html_.find(abbr, at + 1))
+    ++found;
+  EXPECT_GT(found, 0U);
+}
+
 // The check must be able to fail: each of these pages is broken in one way.
 
 TEST_F(InBrowser, ABrokenSpecificationIsFound) {

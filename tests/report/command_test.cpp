@@ -76,6 +76,16 @@ TEST_F(ReportCommand, GivesTheSameBytesForTheSameMap) {
   EXPECT_EQ(text_of("first.html"), text_of("second.html"));
 }
 
+TEST_F(ReportCommand, ACertificateBearsTheDateThatItIsGiven) {
+  fit_demo_grid();
+  ASSERT_EQ(run(fmt::format("report '{}' --certificate --date 2026-11-22 -o '{}'",
+                            path("map.json"),
+                            path("page.html"))),
+            0);
+  EXPECT_THAT(text_of("page.html"), HasSubstr("classic Maslow, 2026-11-22</p>"));
+  EXPECT_THAT(text_of("page.html"), HasSubstr("<h2>The machine's settings</h2>"));
+}
+
 TEST_F(ReportCommand, OfAFileThatIsNoMapWritesNothing) {
   EXPECT_EQ(
       run(fmt::format(

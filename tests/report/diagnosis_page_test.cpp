@@ -76,7 +76,7 @@ TEST_F(DiagnosisPage, HoldsTheNumbersOfTheFile) {
   const std::string html = page_of(sample_diagnosis());
   for (const char* text : {"chain pitch error, left (order assumed)",
                            "or tape scale, both",
-                           "sheet placed, machine as stated",
+                           "as delivered, sheet placed",
                            "3.42 to 4.38",
                            "7 of 8 named the same",
                            "On other points: a day later (60)",
@@ -84,7 +84,8 @@ TEST_F(DiagnosisPage, HoldsTheNumbersOfTheFile) {
                            "point 10",
                            "(63.5 mm)",
                            "seed 18446744073709551615",
-                           "0.2 mm a chain and 0.3 mm a mark (one sigma, 12 degrees of freedom)"}) {
+                           "0.2 mm a chain and 0.3 mm a ",
+                           ", 12 degrees of freedom)"}) {
     EXPECT_THAT(html, HasSubstr(text));
   }
 }

@@ -171,8 +171,11 @@ TEST(Page, CarriesTheNoticesOfWhatItEmbeds) {
 
 TEST(Page, AFlaggedSettingStandsOut) {
   const std::string html = render(page_of(sample_report()));
-  EXPECT_THAT(html, HasSubstr("<tr class=\"flagged\"><td>right motor, y</td>"));
-  EXPECT_THAT(html, HasSubstr("<tr><td>left motor, x</td><td class=\"number\">\u22121489.20</td>"));
+  EXPECT_THAT(html,
+              HasSubstr("<tr class=\"flagged\"><td data-heading=\"setting\">right motor, y</td>"));
+  EXPECT_THAT(html,
+              HasSubstr("<tr><td data-heading=\"setting\">left motor, x</td><td class=\"number\" "
+                        "data-heading=\"stated\">\u22121489.20</td>"));
 }
 
 TEST(Page, WithoutChartsThereIsNoScript) {

@@ -73,6 +73,12 @@ class SweepCommand : public ::testing::Test {
   std::string whole_;
 };
 
+TEST_F(SweepCommand, ItsPageAnswersTheQuestion) {
+  // 4 x 3 and 7 x 4 marks, two ways of spacing them.
+  EXPECT_NE(whole_.find("<li>From 12 to 28 points the error goes from "), std::string::npos);
+  EXPECT_NE(whole_.find(" errs least, "), std::string::npos);
+}
+
 TEST_F(SweepCommand, KilledAtAnyMomentItGoesOnToTheSameBytes) {
   const fs::path folder = fresh_folder("killed");
   for (const int milliseconds : {20, 60, 150, 300, 500}) {

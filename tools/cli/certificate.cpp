@@ -82,7 +82,7 @@ report::Section named_section(const MapContents& contents) {
                            result.off ? "off: measure it again" : ""},
                           result.off});
   }
-  report::Section section{"What is named", {}};
+  report::Section section{"The machine's settings", {}};
   if (table.rows.empty()) {
     section.blocks.push_back(
         report::Paragraph{"Nothing: the map joins the readings themselves and knows no machine."});

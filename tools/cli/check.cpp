@@ -60,7 +60,7 @@ int run_check(const CheckCommand& command) {
     GridInput input = command.input;
     input.grid = name;
     measured.add({grid::files::name_in_messages(name),
-                  read_measured_input(input, command.tape, MeasuredUse::check)});
+                  read_measured_input(input, command.tape, MeasuredUse::check, map.machine())});
   }
   const auto check = grid::check_map(map, measured, shown_progress());
   if (!check) {

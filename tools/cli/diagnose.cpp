@@ -29,6 +29,7 @@
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -223,6 +224,10 @@ Outcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
   return found;
 }
 
+std::string page_beside(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".html").string();
+}
+
 int run_diagnose(const DiagnoseCommand& command) {
   // A wrong file is told before the work.
   std::optional<Diagnosis> before;
@@ -256,6 +261,8 @@ int run_diagnose(const DiagnoseCommand& command) {
   }
   if (!command.report.empty() && command.report != "-")
     fmt::print(stderr, "The report is {}: open it in any browser.\n", command.report);
+  if (!command.output.empty() && command.report.empty())
+    say_next({"report", command.output, "-o", page_beside(command.output)});
   return kDone;
 }
 

@@ -98,6 +98,18 @@ std::vector<Panel> panels_of(const Diagnosis& found) {
   return panels;
 }
 
+/// A rival that explains little may ask for much more than was read.
+std::string clipped_in_words(const Diagnosis& found, double full_mm) {
+  // As residual_strip.vg.json draws: an area of 1.6 times the largest, no more.
+  constexpr double kLargestDrawn = 1.6;
+  const double rival_mm =
+      found.causes.front().rival ? largest(found, &PointPicture::rival_mm) : 0.0;
+  if (rival_mm <= kLargestDrawn * full_mm) return {};
+  return fmt::format(" The rival's go up to {:.2f} mm and are drawn no larger than {:.2f} mm.",
+                     rival_mm,
+                     kLargestDrawn * full_mm);
+}
+
 Chart strip_chart(const Diagnosis& found,
                   const std::vector<Panel>& panels,
                   int chain,
@@ -105,9 +117,10 @@ Chart strip_chart(const Diagnosis& found,
   Chart chart{.specification = "residual_strip",
               .title = fmt::format("The {} chain", kChains[chain]),
               .caption = fmt::format(
-                  "Vermilion: more chain was read than predicted; blue: less. The largest circles "
-                  "are {:.2f} mm.",
-                  full_mm)};
+                  "Vermilion: more chain was read than predicted; blue: less. One scale for all "
+                  "panels: the largest circle that was measured is {:.2f} mm.{}",
+                  full_mm,
+                  clipped_in_words(found, full_mm))};
   DataTable heads{"heads", {"panel", "title", "note"}, {}};
   DataTable points{"points", {"panel", "name", "x_mm", "y_mm", "value_mm", "is_bad"}, {}};
   for (std::size_t k = 0; k < panels.size(); ++k) {
@@ -167,8 +180,8 @@ std::vector<report::ChartRow> arrow_charts(const Diagnosis& found) {
 std::vector<Chart> strip_charts(const Diagnosis& found) {
   if (found.causes.empty() || found.points.empty()) return {};
   const std::vector<Panel> panels = panels_of(found);
-  double full_mm = 0.0;
-  for (const Panel& panel : panels) full_mm = std::max(full_mm, largest(found, panel.residual));
+  // What was measured and what is left of it are compared; a rival may be larger than either.
+  const double full_mm = largest(found, &PointPicture::chain_before_mm);
   std::vector<Chart> charts;
   for (int chain = 0; chain < 2; ++chain)
     charts.push_back(strip_chart(found, panels, chain, full_mm));

@@ -13,6 +13,7 @@
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/distance_charts.hpp"
 #include "tools/cli/follow_up.hpp"
+#include "tools/report/glossary.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -288,7 +289,9 @@ report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
   const bool has_readings = !found.points.empty() || !found.distances.empty();
   page.verdict = typeset(found.sentence);
   const bool is_something_left = is_surprising(found.left_over);
-  page.tone = is_something_left && lights.tone == Tone::good ? Tone::caution : lights.tone;
+  // The bar tells how the machine is, not how sure the name: a worn chain is no good news.
+  const bool errs = is_something_left || !found.causes.empty();
+  page.tone = errs ? std::max(lights.tone, Tone::caution) : lights.tone;
   page.lights = {
       {lights.found_tone, "Found?", std::string(lights.found)},
       {is_something_left ? std::max(lights.named_tone, Tone::caution) : lights.named_tone,
@@ -322,6 +325,7 @@ report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
     page.sections.push_back(bounds_section(found));
   if (!found.settings.empty()) page.sections.push_back(settings_section(found));
   page.sections.push_back(method_section(found));
+  page.sections.push_back(report::glossary());
   page.provenance =
       fmt::format("Made from {} by chaintrue {}; seed {}.", source, CHAINTRUE_VERSION, found.seed);
   return page;

@@ -263,7 +263,7 @@ std::string fixed(double value, int digits) {
 std::vector<GainRow> gain_rows(const grid::diagnosis::Diagnosis& diagnosis) {
   const grid::diagnosis::Gain& gain = *diagnosis.gain;
   std::vector<GainRow> rows = {{"as delivered", &gain.as_delivered, {}}};
-  if (gain.placed) rows.push_back({"sheet placed, machine as stated", &*gain.placed, {}});
+  if (gain.placed) rows.push_back({"as delivered, sheet placed", &*gain.placed, {}});
   // Nothing was held out there where too few would have been left.
   const auto border = [&](double mm) {
     return gain.border.calibrated_mm > 0.0 ? std::optional(mm) : std::nullopt;

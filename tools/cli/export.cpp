@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue export: a machine as the numbers that another program wants typed in.
+/// chaintrue export: a machine, or what was measured of it, as the numbers that another program
+/// wants typed in.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -8,11 +9,16 @@
 #include <memory>
 #include <string>
 
+#include "grid/files/diagnosis_file.hpp"
+#include "grid/files/file_type.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/machine_input.hpp"
+#include "grid/map/settings_to_type.hpp"
+#include "tools/cli/map_input.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -20,15 +26,79 @@ namespace {
 namespace files = grid::files;
 
 struct ExportCommand {
-  std::string machine;
+  std::string input;
   std::string output = "-";
 };
 
+/// The numbers, and what is said beside them.
+struct Exported {
+  files::GroundcontrolText settings;
+  std::string words;
+  bool is_of_map = false;
+};
+
+/// What the machine says otherwise than its controller.
+Exported of_machine(const model::Machine& machine) {
+  return {files::write_groundcontrol(machine), "", false};
+}
+
+/// What the controller's formulas can make of the map.
+Exported of_map(const grid::CompensationMap& map, const std::string& file) {
+  const model::Machine* machine = map.machine();
+  if (machine != nullptr && !machine->controller.settings.motor_spacing_mm) {
+    return of_machine(*machine);
+  }
+  const auto typed = grid::settings_to_type(map);
+  if (!typed) throw files::InputError({{file, "", "this map", typed.error().sentence}});
+  Exported result{
+      files::write_groundcontrol_settings(
+          *machine, typed->settings, fmt::format("the {} points of {}", typed->points, file)),
+      "",
+      typed->worth_typing};
+  result.words =
+      typed->worth_typing
+          ? fmt::format(
+                "With the settings in force the tool is {:.2f} mm rms off over the measured part, "
+                "{:.2f} mm at worst; with these numbers {:.2f} and {:.2f} mm. What no number can "
+                "mend, gcode compensate does with the map.\n"
+                "Measure a few points again once they are typed in: this map is of the settings "
+                "before.\n",
+                typed->as_it_is.rms_mm,
+                typed->as_it_is.maximum_mm,
+                typed->typed.rms_mm,
+                typed->typed.maximum_mm)
+          : fmt::format(
+                "With the settings in force the tool is {:.2f} mm rms off over the measured part; "
+                "other numbers would not bring that down by a tenth, so none changes.\n",
+                typed->as_it_is.rms_mm);
+  return result;
+}
+
+Exported export_of(const std::string& path) {
+  const std::string text = files::read_whole_file(path);
+  const std::string file = files::name_in_messages(path);
+  const std::string type = files::file_type_of(text, file);
+  if (type == "chaintrue_map") return of_map(parse_map_input(text, file), file);
+  if (type == "chaintrue_diagnosis") {
+    std::vector<files::Warning> warnings;
+    const auto found = files::parse_diagnosis(text, file, &warnings);
+    print_warnings(warnings);
+    return of_machine(found.extended_machine);
+  }
+  const files::ReadMachine read = files::parse_machine_with_warnings(text, file);
+  print_warnings(read.warnings);
+  return of_machine(read.machine);
+}
+
 int export_groundcontrol(const ExportCommand& command) {
-  const files::GroundcontrolText settings =
-      files::write_groundcontrol(read_machine_input(command.machine));
-  write_output(command.output, settings.text);
-  for (const std::string& remark : settings.remarks) fmt::print(stderr, "{}\n", remark);
+  const Exported exported = export_of(command.input);
+  write_output(command.output, exported.settings.text);
+  for (const std::string& remark : exported.settings.remarks) fmt::print(stderr, "{}\n", remark);
+  if (exported.settings.remarks.empty() && exported.words.empty())
+    fmt::print(stderr, "No number changes.\n");
+  fmt::print(stderr, "{}", exported.words);
+  // Numbers that change are worth a second look at the machine.
+  if (exported.is_of_map) say_next({"plan", "--check", command.input, "-o", "check.csv"});
   return kDone;
 }
 
@@ -43,14 +113,23 @@ void add_export(CLI::App& app, Run& run) {
   auto command = std::make_shared<ExportCommand>();
   CLI::App* groundcontrol =
       verb->add_subcommand("groundcontrol", "The numbers to type into GroundControl's settings");
-  add_input(*groundcontrol, "machine", command->machine, "A chaintrue_machine file")->required();
+  add_input(*groundcontrol,
+            "file",
+            command->input,
+            "A chaintrue_machine file, a chaintrue_map, or a chaintrue_diagnosis")
+      ->required();
   add_output(*groundcontrol,
              "-o,--output",
              command->output,
              {Origin::list},
              "Where they go; - is standard output")
       ->capture_default_str();
-  groundcontrol->footer(kExample);
+  groundcontrol->footer(fmt::format(
+      "Of a machine, or of the one that a diagnosis has found, the numbers that it says "
+      "otherwise than its controller. Of a map the numbers with which the controller "
+      "as it is comes nearest to it, and how near. All others come back as they "
+      "came.\n\n{}",
+      kExample));
   groundcontrol->callback(
       [command, &run] { run = [command] { return export_groundcontrol(*command); }; });
 }

@@ -5,10 +5,12 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "grid/files/fit_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/holes/fit_together.hpp"
@@ -19,6 +21,7 @@
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -33,6 +36,8 @@ struct FitCommand {
   std::string surface = "residual";
   std::string ends = "not_a_knot";
   OutsideOption outside;
+  bool verbose = false;
+  bool json = false;
 };
 
 const std::map<std::string, interp::EndCondition>& end_conditions() {
@@ -86,8 +91,21 @@ int finish(const FitCommand& command,
                map.error().sentence);
     return kBadInput;
   }
-  write_output(command.output, grid::files::write_map(*map));
-  fmt::print(stderr, "{}{}", fit_in_words(*map), more_words);
+  std::vector<grid::files::OutputFile> outputs = {{command.output, grid::files::write_map(*map)}};
+  if (command.json) outputs.push_back({"-", grid::files::write_fit(*map, fit_sentence(*map))});
+  write_outputs(outputs);
+  fmt::print(stderr, "{}", fit_in_words(*map));
+  if (command.verbose) fmt::print(stderr, "{}{}", fit_in_tables(*map), more_words);
+  const model::Machine* machine = map->machine();
+  const bool typed = machine != nullptr && machine->controller.settings.motor_spacing_mm;
+  if (typed) {
+    say_next({"export", "groundcontrol", command.output});
+  } else {
+    say_next({"report",
+              command.output,
+              "-o",
+              std::filesystem::path(command.output).replace_extension(".html").string()});
+  }
   return kDone;
 }
 
@@ -201,6 +219,11 @@ void add_fit(CLI::App& app, Run& run) {
       ->check(CLI::IsMember({"not_a_knot", "natural", "parabolic", "clamped"}))
       ->capture_default_str();
   add_outside_options(*verb, command->outside, "continued where not said");
+  verb->add_flag("-v,--verbose",
+                 command->verbose,
+                 "Tell the tables as well: settings, errors of points left out, each distance, the "
+                 "mirror claim");
+  verb->add_flag("--json", command->json, "Print what the fit tells as JSON");
   verb->footer(
       "The fit is told on standard error.\n\nExample:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
@@ -209,6 +232,9 @@ void add_fit(CLI::App& app, Run& run) {
       "fixtures/holes/nine_holes.json "
       "-o map.json");
   verb->callback([command, &run] {
+    if (command->json && command->output == "-") {
+      throw CLI::ValidationError("fit", "--json and the map cannot both go to standard output");
+    }
     if (command->surface == "direct" && command->outside.way == "fade") {
       throw CLI::ValidationError(
           "fit", "--outside fade leaves the bare machine, which a direct surface does not have");

@@ -9,6 +9,7 @@
 
 #include "tools/cli/gcode_verbs.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/report/path_report.hpp"
 
 namespace chaintrue::cli {
@@ -30,6 +31,15 @@ Proof prove(const GcodeOptions& options,
       original, written, machine.corrector(), options.dialect(), verify_options(options, machine));
   if (!outcome) return {outcome.error().problem.message(), 0.0};
   return {outcome->fault, outcome->largest_mm()};
+}
+
+/// Verify needs no option of these to see the same.
+bool is_usual(const GcodeOptions& options) {
+  const GcodeOptions usual;
+  return options.machine.empty() && options.controller.empty() && options.report.empty() &&
+         options.frame == usual.frame && options.home == usual.home &&
+         options.tolerance_mm == usual.tolerance_mm && !options.keep_rapids_whole &&
+         !options.home_is_zero && !options.skip_deletable && !options.tools_have_no_diameter;
 }
 
 /// For the page: whether the file is safe to run, in a sentence.
@@ -149,6 +159,8 @@ int run_gcode_compensate(const GcodeOptions& options) {
                proof.largest_mm,
                options.tolerance_mm);
   }
+  if (holds && is_usual(options))
+    say_next({"gcode", "verify", options.program, options.output, "--map", options.map});
   return holds ? kDone : kCheckFailed;
 }
 

@@ -108,19 +108,23 @@ grid::MeasuredGrid read_grid_input(const GridInput& input) {
   return grid_of(files::read_whole_file(input.grid), input, std::move(options));
 }
 
-std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(const GridInput& input,
-                                                                          const TapeInput& tape,
-                                                                          MeasuredUse use) {
+std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(
+    const GridInput& input,
+    const TapeInput& tape,
+    MeasuredUse use,
+    const model::Machine* otherwise) {
   const std::string text = files::read_whole_file(input.grid);
   if (!files::looks_like_holes(text)) {
     files::GridOptions options;
     options.machine = machine_of(input);
+    if (otherwise != nullptr) options.otherwise = *otherwise;
     if (use == MeasuredUse::check) options.fewest_points = 1;
     return grid_of(text, input, std::move(options));
   }
   check_tape(tape);
   files::HolesOptions options;
   options.machine = machine_of(input);
+  if (otherwise != nullptr) options.otherwise = *otherwise;
   options.tape_sigma_mm = tape.sigma_mm;
   options.hook_offset_mm = tape.hook_offset_mm;
   options.hook_sigma_mm = tape.hook_sigma_mm;

@@ -42,9 +42,13 @@ void add_tape_options(CLI::App& verb, TapeInput& input);
 /// Enough for a fit, or for a check of what a map says.
 enum class MeasuredUse { fit, check };
 
-/// A grid or a set of holes, as the file is. \throws files::InputError.
+/// A grid or a set of holes, as the file is; `otherwise` is the machine of a file that names none,
+/// where there is one. \throws files::InputError.
 [[nodiscard]] std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(
-    const GridInput& input, const TapeInput& tape, MeasuredUse use);
+    const GridInput& input,
+    const TapeInput& tape,
+    MeasuredUse use,
+    const model::Machine* otherwise = nullptr);
 
 /// That and the files of --with: any mix of grids and holes of one machine, whose settings all that
 /// state some share. \throws files::InputError.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <vector>
 
 #include "tools/cli/holes_words.hpp"
 
@@ -31,6 +32,52 @@ class Sheet {
  private:
   const model::Bed& bed_;
   double scale_;
+};
+
+/// Where labels go so that none lies on another, nor on a hole.
+class Labels {
+ public:
+  struct Box {
+    double left, right, top, bottom;
+  };
+  Labels(double left, double right) : left_(left), right_(right) {}
+
+  void keep_free(double x, double y) {
+    constexpr double kHole = 8.0;
+    taken_.push_back({x - kHole, x + kHole, y - kHole, y + kHole});
+  }
+  /// The first of eight places about (x, y) that is free; the one that lies on least where none is.
+  Box place(double x, double y, double wide) {
+    constexpr double kHigh = 20.0, kGap = 10.0;
+    Box best{};
+    double least = -1.0;
+    for (const double up : {-kGap, kGap + kHigh, 0.5 * kHigh}) {
+      for (const double right : {kGap, -kGap - wide, -0.5 * wide}) {
+        if (up == 0.5 * kHigh && right == -0.5 * wide) continue;
+        const Box box{x + right, x + right + wide, y + up - kHigh, y + up};
+        const double lies_on = overlap(box);
+        if (least >= 0.0 && lies_on >= least) continue;
+        least = lies_on;
+        best = box;
+      }
+    }
+    taken_.push_back(best);
+    return best;
+  }
+
+ private:
+  [[nodiscard]] double overlap(const Box& box) const {
+    // Off the bed it would be cut at the picture's edge.
+    double area = 20.0 * (std::max(0.0, left_ - box.left) + std::max(0.0, box.right - right_));
+    for (const Box& other : taken_) {
+      area += std::max(0.0, std::min(box.right, other.right) - std::max(box.left, other.left)) *
+              std::max(0.0, std::min(box.bottom, other.bottom) - std::max(box.top, other.top));
+    }
+    return area;
+  }
+
+  double left_, right_;
+  std::vector<Box> taken_;
 };
 
 /// The foot of the perpendicular on an edge of the bed.
@@ -94,24 +141,27 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
                    words_of(plan.set, distance),
                    distance.distance_mm);
   }
+  Labels labels(kLeft, kLeft + kBedWide);
+  for (const grid::Hole& hole : plan.set.holes)
+    labels.keep_free(sheet.x(hole.commanded), sheet.y(hole.commanded));
   for (const grid::Hole& hole : plan.set.holes) {
     const double x = sheet.x(hole.commanded);
     const double y = sheet.y(hole.commanded);
-    const bool right_half = hole.commanded.x_mm > 0.0;
+    const std::string place =
+        fmt::format("({:.0f}, {:.0f})", hole.commanded.x_mm + 0.0, hole.commanded.y_mm + 0.0);
+    const Labels::Box box = labels.place(x, y, 18.0 + 7.5 * static_cast<double>(place.size()));
     fmt::format_to(std::back_inserter(svg),
                    "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"6\" fill=\"#ffffff\" "
                    "stroke=\"#d55e00\" stroke-width=\"3\"/>\n"
-                   "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" stroke=\"#fff7ec\" "
+                   "<text x=\"{:.1f}\" y=\"{:.1f}\" stroke=\"#fff7ec\" "
                    "stroke-width=\"4\" paint-order=\"stroke\"><tspan font-weight=\"bold\" "
-                   "font-size=\"18\">{}</tspan> ({:.0f}, {:.0f})</text>\n",
+                   "font-size=\"18\">{}</tspan> {}</text>\n",
                    x,
                    y,
-                   x + (right_half ? -10.0 : 10.0),
-                   y + (hole.commanded.y_mm > 0.0 ? 24.0 : -12.0),
-                   right_half ? "end" : "start",
+                   box.left,
+                   box.bottom - 3.0,
                    hole.name,
-                   hole.commanded.x_mm + 0.0,
-                   hole.commanded.y_mm + 0.0);
+                   place);
   }
   fmt::format_to(
       std::back_inserter(svg),

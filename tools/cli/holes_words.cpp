@@ -73,11 +73,13 @@ std::string workshop_list(const grid::HolesPlan& plan) {
                    hole.commanded.y_mm + 0.0);
   }
   text +=
-      "# Write what the tape says in the third column; as commanded it would say about so much:\n";
-  text += "from,to,distance_mm\n";
+      "# Write what the tape says into distance_mm, nothing where it was not held; about how much "
+      "to "
+      "expect stands beside it.\n";
+  text += "from,to,distance_mm,as_commanded_mm\n";
   for (const grid::HoleDistance& distance : plan.set.distances) {
     fmt::format_to(std::back_inserter(text),
-                   "{},{},{:.0f}\n",
+                   "{},{},,{:.0f}\n",
                    plan.set.holes[distance.from].name,
                    distance.edge ? name(*distance.edge) : plan.set.holes[distance.to].name,
                    distance.distance_mm);
@@ -137,27 +139,6 @@ std::string plan_in_words(const grid::HolesPlan& plan, const grid::HolesPlanRequ
                  listed(doubtful),
                  listed(unseen),
                  listed(alike));
-  return text;
-}
-
-std::string holes_gcode(const grid::HolesPlan& plan, double depth_mm, double clearance_mm) {
-  std::string text = fmt::format(
-      "(chaintrue plan: {} holes, {:g} mm deep)\n(Zero is the middle of the bed. Look whether "
-      "every "
-      "hole lies on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
-      plan.set.holes.size(),
-      depth_mm,
-      clearance_mm);
-  for (const grid::Hole& hole : plan.set.holes) {
-    fmt::format_to(std::back_inserter(text),
-                   "(hole {})\nG0 X{:.0f} Y{:.0f}\nG1 Z{:g} F150\nG0 Z{:g}\n",
-                   hole.name,
-                   hole.commanded.x_mm + 0.0,
-                   hole.commanded.y_mm + 0.0,
-                   -depth_mm,
-                   clearance_mm);
-  }
-  text += "G0 X0 Y0\nM2\n";
   return text;
 }
 

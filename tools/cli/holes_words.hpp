@@ -22,9 +22,5 @@ namespace chaintrue::cli {
 /// What the plan's set will tell, and what it cannot tell apart.
 [[nodiscard]] std::string plan_in_words(const grid::HolesPlan& plan,
                                         const grid::HolesPlanRequest& request);
-/// A program that drills the holes: metric, absolute, a rapid above each, down and up again.
-[[nodiscard]] std::string holes_gcode(const grid::HolesPlan& plan,
-                                      double depth_mm,
-                                      double clearance_mm);
 
 }  // namespace chaintrue::cli

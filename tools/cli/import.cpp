@@ -17,6 +17,7 @@
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/cli/warnings.hpp"
 
@@ -57,6 +58,7 @@ int import_optical(const OpticalCommand& command) {
              read.grid.sheet->shift_mm,
              read.grid.sheet->rotation_mrad,
              options.order ? "" : "; the order of the visits is not known");
+  say_next({"fit", command.output, "-o", "map.json"});
   return kDone;
 }
 
@@ -98,15 +100,19 @@ void add_optical(CLI::App& import, Run& run) {
 
 struct GroundcontrolCommand {
   std::string input;
+  bool nominal_pitch = false;
   std::string output = "-";
 };
 
 int import_groundcontrol(const GroundcontrolCommand& command) {
-  const files::ReadMachine read = files::read_groundcontrol(command.input);
+  const files::ReadMachine read = files::read_groundcontrol(
+      command.input,
+      command.nominal_pitch ? files::Tolerances::unexplained : files::Tolerances::are_pitch);
   std::vector<std::string> comments;
   for (const files::Warning& warning : read.warnings) comments.push_back(warning.sentence);
   write_output(command.output, files::write_machine(read.machine, comments));
   print_warnings(read.warnings);
+  say_next({"plan", "--machine", command.output, "-o", "marks.csv", "--page", "marks.html"});
   return kDone;
 }
 
@@ -121,6 +127,10 @@ void add_groundcontrol(CLI::App& import, Run& run) {
              {Origin::machine},
              "The machine file; - is standard output")
       ->capture_default_str();
+  verb->add_flag("--nominal-pitch",
+                 command->nominal_pitch,
+                 "Do not take the chain tolerances for the pitch of the chains: nobody knows where "
+                 "they come from, or they were tuned to take up something else");
   verb->footer(
       "What the settings do not say is assumed, and said so here and in the file.\n\n"
       "Example:\n"

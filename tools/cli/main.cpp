@@ -12,20 +12,25 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "grid/files/input_error.hpp"
 #include "grid/files/pending_file.hpp"
 #include "grid/printing.hpp"
+#include "tools/cli/command_line.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
 int report_bad_input(const grid::files::InputError& error) {
-  for (const auto& problem : error.problems()) fmt::print(stderr, "{}\n", problem.message());
+  std::fflush(stdout);
+  for (const auto& problem : error.problems())
+    fmt::print(stderr, "{}\n", in_red(problem.message()));
   return kBadInput;
 }
 
@@ -87,26 +92,47 @@ int run_verb(const Run& run, const std::string& verb) {
   }
 }
 
+/// --quiet may stand behind the verb as well.
+void let_verbs_pass_on(CLI::App& app) {
+  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    // A group of options has no name and belongs to its verb.
+    if (verb->get_name().empty()) continue;
+    verb->fallthrough();
+    let_verbs_pass_on(*verb);
+  }
+}
+
 int main_with_exit_code(int argc, char** argv) {
   take_up_closed_streams();
+  keep_lines_whole();
   grid::files::remove_pending_files_on_signals();
   // A limit on file sizes is then an error of writing, told like any other.
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{"chaintrue makes a hanging two-chain router cut true.", "chaintrue"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", CHAINTRUE_VERSION);
+  app.set_version_flag("-V,--version", CHAINTRUE_VERSION);
+  bool is_quiet = false;
+  app.add_flag("-q,--quiet", is_quiet, "Say nothing but what goes wrong");
+  app.footer("chaintrue help VERB, or VERB --help, says what a verb takes, with an example.");
   app.set_help_all_flag("--help-all", "The help of every verb");
   Run run;
 #define CHAINTRUE_VERB(id) add_##id(app, run);
 #include "tools/cli/verbs.def"
 #undef CHAINTRUE_VERB
+  let_verbs_pass_on(app);
+  const std::vector<std::string> words = words_of(argc, argv);
   try {
-    app.parse(argc, argv);
+    // The parser takes its words from the end.
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error) == 0 ? kDone : kUsage;
+    if (code == kUsage) fmt::print(stderr, "{}", did_you_mean(app, words));
     return finish_standard_output(code, 0);
   }
-  return run_verb(run, app.get_subcommands().front()->get_name());
+  QuietTalk talk(is_quiet);
+  const int code = run_verb(run, app.get_subcommands().front()->get_name());
+  talk.end(code != kDone && code != kCheckFailed);
+  return code;
 }
 
 }  // namespace

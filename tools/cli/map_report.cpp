@@ -178,7 +178,7 @@ std::vector<ErrorStep> steps_of(const grid::CompensationMap& map, double noise_m
          "noise of a reading",
          noise_mm,
          {},
-         fmt::format("{:.2f} mm a chain and {:.2f} mm a mark, {}",
+         fmt::format("{:.2g} mm a chain and {:.2g} mm a mark, {}",
                      contents.noise.length_mm,
                      contents.noise.position_mm,
                      contents.noise.source == "stated" ? "as stated"

@@ -129,7 +129,22 @@ std::string fit_sentence(const grid::CompensationMap& map) {
 
 std::string fit_in_words(const grid::CompensationMap& map) {
   const grid::MapContents& contents = map.contents();
-  std::string text = fit_sentence(map) + "\n";
+  std::string text = fmt::format(
+      "{}\nExpected error of the tool over the measured part (one sigma): {:.2f} mm rms, {:.2f} mm "
+      "at "
+      "worst, at ({:.0f}, {:.0f}).\n",
+      fit_sentence(map),
+      contents.accuracy.expected_tool.rms_mm,
+      contents.accuracy.expected_tool.maximum_mm,
+      contents.accuracy.expected_worst_at.x_mm,
+      contents.accuracy.expected_worst_at.y_mm);
+  for (const std::string& note : contents.notes) text += note + "\n";
+  return text;
+}
+
+std::string fit_in_tables(const grid::CompensationMap& map) {
+  const grid::MapContents& contents = map.contents();
+  std::string text;
   print_settings(text, contents);
   const bool direct = map.machine() == nullptr;
   if (contents.distances) {
@@ -158,16 +173,7 @@ std::string fit_in_words(const grid::CompensationMap& map) {
                    direct ? "the worse of the two" : "a block of the bed at a time",
                    contents.accuracy.blocked);
   }
-  fmt::format_to(std::back_inserter(text),
-                 "\nExpected error of the tool over the measured part (one sigma): {:.2f} mm rms, "
-                 "{:.2f} mm at worst, at "
-                 "({:.0f}, {:.0f}).\n",
-                 contents.accuracy.expected_tool.rms_mm,
-                 contents.accuracy.expected_tool.maximum_mm,
-                 contents.accuracy.expected_worst_at.x_mm,
-                 contents.accuracy.expected_worst_at.y_mm);
-  if (contents.mirror) text += contents.mirror->sentence + "\n";
-  for (const std::string& note : contents.notes) text += note + "\n";
+  if (contents.mirror) text += "\n" + contents.mirror->sentence + "\n";
   return text;
 }
 

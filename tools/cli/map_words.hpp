@@ -12,8 +12,10 @@ namespace chaintrue::cli {
 
 /// One sentence: how far the tool was off before, and what is left.
 [[nodiscard]] std::string fit_sentence(const grid::CompensationMap& map);
-/// The whole story, some twenty lines: sentence, settings, errors, mirror claim, notes.
+/// That, how far the tool will be off now, and what was odd: a few lines.
 [[nodiscard]] std::string fit_in_words(const grid::CompensationMap& map);
+/// The rest of the story: settings, errors of points left out, the mirror claim.
+[[nodiscard]] std::string fit_in_tables(const grid::CompensationMap& map);
 /// "left motor, x" for motor_left_x_mm, and its unit.
 [[nodiscard]] std::string_view setting_in_words(model::Setting setting);
 [[nodiscard]] std::string_view unit_of(model::Setting setting);

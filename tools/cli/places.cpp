@@ -186,6 +186,12 @@ std::vector<files::OutputFile> looked_at(const std::vector<files::OutputFile>& o
   return result;
 }
 
+void add_force(CLI::App& verb) {
+  if (verb.get_option_no_throw("--force") != nullptr) return;
+  verb.add_flag("--force")->description(
+      "Replace files that chaintrue did not make, or that were changed since");
+}
+
 }  // namespace
 
 CLI::Option* add_input(CLI::App& verb,
@@ -217,11 +223,41 @@ CLI::Option* add_output(CLI::App& verb,
                             : std::string();
       },
       ""));
-  if (verb.get_option_no_throw("--force") == nullptr) {
-    verb.add_flag("--force")->description(
-        "Replace files that chaintrue did not make, or that were changed since");
-  }
+  add_force(verb);
   return option;
+}
+
+CLI::Option* add_output_folder(CLI::App& verb,
+                               const std::string& names,
+                               std::string& path,
+                               const std::string& help) {
+  CLI::Option* option = verb.add_option(names, path, help);
+  add_force(verb);
+  return option;
+}
+
+void write_folder(const CLI::App& verb,
+                  const std::string& folder,
+                  const std::vector<FolderFile>& contents) {
+  std::error_code error;
+  const bool is_new = fs::create_directories(folder, error);
+  if (error)
+    throw files::InputError(
+        {{folder, "", error.message(), "a folder that can be made or written to"}});
+  try {
+    PlaceCheck check(chosen_places());
+    std::vector<files::OutputFile> outputs;
+    for (const FolderFile& file : contents) {
+      const fs::path path = fs::path(folder) / file.name;
+      check.look_at(path.string(), {&verb, nullptr, nullptr, {file.kind}});
+      outputs.push_back({path, files::signed_text(file.text, file.kind)});
+    }
+    check.throw_if_any();
+    files::write_whole_files(outputs);
+  } catch (...) {
+    if (is_new) fs::remove(folder, error);
+    throw;
+  }
 }
 
 void check_places() {

@@ -46,6 +46,23 @@ CLI::Option* add_output(CLI::App& verb,
                         std::vector<Origin> kinds,
                         const std::string& help);
 
+/// A folder that is made where it is not there yet; adds --force to the verb.
+CLI::Option* add_output_folder(CLI::App& verb,
+                               const std::string& names,
+                               std::string& path,
+                               const std::string& help);
+
+/// A file of such a folder, and what it is.
+struct FolderFile {
+  std::string name;
+  std::string text;
+  Origin kind;
+};
+/// All or none, held to the rules of outputs. \throws files::InputError
+void write_folder(const CLI::App& verb,
+                  const std::string& folder,
+                  const std::vector<FolderFile>& contents);
+
 /// For the verb that was chosen, before its work. \throws files::InputError with all that is wrong.
 void check_places();
 

@@ -23,6 +23,7 @@
 #include "tools/cli/plan_check.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/plan_holes.hpp"
+#include "tools/cli/plan_outputs.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -42,7 +43,17 @@ struct PlanOptions {
   std::optional<double> margin_mm;
   std::string output = "-";
   std::string drawing;
+  std::string gcode;
+  std::string page;
+  DrillOptions drill;
+  std::string measure;
+  bool json = false;
 };
+
+PlanOutputs outputs_of(const PlanOptions& options) {
+  return {
+      options.output, options.drawing, options.gcode, options.page, options.drill, options.json};
+}
 
 void check_options(const PlanOptions& options, const model::Bed& bed) {
   OptionProblems problems;
@@ -98,8 +109,9 @@ int run_check_plan(PlanOptions options) {
   request.points = options.points.value_or(request.points);
   take(options.length_noise_mm, request.length_mm);
   take(options.position_noise_mm, request.position_mm);
-  take(options.margin_mm, request.margin_mm);
-  return plan_the_check(options.check, options.output, options.drawing);
+  request.margin_mm = options.margin_mm.value_or(kReachableMm);
+  options.check.measure = options.measure;
+  return plan_the_check(options.check, outputs_of(options));
 }
 
 int run_plan(PlanOptions options) {
@@ -107,11 +119,13 @@ int run_plan(PlanOptions options) {
   if (!options.check.map.empty()) return run_check_plan(std::move(options));
   const model::Machine machine = read_machine_input(options.machine);
   if (options.holes.request.holes != 0) {
-    take(options.margin_mm, options.holes.request.margin_mm);
-    return plan_the_holes(options.holes, machine, options.output, options.drawing);
+    options.holes.request.margin_mm = options.margin_mm.value_or(kReachableMm);
+    const int code = plan_the_holes(options.holes, machine, outputs_of(options));
+    if (code == kDone) say_next_of_sheet(outputs_of(options), options.machine);
+    return code;
   }
   options.request.points = options.points.value_or(options.request.points);
-  take(options.margin_mm, options.request.margin_mm);
+  options.request.margin_mm = options.margin_mm.value_or(kReachableMm);
   take(options.length_noise_mm, options.request.noise.length_mm);
   take(options.position_noise_mm, options.request.noise.position_mm);
   check_options(options, machine.bed);
@@ -121,11 +135,18 @@ int run_plan(PlanOptions options) {
     return kNotSupportedOrOutside;
   }
   const ExpectedErrors errors = expected_errors(plan->map, machine.bed);
-  std::vector<files::OutputFile> outputs = {{options.output, marks_csv(plan->marks)}};
+  const Sheet sheet{plan->marks, sheet_of(options.measure, &machine)};
+  const grid::observation::PointNoise& noise = options.request.noise;
+  std::vector<files::OutputFile> outputs =
+      sheet_outputs(sheet,
+                    machine,
+                    {noise.length_mm, noise.position_mm, grid::StatedNoise{}.dof},
+                    outputs_of(options));
   if (!options.drawing.empty())
     outputs.push_back({options.drawing, draw_plan(*plan, machine.bed, errors)});
   write_outputs(outputs);
   fmt::print(stderr, "{}", in_words(*plan, options, errors));
+  say_next_of_sheet(outputs_of(options), options.machine);
   return kDone;
 }
 
@@ -179,7 +200,9 @@ void add_plan(CLI::App& app, Run& run) {
              "--margin-mm",
              options->margin_mm,
              {"mm", 0.0, 10000.0},
-             "From the bed's edge to the outermost marks; 10 for points, 50 for holes");
+             fmt::format("From the bed's edge to the outermost marks; {:g} where unsaid: nearer, a "
+                         "sled hangs over the edge",
+                         kReachableMm));
   add_plan_holes_options(*verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
     return fmt::format("Noise of {}, one sigma; {:g} where unsaid, with --check {:g}",
@@ -197,9 +220,21 @@ void add_plan(CLI::App& app, Run& run) {
              options->position_noise_mm,
              {"mm", 0.0, 50.0},
              noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm));
-  add_output(
-      *verb, "-o,--output", options->output, {Origin::list}, "The list (CSV); - is standard output")
+  add_measure_option(*verb, options->measure);
+  add_output(*verb,
+             "-o,--output",
+             options->output,
+             {Origin::list, Origin::measured},
+             "The list with empty cells to fill in: CSV, or JSON where the file is called so; - is "
+             "standard output")
       ->capture_default_str();
+  verb->add_flag("--json", options->json, "The list as JSON, with the machine in it");
+  add_output(*verb,
+             "--page",
+             options->page,
+             {Origin::page},
+             "Write a page to print: the bed drawn, what to do, and lines to write on");
+  add_drill_options(*verb, options->gcode, options->drill);
   add_output(*verb,
              "--svg",
              options->drawing,
@@ -209,11 +244,13 @@ void add_plan(CLI::App& app, Run& run) {
   verb->footer(
       "The list goes row by row from the bottom left, turning round at the end of each row;\n"
       "chaintrue simulate --marks takes it. The expected error is told on standard error.\n"
-      "With --holes the list is a holes file: write the tape's readings into it and hand it to\n"
-      "chaintrue fit with --machine.\n\n"
+      "Fill in the list (in an editor or a spreadsheet) and hand it to chaintrue fit, diagnose or\n"
+      "check as it is, a CSV with --machine. What is left empty is left out, and said.\n\n"
       "Examples:\n"
       "  build/chaintrue plan --machine fixtures/machines/classic.json --points 28 -o plan.csv "
       "--svg plan.svg\n"
+      "  build/chaintrue plan --machine fixtures/machines/groundcontrol.json -o marks.csv --gcode "
+      "marks.nc --page marks.html\n"
       "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
       "  build/chaintrue plan fixtures/grids/seven_by_four.json --after diagnosis.json\n"
       "  build/chaintrue plan --machine fixtures/machines/classic.json --holes 9 "

@@ -13,6 +13,7 @@
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -42,9 +43,7 @@ std::string draw(const grid::CheckPlan& plan, const grid::CompensationMap& map) 
 
 }  // namespace
 
-int plan_the_check(const CheckPlanOptions& options,
-                   const std::string& output,
-                   const std::string& drawing) {
+int plan_the_check(const CheckPlanOptions& options, const PlanOutputs& wanted) {
   const grid::CompensationMap map = read_map_input(options.map);
   check_options(options.request, map);
   const auto plan = grid::plan_check(map, options.request);
@@ -52,9 +51,13 @@ int plan_the_check(const CheckPlanOptions& options,
     fmt::print(stderr, "chaintrue plan: {}\n", plan.error().sentence);
     return kNotSupportedOrOutside;
   }
-  std::vector<files::OutputFile> outputs;
-  if (!drawing.empty()) outputs.push_back({drawing, draw(*plan, map)});
-  outputs.push_back({output, marks_csv(plan->marks)});
+  const Sheet sheet{plan->marks, sheet_of(options.measure, map.machine())};
+  std::vector<files::OutputFile> outputs = sheet_outputs(
+      sheet,
+      *map.machine(),
+      {options.request.length_mm, options.request.position_mm, grid::StatedNoise{}.dof},
+      wanted);
+  if (!wanted.drawing.empty()) outputs.push_back({wanted.drawing, draw(*plan, map)});
   write_outputs(outputs);
   fmt::print(
       stderr,
@@ -65,6 +68,7 @@ int plan_the_check(const CheckPlanOptions& options,
       100.0 * grid::kPitchGrowthSigma,
       plan->told_sigmas.left,
       plan->told_sigmas.right);
+  say_next({"check", options.map, wanted.list});
   return kDone;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "grid/holes/check_plan.hpp"
+#include "tools/cli/plan_outputs.hpp"
 
 namespace chaintrue::cli {
 
@@ -13,12 +14,12 @@ struct CheckPlanOptions {
   /// The map to check later; empty: something else is planned.
   std::string map;
   grid::CheckPlanRequest request;
+  /// Of --measure.
+  std::string measure;
 };
 
 /// Writes the list and the drawing; returns the exit code. \throws files::InputError for values out
 /// of range.
-[[nodiscard]] int plan_the_check(const CheckPlanOptions& options,
-                                 const std::string& output,
-                                 const std::string& drawing);
+[[nodiscard]] int plan_the_check(const CheckPlanOptions& options, const PlanOutputs& wanted);
 
 }  // namespace chaintrue::cli

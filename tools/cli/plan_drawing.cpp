@@ -238,18 +238,6 @@ std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed
   return svg + "</svg>\n";
 }
 
-std::string marks_csv(const std::vector<BedPoint>& marks) {
-  std::string text = "number,x_mm,y_mm\n";
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    fmt::format_to(std::back_inserter(text),
-                   "{},{:.0f},{:.0f}\n",
-                   i + 1,
-                   marks[i].x_mm + 0.0,
-                   marks[i].y_mm + 0.0);
-  }
-  return text;
-}
-
 std::string draw_plan(const grid::MeasurementPlan& plan,
                       const model::Bed& bed,
                       const ExpectedErrors& errors) {

@@ -24,9 +24,6 @@ struct ExpectedErrors {
 [[nodiscard]] ExpectedErrors expected_errors(const grid::CompensationMap& map,
                                              const model::Bed& bed);
 
-/// The list for the workshop: number,x_mm,y_mm.
-[[nodiscard]] std::string marks_csv(const std::vector<model::BedPoint>& marks);
-
 /// A self-contained SVG; nothing is fetched, no script runs.
 [[nodiscard]] std::string draw_plan(const grid::MeasurementPlan& plan,
                                     const model::Bed& bed,

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "grid/files/holes_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/effect_argument.hpp"
@@ -16,6 +17,7 @@
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/sheet_page.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -28,8 +30,6 @@ void check(const HolesPlanOptions& options, const model::Bed& bed) {
   const grid::HolesPlanRequest& request = options.request;
   require_sound(problems, request);
   problems.require("--tape-length-mm", request.longest_mm, 500.0, 100000.0);
-  problems.require("--depth-mm", options.depth_mm, 0.1, 100.0);
-  problems.require("--clearance-mm", options.clearance_mm, 0.1, 100.0);
   const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
   problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 200.0));
   problems.throw_if_any();
@@ -86,23 +86,11 @@ void add_plan_holes_options(CLI::App& verb, HolesPlanOptions& options, CLI::Opti
              request.longest_mm,
              {"mm", 500.0, 100000.0},
              "Of --holes: the tape's length");
-  add_output(verb,
-             "--gcode",
-             options.gcode,
-             {Origin::program},
-             "Of --holes: write a program that drills them");
-  add_number(verb, "--depth-mm", options.depth_mm, {"mm", 0.1, 100.0}, "Of --gcode: how deep");
-  add_number(verb,
-             "--clearance-mm",
-             options.clearance_mm,
-             {"mm", 0.1, 100.0},
-             "Of --gcode: how high between holes");
 }
 
 int plan_the_holes(const HolesPlanOptions& options,
                    const model::Machine& machine,
-                   const std::string& output,
-                   const std::string& drawing) {
+                   const PlanOutputs& wanted) {
   check(options, machine.bed);
   grid::HolesPlanRequest request = options.request;
   request.progress = shown_progress();
@@ -112,11 +100,18 @@ int plan_the_holes(const HolesPlanOptions& options,
     return kNotSupportedOrOutside;
   }
   std::vector<files::OutputFile> outputs;
-  if (!drawing.empty()) outputs.push_back({drawing, draw_holes_plan(*plan)});
-  if (!options.gcode.empty()) {
-    outputs.push_back({options.gcode, holes_gcode(*plan, options.depth_mm, options.clearance_mm)});
+  if (!wanted.drawing.empty()) outputs.push_back({wanted.drawing, draw_holes_plan(*plan)});
+  if (!wanted.page.empty()) outputs.push_back({wanted.page, holes_page(*plan, wanted.list)});
+  if (!wanted.gcode.empty()) {
+    std::vector<DrillPlace> places;
+    for (const grid::Hole& hole : plan->set.holes)
+      places.push_back({"hole " + hole.name, hole.commanded});
+    outputs.push_back(
+        {wanted.gcode, drill_gcode(fmt::format("{} holes", places.size()), places, wanted.drill)});
   }
-  outputs.push_back({output, workshop_list(*plan)});
+  outputs.push_back({wanted.list,
+                     is_json_wanted(wanted.json, wanted.list) ? files::write_holes_sheet(plan->set)
+                                                              : workshop_list(*plan)});
   write_outputs(outputs);
   fmt::print(stderr, "{}", plan_in_words(*plan, options.request));
   return kDone;

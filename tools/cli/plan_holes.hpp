@@ -8,15 +8,13 @@
 #include "grid/holes/holes_plan.hpp"
 #include "tools/cli/cli_fwd.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/plan_outputs.hpp"
 
 namespace chaintrue::cli {
 
 struct HolesPlanOptions {
   /// 0 holes: points are planned instead.
   grid::HolesPlanRequest request{.holes = 0};
-  double depth_mm = 3.0;
-  double clearance_mm = 5.0;
-  std::string gcode;
 };
 
 /// The numbers of holes and distances and their sigmas, as every verb that plans holes has them.
@@ -28,7 +26,6 @@ void add_plan_holes_options(CLI::App& verb, HolesPlanOptions& options, CLI::Opti
 /// for values out of range.
 [[nodiscard]] int plan_the_holes(const HolesPlanOptions& options,
                                  const model::Machine& machine,
-                                 const std::string& output,
-                                 const std::string& drawing);
+                                 const PlanOutputs& wanted);
 
 }  // namespace chaintrue::cli

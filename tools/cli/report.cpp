@@ -32,6 +32,7 @@ struct ReportCommand {
   std::string input;
   std::string output;
   bool certificate = false;
+  std::string date;
 };
 
 /// A kind of file that has a page; `called` stands for one that came through a pipe.
@@ -96,7 +97,11 @@ int run_report(const ReportCommand& command) {
                               "\"chaintrue_map\": only a map has a certificate"}});
   }
   const auto page = command.certificate ? kind.certificate : kind.page;
-  write_output(command.output, report::render(page(text, file, source)));
+  report::Page made = page(text, file, source);
+  // The clock is not asked: the same map gives the same page.
+  if (!command.date.empty())
+    made.subtitle += fmt::format("{}{}", made.subtitle.empty() ? "" : ", ", command.date);
+  write_output(command.output, report::render(made));
   if (command.output != "-")
     fmt::print(stderr, "The report is {}: open it in any browser.\n", command.output);
   return kDone;
@@ -117,6 +122,7 @@ void add_report(CLI::App& app, Run& run) {
       *verb, "-o,--output", command->output, {Origin::page}, "The HTML file; - is standard output")
       ->required();
   verb->add_flag("--certificate", command->certificate, "One page of a map, to print");
+  verb->add_option("--date", command->date, "A date to print below the title, as in 2026-11-22");
   verb->footer(
       "Examples:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <string>
+#include <vector>
 
 namespace chaintrue::cli {
 namespace {
@@ -69,6 +72,62 @@ report::Table table(const sweep::SweepSpec& spec, const std::vector<sweep::Level
   return table;
 }
 
+/// Pooled over the grids, a level of a factor each; 0 where nothing was done.
+std::vector<double> errors_of_levels(const std::vector<sweep::LevelError>& errors,
+                                     std::size_t factor,
+                                     std::size_t levels) {
+  std::vector<double> squares(levels, 0.0);
+  std::vector<double> cells(levels, 0.0);
+  for (const sweep::LevelError& error : errors) {
+    if (error.factor != factor) continue;
+    const auto number = static_cast<double>(error.cells);
+    squares[error.level] += number * error.tool_rms_mm * error.tool_rms_mm;
+    cells[error.level] += number;
+  }
+  for (std::size_t level = 0; level < levels; ++level)
+    squares[level] = cells[level] > 0.0 ? std::sqrt(squares[level] / cells[level]) : 0.0;
+  return squares;
+}
+
+/// What the sweep says to its own question, a sentence for each factor that varies.
+std::vector<std::string> answers(const sweep::SweepSpec& spec,
+                                 const std::vector<sweep::LevelError>& errors) {
+  const auto counts = sweep::level_counts(spec);
+  std::vector<std::string> sentences;
+  std::vector<sweep::LevelError> grids;
+  for (const sweep::LevelError& error : errors) {
+    if (error.factor + 1 == sweep::kFactors) grids.push_back(error);
+  }
+  if (grids.size() > 1) {
+    const auto [fewest, most] =
+        std::minmax_element(grids.begin(), grids.end(), [&](const auto& a, const auto& b) {
+          return points_of(spec, a.grid) < points_of(spec, b.grid);
+        });
+    sentences.push_back(fmt::format(
+        "From {:.0f} to {:.0f} points the error goes from {:.2f} to {:.2f} mm rms at the tool.",
+        points_of(spec, fewest->grid),
+        points_of(spec, most->grid),
+        fewest->tool_rms_mm,
+        most->tool_rms_mm));
+  }
+  for (std::size_t factor = 0; factor + 1 < sweep::kFactors; ++factor) {
+    if (counts[factor] < 2) continue;
+    const std::vector<double> rms = errors_of_levels(errors, factor, counts[factor]);
+    const auto [least, most] = std::minmax_element(rms.begin(), rms.end());
+    const auto level = [&](auto at) {
+      return sweep::level_name(spec, factor, static_cast<std::size_t>(at - rms.begin()));
+    };
+    sentences.push_back(
+        fmt::format("{}: {} errs least, {:.2f} mm rms at the tool; {} most, {:.2f} mm.",
+                    kTitles[factor],
+                    level(least),
+                    *least,
+                    level(most),
+                    *most));
+  }
+  return sentences;
+}
+
 }  // namespace
 
 report::Page sweep_page(const sweep::SweepSpec& spec,
@@ -87,6 +146,7 @@ report::Page sweep_page(const sweep::SweepSpec& spec,
                              sweep::cells(spec),
                              sweep::combinations(spec),
                              spec.repetitions);
+  page.advice = answers(spec, errors);
   page.not_proved = "Made with the simulator; a real machine has errors that it does not know.";
   page.sections.push_back(std::move(panels));
   page.sections.push_back({"Numbers", {table(spec, errors)}});

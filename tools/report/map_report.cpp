@@ -10,6 +10,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tools/report/glossary.hpp"
+
 namespace chaintrue::report {
 namespace {
 
@@ -254,7 +256,8 @@ Chart error_map_chart(const MapReport& report) {
 }
 
 Page page_of(const MapReport& report) {
-  Page page{.title = fmt::format("Compensation map: {}", report.name),
+  Page page{.title = report.name.empty() ? "Compensation map"
+                                         : fmt::format("Compensation map: {}", report.name),
             .subtitle = report.machine_name,
             .verdict = report.verdict,
             .tone = report.tone,
@@ -278,6 +281,7 @@ Page page_of(const MapReport& report) {
     for (const std::string& finding : report.findings) section.blocks.push_back(Paragraph{finding});
     page.sections.push_back(std::move(section));
   }
+  if (!page.sections.empty()) page.sections.push_back(glossary());
   return page;
 }
 

@@ -5,15 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 
 #include "grid/precondition.hpp"
 #include "tools/report/embedded.hpp"
+#include "tools/report/glossary.hpp"
 #include "tools/report/page.hpp"
 
 namespace chaintrue::report {
@@ -200,7 +203,7 @@ class Writer {
     }
     for (const Block& block : section.blocks) {
       std::visit(Overloaded{
-                     [&](const Paragraph& text) { add("<p>{}</p>\n", escaped(text.text)); },
+                     [&](const Paragraph& text) { add("<p>{}</p>\n", explained(text.text)); },
                      [&](const Figures& figures) { write_figures(figures); },
                      [&](const Table& table) { write_table(table); },
                      [&](const Chart& chart) { write_chart(chart); },
@@ -238,8 +241,9 @@ class Writer {
       }
       add("<tr{}>", row.is_flagged ? " class=\"flagged\"" : "");
       for (std::size_t i = 0; i < row.cells.size(); ++i) {
-        add("<td{}>{}</td>",
+        add("<td{} data-heading=\"{}\">{}</td>",
             table.columns[i].is_number ? " class=\"number\"" : "",
+            escaped(table.columns[i].heading),
             escaped(row.cells[i]));
       }
       add("</tr>\n");
@@ -292,7 +296,34 @@ class Writer {
     add("\nchaintrueModules[\"{}\"] = module.exports;\n}})();\n", module.name);
   }
 
+  /// A paragraph with the meaning of each word of the glossary where it first stands on the page.
+  std::string explained(std::string_view text) {
+    std::string html = escaped(text);
+    const auto is_letter = [&html](std::size_t at) {
+      return at < html.size() && std::isalnum(static_cast<unsigned char>(html[at])) != 0;
+    };
+    for (const Term& term : terms()) {
+      if (explained_.contains(term.word)) continue;
+      const std::size_t at = html.find(term.word);
+      if (at == std::string::npos || (at > 0 && is_letter(at - 1)) ||
+          is_letter(at + term.word.size()) || is_in_an_abbr(html, at)) {
+        continue;
+      }
+      explained_.insert(term.word);
+      html.replace(at,
+                   term.word.size(),
+                   fmt::format("<abbr title=\"{}\">{}</abbr>", escaped(term.meaning), term.word));
+    }
+    return html;
+  }
+
+  static bool is_in_an_abbr(const std::string& html, std::size_t at) {
+    const std::size_t opened = html.rfind("<abbr", at);
+    return opened != std::string::npos && html.find("</abbr>", opened) > at;
+  }
+
   std::string html_;
+  std::set<std::string_view> explained_;
   Json charts_ = Json::array();
   std::map<std::string, Json> specifications_;
 };

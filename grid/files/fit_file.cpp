@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/fit_file.hpp"
+
+#include <algorithm>
+
+#include "grid/files/formats.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+Json summary_of(const ErrorSummary& error) {
+  return {{"rms_mm", error.rms_mm}, {"maximum_mm", error.maximum_mm}};
+}
+
+Json held_out(const HeldOutError& error) {
+  return {{"chain", summary_of(error.chain)}, {"tool", summary_of(error.tool)}};
+}
+
+}  // namespace
+
+std::string write_fit(const CompensationMap& map, std::string_view sentence) {
+  const MapContents& contents = map.contents();
+  Json json = headed(kFitFormat);
+  json["sentence"] = std::string(sentence);
+  json["points"] = contents.points.size();
+  json["set_aside"] = std::count_if(
+      contents.points.begin(), contents.points.end(), [](const MapPoint& p) { return p.bad; });
+  json["one_at_a_time"] = held_out(contents.accuracy.leave_one_out);
+  json["a_block_at_a_time"] = held_out(contents.accuracy.blocked);
+  json["expected_tool"] = summary_of(contents.accuracy.expected_tool);
+  json["expected_tool"]["worst_at"] = {{"x_mm", contents.accuracy.expected_worst_at.x_mm},
+                                       {"y_mm", contents.accuracy.expected_worst_at.y_mm}};
+  if (contents.distances) {
+    json["distances"] = {{"used", contents.distances->used},
+                         {"set_aside", contents.distances->set_aside},
+                         {"left_out", summary_of(contents.distances->left_out_good)}};
+  }
+  json["settings"] = Json::array();
+  for (const SettingResult& setting : contents.settings) {
+    json["settings"].push_back({{"setting", std::string(model::name(setting.setting))},
+                                {"stated", setting.stated},
+                                {"calibrated", setting.calibrated},
+                                {"sigma", setting.sigma},
+                                {"off", setting.off}});
+  }
+  json["mirror"] = contents.mirror ? Json(contents.mirror->sentence) : Json(nullptr);
+  json["notes"] = contents.notes;
+  return print_json(json);
+}
+
+}  // namespace chaintrue::grid::files

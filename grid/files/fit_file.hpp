@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a fit tells, as JSON, for scripts; the map itself is in its own file. Written only. Same
+/// map, same bytes.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "grid/map/compensation_map.hpp"
+
+namespace chaintrue::grid::files {
+
+[[nodiscard]] std::string write_fit(const CompensationMap& map, std::string_view sentence);
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The settings that GroundControl and WebControl share, whichever form they are kept in. Private
+/// to grid/files.
+#pragma once
+
+#include "grid/files/groundcontrol_file.hpp"
+#include "grid/files/ini_table.hpp"
+
+namespace chaintrue::grid::files {
+
+/// As groundcontrol_file.hpp says. \throws InputError with every problem of the file.
+[[nodiscard]] ReadMachine machine_of_settings(const IniTable& table,
+                                              Tolerances tolerances,
+                                              Problems& problems);
+
+}  // namespace chaintrue::grid::files

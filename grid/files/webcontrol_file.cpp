@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/webcontrol_file.hpp"
+
+#include <fmt/format.h>
+
+#include "grid/files/groundcontrol_settings.hpp"
+#include "grid/files/json_text.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+/// Numbers are kept as texts by most versions, as numbers by some.
+std::string text_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_null() ? std::string() : value.dump();
+}
+
+}  // namespace
+
+bool looks_like_webcontrol(std::string_view text) {
+  return text.find("\"Maslow Settings\"") != std::string_view::npos &&
+         text.find("\"Advanced Settings\"") != std::string_view::npos;
+}
+
+ReadMachine parse_webcontrol(const std::string& text, const std::string& file) {
+  Problems problems(file);
+  const Json json = parse_json(text, problems);
+  problems.throw_if_any();
+  std::map<std::string, std::vector<IniEntry>> sections;
+  for (const auto& [section, settings] : json.items()) {
+    if (!settings.is_array()) continue;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      const Json& setting = settings[i];
+      if (!setting.is_object() || !setting.contains("key") || !setting.contains("value")) continue;
+      sections[section].push_back({text_of(setting.at("key")),
+                                   text_of(setting.at("value")),
+                                   fmt::format("/{}/{}/value", section, i)});
+    }
+  }
+  return machine_of_settings(IniTable(std::move(sections)), Tolerances::are_pitch, problems);
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/settings_to_type.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "model/controllers/payout.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::ControllerSettings;
+using model::Machine;
+
+/// A setting that may change: how far it usually is from the truth, and a step to differentiate by.
+struct FreeSetting {
+  std::optional<double> ControllerSettings::*value;
+  double sigma;
+  double step;
+};
+
+/// Those that the controller has; what it was never told it may not know.
+std::vector<FreeSetting> free_settings(const Machine& machine) {
+  using S = ControllerSettings;
+  const double motor_mm = machine.uncertainty.motor_position_mm;
+  const double spacing_mm = machine.motors.right.x_mm - machine.motors.left.x_mm;
+  const double pitch_percent =
+      100.0 * model::effects::find_effect("chain_pitch_error")->parameters.front().prior_sigma;
+  // Owners' calibrations ended between 20 and 35 where the chain's weight makes 6 to 8.
+  constexpr double kSagSigma = 10.0;
+  const std::vector<FreeSetting> all = {
+      {&S::motor_spacing_mm, std::sqrt(2.0) * motor_mm, 0.1},
+      {&S::motor_offset_y_mm, motor_mm / std::sqrt(2.0), 0.1},
+      {&S::top_beam_tilt_deg,
+       std::sqrt(2.0) * motor_mm / spacing_mm * 180.0 / std::numbers::pi,
+       1e-3},
+      {&S::rotation_radius_mm, machine.uncertainty.ring_radius_mm, 0.1},
+      {&S::chain_sag_correction, kSagSigma, 0.1},
+      {&S::left_chain_tolerance_percent, pitch_percent, 1e-3},
+      {&S::right_chain_tolerance_percent, pitch_percent, 1e-3},
+  };
+  std::vector<FreeSetting> present;
+  for (const FreeSetting& setting : all) {
+    const bool told = (machine.controller.settings.*setting.value).has_value();
+    // What is known exactly does not move.
+    if (told && setting.sigma > 0.0) present.push_back(setting);
+  }
+  return present;
+}
+
+/// A place of the measured part as the map has it.
+struct Place {
+  model::BedPoint at;
+  model::ChainLengths lengths;
+  Eigen::Matrix2d to_tool;
+};
+
+std::vector<Place> measured_places(const CompensationMap& map) {
+  // Closer than any wave of a map between a few dozen points, and quick.
+  constexpr int kColumns = 25;
+  constexpr int kRows = 13;
+  const model::Bed& bed = map.machine()->bed;
+  std::vector<Place> places;
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      const model::BedPoint at{bed.width_mm * ((column + 0.5) / kColumns - 0.5),
+                               bed.height_mm * ((row + 0.5) / kRows - 0.5)};
+      if (map.status(at, Frame::bed) != MapStatus::inside) continue;
+      if (const auto answer = map.lengths(at, Frame::bed))
+        places.push_back({at, answer->lengths, answer->mark_jacobian.inverse()});
+    }
+  }
+  return places;
+}
+
+/// (1) at every place, x and y one below the other; nothing where the controller cannot go to one.
+std::optional<Eigen::VectorXd> tool_errors(Machine machine,
+                                           const ControllerSettings& settings,
+                                           const std::vector<Place>& places) {
+  machine.controller.settings = settings;
+  const auto controller = model::make_controller_kinematics(machine);
+  Eigen::VectorXd errors(2 * static_cast<Eigen::Index>(places.size()));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto paid_out = controller->lengths(places[i].at);
+    if (!paid_out) return std::nullopt;
+    errors.segment<2>(2 * static_cast<Eigen::Index>(i)) =
+        places[i].to_tool * Eigen::Vector2d(paid_out->left_mm - places[i].lengths.left_mm,
+                                            paid_out->right_mm - places[i].lengths.right_mm);
+  }
+  return errors;
+}
+
+ErrorSummary summary_of(const Eigen::VectorXd& errors) {
+  ErrorSummary result;
+  const Eigen::Index places = errors.size() / 2;
+  for (Eigen::Index i = 0; i < places; ++i)
+    result.maximum_mm = std::max(result.maximum_mm, errors.segment<2>(2 * i).norm());
+  result.rms_mm = std::sqrt(errors.squaredNorm() / static_cast<double>(places));
+  return result;
+}
+
+/// One step of Gauss and Newton from `now`; `weight` is of an error's square beside the priors'.
+std::optional<ControllerSettings> improved(const Machine& machine,
+                                           const ControllerSettings& now,
+                                           const std::vector<FreeSetting>& free,
+                                           const std::vector<Place>& places,
+                                           double weight) {
+  const auto errors = tool_errors(machine, now, places);
+  if (!errors) return std::nullopt;
+  const auto unknowns = static_cast<Eigen::Index>(free.size());
+  Eigen::MatrixXd by_setting(errors->size(), unknowns);
+  Eigen::VectorXd beside(unknowns);  // of the settings in force, in sigmas
+  for (Eigen::Index k = 0; k < unknowns; ++k) {
+    const FreeSetting& setting = free[static_cast<std::size_t>(k)];
+    ControllerSettings more = now;
+    ControllerSettings less = now;
+    *(more.*setting.value) += setting.step;
+    *(less.*setting.value) -= setting.step;
+    const auto up = tool_errors(machine, more, places);
+    const auto down = tool_errors(machine, less, places);
+    if (!up || !down) return std::nullopt;
+    by_setting.col(k) = (*up - *down) * (setting.sigma / (2.0 * setting.step));
+    beside[k] =
+        (*(now.*setting.value) - *(machine.controller.settings.*setting.value)) / setting.sigma;
+  }
+  Eigen::MatrixXd normal = weight * by_setting.transpose() * by_setting;
+  normal.diagonal().array() += 1.0;
+  const Eigen::VectorXd right = -weight * by_setting.transpose() * *errors - beside;
+  const Eigen::VectorXd step = normal.llt().solve(right);
+  ControllerSettings better = now;
+  for (Eigen::Index k = 0; k < unknowns; ++k) {
+    const FreeSetting& setting = free[static_cast<std::size_t>(k)];
+    *(better.*setting.value) += setting.sigma * step[k];
+  }
+  return better;
+}
+
+/// To the digits that are typed.
+void round_to_type(const std::vector<FreeSetting>& free,
+                   const ControllerSettings& in_force,
+                   ControllerSettings& settings) {
+  constexpr double kPerUnit = 1e4;
+  const auto rounded = [](double value) { return std::round(value * kPerUnit) / kPerUnit; };
+  for (const FreeSetting& setting : free) {
+    double& value = *(settings.*setting.value);
+    const double now = *(in_force.*setting.value);
+    value = rounded(value) == rounded(now) ? now : rounded(value);
+  }
+}
+
+std::size_t good_points(const CompensationMap& map) {
+  const auto& points = map.contents().points;
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const MapPoint& p) { return !p.bad; }));
+}
+
+tl::unexpected<SettingsFailure> failure(SettingsFailure::Reason reason, const char* sentence) {
+  return tl::unexpected(SettingsFailure{reason, sentence});
+}
+
+}  // namespace
+
+tl::expected<SettingsToType, SettingsFailure> settings_to_type(const CompensationMap& map) {
+  const Machine* machine = map.machine();
+  if (machine == nullptr) {
+    return failure(SettingsFailure::Reason::no_machine,
+                   "this map was made without a machine, so there are no settings to mend: fit the "
+                   "points again with --machine, and without --surface direct");
+  }
+  const model::ControllerKind kind = machine->controller.kind;
+  const bool maslow =
+      kind == model::ControllerKind::maslow_classic || kind == model::ControllerKind::holey;
+  const std::vector<Place> places = measured_places(map);
+  const auto before = tool_errors(*machine, machine->controller.settings, places);
+  if (!maslow || !std::holds_alternative<model::Ring>(machine->attachment) || !before ||
+      places.empty()) {
+    return failure(SettingsFailure::Reason::another_controller,
+                   "the map's machine has no controller of a Maslow with a ring, whose settings "
+                   "could be fitted to the map: compensate the G-code with the map");
+  }
+  const std::vector<FreeSetting> free = free_settings(*machine);
+  SettingsToType result;
+  result.settings = machine->controller.settings;
+  result.as_it_is = result.typed = summary_of(*before);
+  result.points = good_points(map);
+  // Places tell no more than the points that they come from; below a twentieth of a millimetre no
+  // bed is cut.
+  constexpr double kFinestMm = 0.05;
+  const double sigma_mm = std::max(map.contents().accuracy.expected_tool.rms_mm, kFinestMm);
+  const double weight = static_cast<double>(std::max<std::size_t>(result.points, 1)) /
+                        static_cast<double>(places.size()) / (sigma_mm * sigma_mm);
+  // An error no larger than the map's own may be the map's.
+  constexpr double kBeyondTheMap = 2.0;
+  if (result.as_it_is.rms_mm < kBeyondTheMap * map.contents().accuracy.expected_tool.rms_mm)
+    return result;
+  ControllerSettings settings = result.settings;
+  // The formulas bend little over some millimetres: the third step is below what is typed.
+  constexpr int kSteps = 4;
+  for (int step = 0; step < kSteps; ++step) {
+    const auto better = improved(*machine, settings, free, places, weight);
+    if (!better) return result;
+    settings = *better;
+  }
+  round_to_type(free, machine->controller.settings, settings);
+  const auto after = tool_errors(*machine, settings, places);
+  // A tenth of the error is not worth a new set of numbers.
+  constexpr double kWorthTyping = 0.9;
+  if (!after || summary_of(*after).rms_mm > kWorthTyping * result.as_it_is.rms_mm) return result;
+  result.settings = settings;
+  result.typed = summary_of(*after);
+  result.worth_typing = true;
+  return result;
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers to type in, from maps of machines that some settings make exactly right.
+#include "grid/map/settings_to_type.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "grid/map/fit.hpp"
+#include "model/controllers/payout.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::ControllerSettings;
+using model::Machine;
+
+/// As GroundControl's settings would make it; owners' calibrations leave a sag like this one.
+Machine imported_machine() {
+  Machine machine;
+  machine.controller.kind = model::ControllerKind::maslow_classic;
+  ControllerSettings& settings = machine.controller.settings;
+  settings.bed_width_mm = machine.bed.width_mm;
+  settings.bed_height_mm = machine.bed.height_mm;
+  settings.motor_spacing_mm = 2978.4;
+  settings.motor_offset_y_mm = 463.0;
+  settings.rotation_radius_mm = 139.1;
+  settings.chain_sag_correction = 25.0;
+  settings.left_chain_tolerance_percent = 0.12;
+  settings.right_chain_tolerance_percent = 0.17;
+  machine.effects = {{"chain_pitch_error", "left", {{"elongation", 0.0012}}},
+                     {"chain_pitch_error", "right", {{"elongation", 0.0017}}}};
+  return machine;
+}
+
+/// 28 commands, and where the tool went: a machine that would be exactly right with `right`.
+MeasuredGrid grid_of(const Machine& machine, const ControllerSettings& right) {
+  Machine would_be_right = machine;
+  would_be_right.controller.settings = right;
+  const auto told = model::make_controller_kinematics(machine);
+  const auto true_one = model::make_controller_kinematics(would_be_right);
+  MeasuredGrid grid;
+  grid.machine = machine;
+  grid.noise = StatedNoise{0.1, 0.1, 15.0};
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 7; ++column) {
+      const model::BedPoint command{-1080.0 + 360.0 * column, -510.0 + 340.0 * row};
+      grid.points.push_back(
+          {*true_one->command(*told->lengths(command)), std::nullopt, command, std::nullopt});
+    }
+  }
+  return grid;
+}
+
+TEST(SettingsToType, OfAMachineThatIsRightStayAsTheyAre) {
+  const Machine machine = imported_machine();
+  const auto map = fit(grid_of(machine, machine.controller.settings));
+  ASSERT_TRUE(map) << map.error().sentence;
+  for (const MapPoint& point : map->contents().points) {
+    // Newton of the controller's formulas: 1e-9 mm, and a few roundings of metres.
+    EXPECT_NEAR(point.as_stated_mm.norm(), 0.0, 1e-8);
+  }
+  const auto typed = settings_to_type(*map);
+  ASSERT_TRUE(typed) << typed.error().sentence;
+  EXPECT_FALSE(typed->worth_typing);
+  EXPECT_EQ(typed->settings.motor_spacing_mm, 2978.4);
+  EXPECT_EQ(typed->settings.chain_sag_correction, 25.0);
+  // What the map makes of the firmware's formulas where its points are not: less than twice the
+  // error that it expects of itself.
+  EXPECT_LT(typed->as_it_is.rms_mm, 2.0 * map->contents().accuracy.expected_tool.rms_mm);
+}
+
+TEST(SettingsToType, BringTheToolBack) {
+  const Machine machine = imported_machine();
+  ControllerSettings right = machine.controller.settings;
+  *right.motor_spacing_mm += 5.0;
+  *right.rotation_radius_mm -= 1.5;
+  *right.chain_sag_correction = 8.0;
+  *right.right_chain_tolerance_percent = 0.08;
+  const auto map = fit(grid_of(machine, right));
+  ASSERT_TRUE(map) << map.error().sentence;
+  const auto typed = settings_to_type(*map);
+  ASSERT_TRUE(typed) << typed.error().sentence;
+  EXPECT_TRUE(typed->worth_typing);
+  EXPECT_EQ(typed->points, 28U);
+  EXPECT_GT(typed->as_it_is.rms_mm, 2.0) << "the machine was not wrong to begin with";
+  // There are numbers that make it right; the map knows it to a tenth of a millimetre.
+  EXPECT_LT(typed->typed.rms_mm, 0.15);
+  // What the settings make of places that the map has not seen: the tool itself.
+  Machine mended = machine;
+  mended.controller.settings = typed->settings;
+  Machine truth = machine;
+  truth.controller.settings = right;
+  const auto told = model::make_controller_kinematics(mended);
+  const auto goes = model::make_controller_kinematics(truth);
+  for (const model::BedPoint command : {model::BedPoint{-900.0, -340.0},
+                                        model::BedPoint{0.0, 170.0},
+                                        model::BedPoint{900.0, 400.0}}) {
+    const model::BedPoint went = *goes->command(*told->lengths(command));
+    // Three sigmas of the map's expected error on each axis.
+    EXPECT_NEAR(went.x_mm, command.x_mm, 0.3);
+    EXPECT_NEAR(went.y_mm, command.y_mm, 0.3);
+  }
+}
+
+TEST(SettingsToType, AreNotMadeForOtherControllers) {
+  Machine machine = imported_machine();
+  MeasuredGrid grid = grid_of(machine, machine.controller.settings);
+  grid.machine->controller = {model::ControllerKind::fluidnc_wallplotter, {}};
+  const auto map = fit(grid);
+  ASSERT_TRUE(map) << map.error().sentence;
+  const auto typed = settings_to_type(*map);
+  ASSERT_FALSE(typed);
+  EXPECT_EQ(typed.error().reason, SettingsFailure::Reason::another_controller);
+  EXPECT_THAT(typed.error().sentence, testing::HasSubstr("compensate the G-code"));
+}
+
+}  // namespace
+}  // namespace chaintrue::grid

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/command_line.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "grid/files/problems.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+std::vector<std::string> verbs_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    // Groups of options are subcommands without a name.
+    if (!verb->get_name().empty()) names.push_back(verb->get_name());
+  }
+  return names;
+}
+
+void add_options(const CLI::App& app, std::vector<std::string>& names) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (group->get_name().empty()) add_options(*group, names);
+  }
+}
+
+const CLI::App* verb_named(const CLI::App& app, const std::string& name) {
+  const std::vector<std::string> names = verbs_of(app);
+  if (std::find(names.begin(), names.end(), name) == names.end()) return nullptr;
+  return app.get_subcommand(name);
+}
+
+}  // namespace
+
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.push_back("--help");
+  return words;
+}
+
+std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* verb = &app;
+  std::size_t at = 0;
+  for (; at < words.size() && words[at].rfind('-', 0) != 0; ++at) {
+    const CLI::App* next = verb_named(*verb, words[at]);
+    if (next == nullptr) break;
+    verb = next;
+  }
+  const std::string verb_name = verb == &app ? "chaintrue" : "chaintrue " + verb->get_name();
+  if (!verbs_of(*verb).empty() && at < words.size() && words[at].rfind('-', 0) != 0) {
+    const std::string near = grid::files::nearest(words[at], verbs_of(*verb));
+    if (near.empty()) return {};
+    return fmt::format(
+        "There is no {} {}. Did you mean {} {}?\n", verb_name, words[at], verb_name, near);
+  }
+  std::vector<std::string> known;
+  add_options(*verb, known);
+  add_options(app, known);
+  for (; at < words.size(); ++at) {
+    const std::string option = words[at].substr(0, words[at].find('='));
+    if (option.rfind("--", 0) != 0 || option == "--") continue;
+    if (std::find(known.begin(), known.end(), option) != known.end()) continue;
+    const std::string near = grid::files::nearest(option, known);
+    if (near.empty()) return {};
+    return fmt::format("{} has no option {}. Did you mean {}?\n", verb_name, option, near);
+  }
+  return {};
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue completion and chaintrue man: completion for shells and manual pages, made from the
+/// verbs and options themselves, the text of --help.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+/// A verb as it is typed, and its options.
+struct Command {
+  std::vector<std::string> words;  ///< {"gcode", "verify"}; none: chaintrue itself
+  const CLI::App* app = nullptr;
+  std::vector<const CLI::Option*> options;
+  std::vector<const CLI::Option*> arguments;
+  std::vector<const CLI::App*> verbs;
+};
+
+void gather(const CLI::App& app, Command& command) {
+  for (const CLI::Option* option : app.get_options()) {
+    (option->get_positional() ? command.arguments : command.options).push_back(option);
+  }
+  for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
+    // Groups of options have no name.
+    if (below->get_name().empty()) {
+      gather(*below, command);
+    } else {
+      command.verbs.push_back(below);
+    }
+  }
+}
+
+void walk(const CLI::App& app, std::vector<std::string> words, std::vector<Command>& all) {
+  Command command{std::move(words), &app, {}, {}, {}};
+  gather(app, command);
+  const std::vector<std::string> own = command.words;
+  const std::vector<const CLI::App*> verbs = command.verbs;
+  all.push_back(std::move(command));
+  for (const CLI::App* verb : verbs) {
+    std::vector<std::string> below = own;
+    below.push_back(verb->get_name());
+    walk(*verb, std::move(below), all);
+  }
+}
+
+std::vector<Command> commands_of(const CLI::App& app) {
+  std::vector<Command> all;
+  walk(app, {}, all);
+  return all;
+}
+
+std::vector<std::string> long_names(const Command& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.options) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> verb_names(const Command& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : command.verbs) names.push_back(verb->get_name());
+  return names;
+}
+
+/// The branches of a shell's case: "gcode verify") and what follows it there.
+std::string branches(const std::vector<Command>& commands, const char* verbs, const char* options) {
+  std::string text;
+  for (const Command& command : commands) {
+    fmt::format_to(std::back_inserter(text),
+                   "    \"{}\") {}=\"{}\" {}=\"{}\" ;;\n",
+                   fmt::join(command.words, " "),
+                   verbs,
+                   fmt::join(verb_names(command), " "),
+                   options,
+                   fmt::join(long_names(command), " "));
+  }
+  return text;
+}
+
+std::string bash(const std::vector<Command>& commands) {
+  return fmt::format(
+      R"(# bash completion of chaintrue: source it, or put it into /etc/bash_completion.d.
+_chaintrue_words() {{
+  case "$1" in
+{}    *) return 1 ;;
+  esac
+}}
+_chaintrue() {{
+  local cur=${{COMP_WORDS[COMP_CWORD]}} path='' word verbs='' options=''
+  for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
+    if _chaintrue_words "${{path:+$path }}$word"; then path="${{path:+$path }}$word"; fi
+  done
+  _chaintrue_words "$path"
+  if [[ $cur == -* ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$cur")
+  elif [[ -n $verbs ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$verbs" -- "$cur")
+  else
+    mapfile -t COMPREPLY < <(compgen -f -- "$cur")
+  fi
+}}
+complete -o filenames -F _chaintrue chaintrue
+)",
+      branches(commands, "verbs", "options"));
+}
+
+std::string zsh(const std::vector<Command>& commands) {
+  return fmt::format(
+      R"(#compdef chaintrue
+# zsh completion of chaintrue: a file called _chaintrue in a folder of $fpath.
+_chaintrue_words() {{
+  case "$1" in
+{}    *) return 1 ;;
+  esac
+}}
+_chaintrue() {{
+  local path_ word verbs options
+  for word in ${{words[2,CURRENT-1]}}; do
+    if _chaintrue_words "${{path_:+$path_ }}$word"; then path_="${{path_:+$path_ }}$word"; fi
+  done
+  _chaintrue_words "$path_"
+  if [[ ${{words[CURRENT]}} == -* ]]; then
+    compadd -- ${{=options}}
+  elif [[ -n $verbs ]]; then
+    compadd -- ${{=verbs}}
+  else
+    _files
+  fi
+}}
+compdef _chaintrue chaintrue
+)",
+      branches(commands, "verbs", "options"));
+}
+
+/// Within single quotes of fish.
+std::string fish_quoted(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '\'' || c == '\\') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out;
+}
+
+std::string fish(const std::vector<Command>& commands) {
+  std::string text =
+      "# fish completion of chaintrue: put it into ~/.config/fish/completions/chaintrue.fish.\n";
+  for (const Command& command : commands) {
+    const std::string when =
+        command.words.empty() ? "__fish_use_subcommand"
+                              : fmt::format("__fish_seen_subcommand_from {}", command.words.back());
+    for (const CLI::App* verb : command.verbs) {
+      fmt::format_to(std::back_inserter(text),
+                     "complete -c chaintrue -f -n '{}' -a {} -d '{}'\n",
+                     when,
+                     verb->get_name(),
+                     fish_quoted(verb->get_description()));
+    }
+    for (const CLI::Option* option : command.options) {
+      for (const std::string& name : option->get_lnames()) {
+        fmt::format_to(std::back_inserter(text),
+                       "complete -c chaintrue -n '{}' -l {}{} -d '{}'\n",
+                       when,
+                       name,
+                       option->get_items_expected_max() > 0 ? " -r" : "",
+                       fish_quoted(option->get_description()));
+      }
+    }
+  }
+  return text;
+}
+
+/// troff takes a backslash, and a dot or a quote that begins a line, for its own.
+std::string troff(const std::string& text) {
+  std::string out;
+  bool begins = true;
+  for (const char c : text) {
+    if (begins && (c == '.' || c == '\'')) out += "\\&";
+    if (c == '\\') {
+      out += "\\e";
+    } else if (c == '-') {
+      out += "\\-";
+    } else {
+      out += c;
+    }
+    begins = c == '\n';
+  }
+  return out;
+}
+
+std::string item_of(const CLI::Option& option) {
+  std::vector<std::string> names;
+  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  if (names.empty()) names.push_back(option.get_name());
+  return fmt::format(".TP\n\\fB{}\\fR\n{}\n",
+                     troff(fmt::format("{}", fmt::join(names, ", "))),
+                     troff(option.get_description()));
+}
+
+std::string manual_of(const Command& command) {
+  std::vector<std::string> words = {"chaintrue"};
+  words.insert(words.end(), command.words.begin(), command.words.end());
+  const std::string title = fmt::format("{}", fmt::join(words, "-"));
+  std::string text =
+      fmt::format(".TH \"{}\" 1 \"\" \"chaintrue {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B {}\n",
+                  troff(title),
+                  CHAINTRUE_VERSION,
+                  troff(title),
+                  troff(command.app->get_description()),
+                  fmt::join(words, " "));
+  if (!command.verbs.empty()) text += ".I verb\n";
+  for (const CLI::Option* argument : command.arguments)
+    text += fmt::format("[\\fI{}\\fR]\n", troff(argument->get_name()));
+  text += "[\\fIoptions\\fR]\n";
+  if (!command.verbs.empty()) text += ".SH VERBS\n";
+  for (const CLI::App* verb : command.verbs) {
+    text += fmt::format(".TP\n\\fB{}\\fR\n{}\n", verb->get_name(), troff(verb->get_description()));
+  }
+  if (!command.arguments.empty()) text += ".SH ARGUMENTS\n";
+  for (const CLI::Option* argument : command.arguments) text += item_of(*argument);
+  text += ".SH OPTIONS\n";
+  for (const CLI::Option* option : command.options) text += item_of(*option);
+  if (!command.app->get_footer().empty())
+    text += fmt::format(".SH NOTES\n.nf\n{}\n.fi\n", troff(command.app->get_footer()));
+  return text +
+         ".SH EXIT STATUS\n0 done; 1 ran, but a check failed; 2 usage; 3 bad input; 4 not "
+         "supported or outside the map; 5 internal.\n";
+}
+
+int print_manual(const CLI::App& app, const std::vector<std::string>& words) {
+  for (const Command& command : commands_of(app)) {
+    if (command.words != words) continue;
+    fmt::print("{}", manual_of(command));
+    return kDone;
+  }
+  fmt::print(stderr, "chaintrue man: there is no verb {}\n", fmt::join(words, " "));
+  return kUsage;
+}
+
+}  // namespace
+
+void add_completion(CLI::App& app, Run& run) {
+  auto shell = std::make_shared<std::string>();
+  CLI::App* verb =
+      app.add_subcommand("completion", "Print what bash, zsh or fish need to complete commands");
+  verb->add_option("shell", *shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  verb->footer("Example:\n  build/chaintrue completion bash > chaintrue.bash");
+  verb->callback([shell, &app, &run] {
+    run = [shell, &app] {
+      const std::vector<Command> commands = commands_of(app);
+      fmt::print("{}",
+                 *shell == "bash"  ? bash(commands)
+                 : *shell == "zsh" ? zsh(commands)
+                                   : fish(commands));
+      return kDone;
+    };
+  });
+}
+
+void add_man(CLI::App& app, Run& run) {
+  auto words = std::make_shared<std::vector<std::string>>();
+  CLI::App* verb = app.add_subcommand("man", "Print a manual page (troff), as man -l - shows it");
+  verb->add_option("verb", *words, "Of which verb; of the command itself where unsaid");
+  verb->footer("Example:\n  build/chaintrue man gcode verify > chaintrue-gcode-verify.1");
+  verb->callback(
+      [words, &app, &run] { run = [words, &app] { return print_manual(app, *words); }; });
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/plan_outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "tools/cli/sheet_page.hpp"
+#include "tools/cli/talk.hpp"
+
+namespace chaintrue::cli {
+
+std::vector<grid::files::OutputFile> sheet_outputs(const Sheet& sheet,
+                                                   const model::Machine& machine,
+                                                   const grid::StatedNoise& noise,
+                                                   const PlanOutputs& outputs) {
+  std::vector<grid::files::OutputFile> written = {{outputs.list,
+                                                   is_json_wanted(outputs.json, outputs.list)
+                                                       ? sheet_json(sheet, machine, noise)
+                                                       : sheet_csv(sheet)}};
+  if (!outputs.page.empty())
+    written.push_back({outputs.page, sheet_page(sheet, machine, outputs.list)});
+  if (!outputs.gcode.empty()) written.push_back({outputs.gcode, sheet_gcode(sheet, outputs.drill)});
+  return written;
+}
+
+void say_next_of_sheet(const PlanOutputs& outputs, const std::string& machine) {
+  std::vector<std::string> words = {"fit", outputs.list, "-o", "map.json"};
+  if (!is_json_wanted(outputs.json, outputs.list))
+    words.insert(words.begin() + 2, {"--machine", machine});
+  if (outputs.list != "-") fmt::print(stderr, "Write what you read into {}.\n", outputs.list);
+  say_next(words);
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Where a plan's list, page, program and drawing go.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/files/whole_file.hpp"
+#include "tools/cli/sheet.hpp"
+
+namespace chaintrue::cli {
+
+/// Paths; empty: not wanted.
+struct PlanOutputs {
+  std::string list = "-";
+  std::string drawing;
+  std::string gcode;
+  std::string page;
+  DrillOptions drill;
+  bool json = false;
+};
+
+/// The list, and the page and the program where they are wanted.
+[[nodiscard]] std::vector<grid::files::OutputFile> sheet_outputs(const Sheet& sheet,
+                                                                 const model::Machine& machine,
+                                                                 const grid::StatedNoise& noise,
+                                                                 const PlanOutputs& outputs);
+
+/// Fill it in, and fit it.
+void say_next_of_sheet(const PlanOutputs& outputs, const std::string& machine);
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/sheet.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <iterator>
+
+#include "grid/files/grid_file.hpp"
+#include "tools/cli/numbers.hpp"
+#include "tools/cli/places.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+/// Marks are whole millimetres; 0.0 takes the sign off a zero.
+std::string whole(double mm) { return fmt::format("{:.0f}", mm + 0.0); }
+
+}  // namespace
+
+SheetOf sheet_of(const std::string& word, const model::Machine* machine) {
+  if (!word.empty()) return word == "lengths" ? SheetOf::lengths : SheetOf::places;
+  const bool is_told =
+      machine == nullptr || machine->controller.kind == model::ControllerKind::ideal;
+  return is_told ? SheetOf::lengths : SheetOf::places;
+}
+
+void add_measure_option(CLI::App& verb, std::string& word) {
+  verb.add_option("--measure",
+                  word,
+                  "What the list has empty cells for. places: the controller is sent to each mark, "
+                  "and you measure where the tool stood. lengths: the tool is brought to each "
+                  "mark, and you read both chains. Where unsaid, places if the machine names its "
+                  "controller, else lengths")
+      ->check(CLI::IsMember({"places", "lengths"}));
+}
+
+std::string sheet_csv(const Sheet& sheet) {
+  const bool places = sheet.of == SheetOf::places;
+  std::string text = places ? "order,commanded_x_mm,commanded_y_mm,x_mm,y_mm\n"
+                            : "order,x_mm,y_mm,left_mm,right_mm\n";
+  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+    fmt::format_to(std::back_inserter(text),
+                   "{},{},{},,\n",
+                   i + 1,
+                   whole(sheet.marks[i].x_mm),
+                   whole(sheet.marks[i].y_mm));
+  }
+  return text;
+}
+
+std::string sheet_json(const Sheet& sheet,
+                       const model::Machine& machine,
+                       const grid::StatedNoise& noise) {
+  grid::MeasuredGrid grid;
+  grid.name = machine.name;
+  grid.machine = machine;
+  grid.noise = noise;
+  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+    grid::MeasuredPoint point;
+    point.mark = sheet.marks[i];
+    if (sheet.of == SheetOf::places) point.commanded = sheet.marks[i];
+    point.order = static_cast<int>(i) + 1;
+    grid.points.push_back(point);
+  }
+  return grid::files::write_grid_sheet(grid);
+}
+
+void add_drill_options(CLI::App& verb, std::string& gcode, DrillOptions& options) {
+  add_output(verb,
+             "--gcode",
+             gcode,
+             {Origin::program},
+             "Write a program that drives to the marks in their order and drills them; where "
+             "lengths are read it stops above each");
+  add_number(verb, "--depth-mm", options.depth_mm, {"mm", 0.1, 100.0}, "Of --gcode: how deep");
+  add_number(verb,
+             "--clearance-mm",
+             options.clearance_mm,
+             {"mm", 0.1, 100.0},
+             "Of --gcode: how high between holes");
+}
+
+std::string drill_gcode(std::string_view what,
+                        const std::vector<DrillPlace>& places,
+                        const DrillOptions& options) {
+  std::string text = fmt::format(
+      "(chaintrue plan: {}, {:g} mm deep)\n(Zero is the middle of the bed. Look whether every "
+      "one lies on the sheet.)\nG21 G90 G17 G94\nG0 Z{:g}\n",
+      what,
+      options.depth_mm,
+      options.clearance_mm);
+  for (const DrillPlace& place : places) {
+    fmt::format_to(std::back_inserter(text),
+                   "({})\nG0 X{} Y{}\nG1 Z{:g} F150\nG0 Z{:g}\n",
+                   place.name,
+                   whole(place.at.x_mm),
+                   whole(place.at.y_mm),
+                   -options.depth_mm,
+                   options.clearance_mm);
+  }
+  return text + "G0 X0 Y0\nM2\n";
+}
+
+std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
+  if (sheet.of == SheetOf::places) {
+    std::vector<DrillPlace> places;
+    for (std::size_t i = 0; i < sheet.marks.size(); ++i)
+      places.push_back({fmt::format("mark {}", i + 1), sheet.marks[i]});
+    return drill_gcode(fmt::format("{} marks", places.size()), places, options);
+  }
+  std::string text = fmt::format(
+      "(chaintrue plan: {} marks, a stop at each)\n(Zero is the middle of the bed.)\nG21 G90 G17 "
+      "G94\nG0 Z{:g}\n",
+      sheet.marks.size(),
+      options.clearance_mm);
+  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+    fmt::format_to(std::back_inserter(text),
+                   "G0 X{} Y{}\nM0 (mark {}: write down both chain lengths, then go on)\n",
+                   whole(sheet.marks[i].x_mm),
+                   whole(sheet.marks[i].y_mm),
+                   i + 1);
+  }
+  return text + "G0 X0 Y0\nM2\n";
+}
+
+bool is_json_wanted(bool json, const std::string& output) {
+  return json || output.ends_with(".json");
+}
+
+}  // namespace chaintrue::cli

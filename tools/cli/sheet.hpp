@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A plan of marks as its owner takes it to the machine: a list with empty cells for what is read
+/// there, which fit, diagnose and check read once it is filled in, and a program that drives to the
+/// marks. Same marks, same bytes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/measured_grid.hpp"
+#include "tools/cli/cli_fwd.hpp"
+
+namespace chaintrue::cli {
+
+/// What is read at a mark.
+enum class SheetOf {
+  places,   ///< the controller is sent there; where the tool stood
+  lengths,  ///< the tool is brought there; both chains' lengths
+};
+
+/// From the bed's edge to the outermost marks and holes, where unsaid. A sled of 18 inches stands on
+/// the sheet with more than half of it, which it needs not to tip, and clears the supports below.
+inline constexpr double kReachableMm = 100.0;
+
+/// The words of --measure, and what a machine's owner can do: a controller that knows only settings
+/// tells no lengths.
+[[nodiscard]] SheetOf sheet_of(const std::string& word, const model::Machine* machine);
+void add_measure_option(CLI::App& verb, std::string& word);
+
+struct Sheet {
+  std::vector<model::BedPoint> marks;  ///< in driving order
+  SheetOf of = SheetOf::places;
+};
+
+/// order,commanded_x_mm,commanded_y_mm,x_mm,y_mm or order,x_mm,y_mm,left_mm,right_mm.
+[[nodiscard]] std::string sheet_csv(const Sheet& sheet);
+/// The same as a chaintrue_grid, with the machine and the noise in it.
+[[nodiscard]] std::string sheet_json(const Sheet& sheet,
+                                     const model::Machine& machine,
+                                     const grid::StatedNoise& noise);
+
+struct DrillOptions {
+  double depth_mm = 3.0;
+  double clearance_mm = 5.0;
+};
+void add_drill_options(CLI::App& verb, std::string& gcode, DrillOptions& options);
+
+/// A place of a program, and what it is called in its comments: "hole A".
+struct DrillPlace {
+  std::string name;
+  model::BedPoint at;
+};
+/// Metric, absolute, a rapid above each place, down and up again.
+[[nodiscard]] std::string drill_gcode(std::string_view what,
+                                      const std::vector<DrillPlace>& places,
+                                      const DrillOptions& options);
+/// Drills every mark; where lengths are read, stops above it until the owner goes on.
+[[nodiscard]] std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options);
+
+/// A list is JSON where it is asked for, or where its file is called so.
+[[nodiscard]] bool is_json_wanted(bool json, const std::string& output);
+
+}  // namespace chaintrue::cli

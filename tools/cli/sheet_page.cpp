@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/sheet_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "tools/cli/holes_drawing.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using model::BedPoint;
+
+constexpr std::string_view kStyle = R"(
+@page { margin: 14mm; }
+body { font: 11pt/1.4 sans-serif; color: #111; background: #fff; max-width: 190mm;
+  margin: 0 auto; padding: 4mm; }
+h1 { font-size: 16pt; margin: 0 0 2mm; }
+svg { width: 100%; height: auto; break-inside: avoid; }
+ol { margin: 3mm 0; padding-left: 7mm; }
+table { border-collapse: collapse; width: 100%; margin-top: 4mm; }
+th, td { border: 0.3mm solid #555; padding: 1.2mm 2mm; text-align: right; }
+th { background: #eee; }
+td.blank { width: 24%; }
+td:first-child, th:first-child { text-align: left; width: 12%; }
+tr { break-inside: avoid; }
+thead { display: table-header-group; }
+)";
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string page_of(const std::string& title,
+                    const std::string& drawing,
+                    const std::vector<std::string>& steps,
+                    const std::string& table) {
+  std::string list;
+  for (const std::string& step : steps) list += fmt::format("<li>{}</li>\n", escaped(step));
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>{0}</title>\n<style>{1}</style></head><body>\n<h1>{0}</h1>\n{2}\n<ol>\n{3}</ol>\n"
+      "{4}\n</body></html>\n",
+      escaped(title),
+      kStyle,
+      drawing,
+      list,
+      table);
+}
+
+/// The bed as it hangs, numbered marks along the way from one to the next.
+std::string drawing_of(const Sheet& sheet, const model::Bed& bed) {
+  constexpr double kWide = 900.0;
+  constexpr double kEdge = 20.0;
+  const double scale = kWide / bed.width_mm;
+  const double high = scale * bed.height_mm;
+  const auto x = [&](BedPoint at) { return kEdge + scale * (at.x_mm + 0.5 * bed.width_mm); };
+  const auto y = [&](BedPoint at) { return kEdge + scale * (0.5 * bed.height_mm - at.y_mm); };
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" "
+      "font-family=\"sans-serif\" role=\"img\"><title>The bed with its numbered marks</title>\n"
+      "<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
+      "stroke=\"#111\" stroke-width=\"2\"/>\n<polyline fill=\"none\" stroke=\"#999\" "
+      "stroke-dasharray=\"6 5\" points=\"",
+      kWide + 2.0 * kEdge,
+      high + 2.0 * kEdge,
+      kEdge,
+      kEdge,
+      kWide,
+      high);
+  for (const BedPoint& mark : sheet.marks)
+    fmt::format_to(std::back_inserter(svg), "{:.1f},{:.1f} ", x(mark), y(mark));
+  svg += "\"/>\n";
+  // As large as the nearest two marks leave room for.
+  double nearest = 80.0;
+  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      nearest = std::min(nearest,
+                         scale * std::hypot(sheet.marks[i].x_mm - sheet.marks[k].x_mm,
+                                            sheet.marks[i].y_mm - sheet.marks[k].y_mm));
+    }
+  }
+  const double radius = std::clamp(0.45 * nearest, 3.0, 16.0);
+  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+    fmt::format_to(std::back_inserter(svg),
+                   "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2:.1f}\" fill=\"#fff\" "
+                   "stroke=\"#111\" stroke-width=\"1.5\"/><text x=\"{0:.1f}\" y=\"{3:.1f}\" "
+                   "text-anchor=\"middle\" font-size=\"{2:.1f}\">{4}</text>\n",
+                   x(sheet.marks[i]),
+                   y(sheet.marks[i]),
+                   radius,
+                   y(sheet.marks[i]) + 0.35 * radius,
+                   i + 1);
+  }
+  return svg + "</svg>";
+}
+
+std::string blank_cells(int count) {
+  std::string cells;
+  for (int i = 0; i < count; ++i) cells += "<td class=\"blank\"></td>";
+  return cells;
+}
+
+std::string typed_into(const std::string& list) {
+  return fmt::format("Type the readings into {}; leave empty what you did not measure.",
+                     list.empty() || list == "-" ? "the list" : list);
+}
+
+}  // namespace
+
+std::string sheet_page(const Sheet& sheet, const model::Machine& machine, const std::string& list) {
+  const bool places = sheet.of == SheetOf::places;
+  std::string table = fmt::format(
+      "<table><thead><tr><th>mark</th><th>{0}x, mm</th><th>{0}y, mm</th><th>{1}</th><th>{2}</th>"
+      "</tr></thead><tbody>\n",
+      places ? "sent to " : "",
+      places ? "measured x, mm" : "left chain, mm",
+      places ? "measured y, mm" : "right chain, mm");
+  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+    fmt::format_to(std::back_inserter(table),
+                   "<tr><td>{}</td><td>{:.0f}</td><td>{:.0f}</td>{}</tr>\n",
+                   i + 1,
+                   sheet.marks[i].x_mm + 0.0,
+                   sheet.marks[i].y_mm + 0.0,
+                   blank_cells(2));
+  }
+  table += "</tbody></table>";
+  std::vector<std::string> steps =
+      places ? std::vector<std::string>{
+                   "Fasten a sheet to the bed and do not move it until all is measured. Zero is "
+                   "the middle of the bed, x to the right, y up.",
+                   "Send the tool to the marks in the order of their numbers, without any "
+                   "compensation, and mark where it stands (or run the program that drills them).",
+                   "Measure x and y of every mark from the sheet's middle lines, to half a "
+                   "millimetre or better."}
+             : std::vector<std::string>{
+                   "Draw the marks on a sheet. Zero is the middle of the bed, x to the right, y "
+                   "up.",
+                   "Bring the bit over each mark in the order of their numbers; measure where it "
+                   "stands if it is beside, and write down the lengths of both chains from the "
+                   "pin at 12 o'clock to their ends at the ring."};
+  steps.push_back(typed_into(list));
+  return page_of(fmt::format("{} marks for {}", sheet.marks.size(), machine.name),
+                 drawing_of(sheet, machine.bed),
+                 steps,
+                 table);
+}
+
+std::string holes_page(const grid::HolesPlan& plan, const std::string& list) {
+  std::string table =
+      "<table><thead><tr><th>from</th><th>to</th><th>about, mm</th><th>the tape says, mm</th></tr>"
+      "</thead><tbody>\n";
+  for (const grid::HoleDistance& distance : plan.set.distances) {
+    fmt::format_to(std::back_inserter(table),
+                   "<tr><td>{}</td><td>{}</td><td>{:.0f}</td>{}</tr>\n",
+                   escaped(plan.set.holes[distance.from].name),
+                   distance.edge ? fmt::format("{} edge", name(*distance.edge))
+                                 : escaped(plan.set.holes[distance.to].name),
+                   distance.distance_mm,
+                   blank_cells(1));
+  }
+  table += "</tbody></table>";
+  return page_of(
+      fmt::format("{} holes for {}", plan.set.holes.size(), plan.set.machine->name),
+      draw_holes_plan(plan),
+      {"Fasten a sheet to the bed. Cut the holes with the program, or send the tool to each; zero "
+       "is the middle of the bed.",
+       "Measure from centre to centre. The hook at the tape's end has play: hold the 100 mm mark "
+       "to the first hole instead, write down what the tape says, and give --hook-offset-mm 100.",
+       "Look at every number twice: one misread tape costs more than a hole left out.",
+       typed_into(list)},
+      table);
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A plan as a page to print: the bed drawn, what is to be done in which order, and lines to write
+/// the readings on. For A4 and Letter alike; nothing is fetched, no script runs. Same plan, same
+/// bytes.
+#pragma once
+
+#include <string>
+
+#include "grid/holes/holes_plan.hpp"
+#include "tools/cli/sheet.hpp"
+
+namespace chaintrue::cli {
+
+/// `list` is the file that the readings are typed into; where it is empty, standard output's.
+[[nodiscard]] std::string sheet_page(const Sheet& sheet,
+                                     const model::Machine& machine,
+                                     const std::string& list);
+[[nodiscard]] std::string holes_page(const grid::HolesPlan& plan, const std::string& list);
+
+}  // namespace chaintrue::cli

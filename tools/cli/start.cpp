@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue start: a folder with the machine, what to do next, and the sheets to print.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grid/files/fluidnc_file.hpp"
+#include "grid/files/groundcontrol_file.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/webcontrol_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "grid/holes/holes_plan.hpp"
+#include "grid/map/measurement_plan.hpp"
+#include "tools/cli/holes_words.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/sheet_page.hpp"
+#include "tools/cli/start_readme.hpp"
+#include "tools/cli/talk.hpp"
+#include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+namespace fs = std::filesystem;
+
+struct StartCommand {
+  std::string file;
+  std::string folder = "my-machine";
+};
+
+/// A machine's settings, whoever keeps them.
+struct Started {
+  files::ReadMachine read;
+  /// It is this program's own file already, and stays as it is.
+  bool is_ours = false;
+};
+
+Started started_from(const std::string& path) {
+  const std::string text = files::read_whole_file(path);
+  const std::string file = files::name_in_messages(path);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  const bool json = first != std::string::npos && text[first] == '{';
+  if (json && files::looks_like_webcontrol(text)) return {files::parse_webcontrol(text, file)};
+  if (json) return {files::parse_machine_with_warnings(text, file), true};
+  const std::string ending = fs::path(path).extension().string();
+  if (ending == ".yaml" || ending == ".yml" || files::looks_like_fluidnc(text))
+    return {files::parse_fluidnc(text, file)};
+  return {files::parse_groundcontrol(text, file)};
+}
+
+/// What the plans of `chaintrue plan` make where nothing else is said.
+struct Plans {
+  grid::MeasurementPlan marks;
+  grid::HolesPlan holes;
+};
+
+tl::expected<Plans, grid::PlanFailure> plans_for(const model::Machine& machine) {
+  // Half a millimetre is what a careful eye makes of a square or a tape.
+  constexpr double kByEyeMm = 0.5;
+  constexpr double kPaidOutMm = 0.1;
+  grid::PlanRequest marks;
+  marks.margin_mm = kReachableMm;
+  marks.noise = {kPaidOutMm, kByEyeMm};
+  grid::HolesPlanRequest holes;
+  holes.margin_mm = kReachableMm;
+  auto planned_marks = grid::plan_measurement(machine, marks);
+  if (!planned_marks) return tl::unexpected(planned_marks.error());
+  auto planned_holes = grid::plan_holes(machine, holes);
+  if (!planned_holes) return tl::unexpected(planned_holes.error());
+  return Plans{*std::move(planned_marks), *std::move(planned_holes)};
+}
+
+std::vector<FolderFile> sheets_of(const model::Machine& machine, const Plans& plans) {
+  const Sheet sheet{plans.marks.marks, SheetOf::places};
+  std::vector<DrillPlace> holes;
+  for (const grid::Hole& hole : plans.holes.set.holes)
+    holes.push_back({"hole " + hole.name, hole.commanded});
+  const StartWays ways{expected_errors(plans.marks.map, machine.bed).rms_mm,
+                       plans.holes.expected_rms_mm};
+  return {
+      {"README.txt", start_readme(machine, ways), Origin::list},
+      {"marks.csv", sheet_csv(sheet), Origin::list},
+      {"marks.html", sheet_page(sheet, machine, "marks.csv"), Origin::page},
+      {"marks.nc", sheet_gcode(sheet, {}), Origin::program},
+      {"holes.csv", workshop_list(plans.holes), Origin::list},
+      {"holes.html", holes_page(plans.holes, "holes.csv"), Origin::page},
+      {"holes.nc", drill_gcode(fmt::format("{} holes", holes.size()), holes, {}), Origin::program},
+  };
+}
+
+int start_template(const CLI::App& verb, const std::string& folder) {
+  const std::string path = (fs::path(folder) / "machine.json").string();
+  write_folder(verb,
+               folder,
+               {{"machine.json", files::write_machine({}, template_comments()), Origin::machine},
+                {"README.txt", template_readme(path), Origin::list}});
+  fmt::print(stderr,
+             "{} describes a classic Maslow, with every key explained. Put your machine's numbers "
+             "in.\n",
+             path);
+  say_next({"start", path});
+  return kDone;
+}
+
+/// Without a file the one word is the folder.
+bool names_a_folder(const std::string& word) {
+  return fs::is_directory(word) || (!fs::exists(word) && fs::path(word).extension().empty());
+}
+
+int run_start(const CLI::App& verb, const StartCommand& command) {
+  if (command.file.empty()) return start_template(verb, command.folder);
+  if (command.file != "-" && names_a_folder(command.file))
+    return start_template(verb, command.file);
+  const Started started = started_from(command.file);
+  const model::Machine& machine = started.read.machine;
+  print_warnings(started.read.warnings);
+  const auto plans = plans_for(machine);
+  if (!plans) {
+    fmt::print(stderr, "chaintrue start: {}\n", plans.error().sentence);
+    return kNotSupportedOrOutside;
+  }
+  // Sheets of a machine file of ours go beside it.
+  std::string folder = command.folder;
+  if (started.is_ours && verb.get_option("folder")->count() == 0)
+    folder = fs::path(command.file).parent_path().string();
+  if (folder.empty()) folder = ".";
+  std::vector<FolderFile> contents = sheets_of(machine, *plans);
+  std::string machine_path = (fs::path(folder) / "machine.json").string();
+  if (started.is_ours) {
+    machine_path = command.file;
+  } else {
+    std::vector<std::string> comments;
+    for (const files::Warning& warning : started.read.warnings)
+      comments.push_back(warning.sentence);
+    contents.push_back({"machine.json", files::write_machine(machine, comments), Origin::machine});
+  }
+  write_folder(verb, folder, contents);
+  const std::string marks = (fs::path(folder) / "marks.csv").string();
+  fmt::print(stderr,
+             "{} holds the machine and the sheets: print marks.html, cut marks.nc, measure, and "
+             "write what you read into marks.csv (README.txt says more, and of holes and a "
+             "tape).\n",
+             folder);
+  say_next(
+      {"fit", marks, "--machine", machine_path, "-o", (fs::path(folder) / "map.json").string()});
+  return kDone;
+}
+
+}  // namespace
+
+void add_start(CLI::App& app, Run& run) {
+  auto command = std::make_shared<StartCommand>();
+  CLI::App* verb = app.add_subcommand(
+      "start", "A folder for your machine: its file, what to do next, and the sheets to print");
+  add_input(*verb,
+            "file",
+            command->file,
+            "groundcontrol.ini, webcontrol.json, FluidNC's yaml, or a chaintrue_machine; without "
+            "one a machine file to fill in is written");
+  add_output_folder(*verb, "folder", command->folder, "Where it all goes")->capture_default_str();
+  verb->footer(
+      "Example:\n"
+      "  build/chaintrue start fixtures/good/groundcontrol_ring.ini my-machine\n"
+      "  build/chaintrue start");
+  verb->callback(
+      [command, verb, &run] { run = [command, verb] { return run_start(*verb, *command); }; });
+}
+
+}  // namespace chaintrue::cli

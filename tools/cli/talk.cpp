@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/talk.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+namespace chaintrue::cli {
+namespace {
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::string() : std::string(value);
+}
+
+std::string between(std::string_view begin, std::string_view text) {
+  return shows_colours() ? fmt::format("{}{}\x1b[0m", begin, text) : std::string(text);
+}
+
+std::string quoted(const std::string& word) {
+  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("._/-+,=:@%").find(c) != std::string_view::npos;
+  });
+  if (plain) return word;
+  std::string result = "'";
+  for (const char c : word) {
+    if (c == '\'')
+      result += "'\\''";
+    else
+      result += c;
+  }
+  return result + "'";
+}
+
+}  // namespace
+
+bool shows_colours() {
+  static const bool shows = ::isatty(STDERR_FILENO) == 1 && environment("NO_COLOR").empty() &&
+                            environment("TERM") != "dumb";
+  return shows;
+}
+
+std::string in_bold(std::string_view text) { return between("\x1b[1m", text); }
+std::string in_red(std::string_view text) { return between("\x1b[31m", text); }
+
+void say_next(const std::vector<std::string>& words) {
+  if (std::find(words.begin(), words.end(), "-") != words.end()) return;
+  std::string line = "chaintrue";
+  for (const std::string& word : words) line += " " + quoted(word);
+  std::fflush(stdout);
+  fmt::print(stderr, "{}\n", in_bold("Next: " + line));
+}
+
+QuietTalk::QuietTalk(bool is_quiet) {
+  if (!is_quiet) return;
+  std::FILE* kept = std::tmpfile();
+  if (kept == nullptr) return;
+  kept_ = ::dup(::fileno(kept));
+  std::fclose(kept);
+  std::fflush(stderr);
+  heard_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  ::dup2(kept_, STDERR_FILENO);
+}
+
+void QuietTalk::end(bool is_to_be_told) {
+  if (heard_ < 0) return;
+  std::fflush(stderr);
+  ::dup2(heard_, STDERR_FILENO);
+  ::close(heard_);
+  heard_ = -1;
+  if (is_to_be_told && ::lseek(kept_, 0, SEEK_SET) == 0) {
+    char buffer[4096];
+    for (ssize_t count = 0; (count = ::read(kept_, buffer, sizeof buffer)) > 0;)
+      std::fwrite(buffer, 1, static_cast<std::size_t>(count), stderr);
+  }
+  ::close(kept_);
+}
+
+QuietTalk::~QuietTalk() { end(true); }
+
+void keep_lines_whole() {
+  struct stat out {};
+  struct stat err {};
+  if (::fstat(STDOUT_FILENO, &out) != 0 || ::fstat(STDERR_FILENO, &err) != 0) return;
+  if (out.st_dev == err.st_dev && out.st_ino == err.st_ino)
+    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/report/glossary.hpp"
+
+#include <string>
+#include <utility>
+
+namespace chaintrue::report {
+namespace {
+
+constexpr Term kTerms[] = {
+    {"rms", "root mean square: the usual size of errors of either sign, large ones counted more"},
+    {"one sigma", "two values of three lie within it, nineteen of twenty within twice of it"},
+    {"mark", "a place on the sheet at which the tool, or the chains, were measured"},
+    {"map", "the true chain lengths for every place of the bed, made from the marks"},
+    {"as delivered", "the machine with the settings that it had when it was measured"},
+    {"as stated", "the machine as its file describes it, nothing calibrated"},
+    {"calibrated", "the settings moved to where they fit the readings best"},
+    {"held out", "foretold by a fit that had not seen it: the honest test of a fit"},
+    {"left out", "the same, one reading or one block of the bed at a time"},
+    {"residual", "what was read less what was foretold"},
+    {"chain zero", "what a chain reads too long or too short everywhere, since its zero is off"},
+    {"noise", "what readings of the same thing differ by"},
+    {"pitch", "the length of one link, 6.35 mm when it is new"},
+    {"catenary", "the curve in which a chain hangs"},
+    {"extrapolated", "beyond the measured part of the bed"},
+};
+
+}  // namespace
+
+std::span<const Term> terms() { return kTerms; }
+
+Section glossary() {
+  Table table{.columns = {{"Word"}, {"What it means here"}}, .rows = {}, .caption = {}};
+  for (const Term& term : kTerms)
+    table.rows.push_back({{std::string(term.word), std::string(term.meaning)}, false});
+  Section section{"Words", {}};
+  section.is_folded = true;
+  section.blocks.emplace_back(std::move(table));
+  return section;
+}
+
+}  // namespace chaintrue::report

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The words of the pages that a workshop does not use every day: at the end of a page, and as hover
+/// text where one of them first stands in a paragraph.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "tools/report/page.hpp"
+
+namespace chaintrue::report {
+
+struct Term {
+  std::string_view word;
+  std::string_view meaning;
+};
+[[nodiscard]] std::span<const Term> terms();
+
+/// A folded section with all of them.
+[[nodiscard]] Section glossary();
+
+}  // namespace chaintrue::report
