@@ -10,8 +10,9 @@
 
 #include "grid/diagnosis/as_delivered.hpp"
 #include "grid/diagnosis/expected_gain.hpp"
+#include "grid/diagnosis/gain_fold.hpp"
+#include "grid/diagnosis/held_out_blocks.hpp"
 #include "grid/diagnosis/leading.hpp"
-#include "grid/map/spatial_blocks.hpp"
 #include "grid/statistics.hpp"
 #include "grid/synthetic/random.hpp"
 
@@ -19,165 +20,6 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr double kBorderShare = 0.9;  // of the half width of the points: beyond is the border
-
-/// Tool errors for every way of modelling.
-struct Errors {
-  std::vector<Eigen::Vector2d> calibrated, surface_only;
-  /// With the causes that the fold itself names.
-  std::vector<Eigen::Vector2d> extended, extended_and_surface;
-  /// With the causes that all units name, their sizes fitted without the fold.
-  std::vector<Eigen::Vector2d> fixed_naming, fixed_naming_and_surface;
-};
-
-/// Held-out units of one fold.
-struct Fold {
-  std::vector<std::size_t> units;
-  Errors errors;
-  std::vector<CauseClass> named;
-};
-
-class Folds {
- public:
-  explicit Folds(const Analysis& analysis) : a_(analysis) {}
-
-  [[nodiscard]] Fold hold_out(const std::vector<std::size_t>& units) const {
-    std::vector<bool> excluded(a_.session.units.size(), false);
-    for (const std::size_t u : units) excluded[u] = true;
-    const DiagnosisOptions& options = a_.options;
-    const ModelComparison comparison =
-        compare_models(a_.system,
-                       excluded,
-                       {.steps = options.steps,
-                        .kernels = leading_kernels(a_.comparison),
-                        .told = options.told});
-    // The same gate as for all units: the strongest score against what noise does.
-    const MarginalisedSystem& first =
-        comparison.marginalised_systems[comparison.best().marginalised];
-    const SingleScore score(a_.system, first, a_.session.noise_dof);
-    const bool seen = options.told.has_value() ||
-                      a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
-    const Decision decision = decide_for_leaders(a_.system, comparison, excluded, seen);
-    const MarginalisedSystem& marginalised =
-        comparison.marginalised_systems[decision.marginalised];
-    // A reading wrong at its own visit alone says nothing of any other.
-    std::vector<bool> out = marginalised_system(a_).outliers;
-    set_slips_aside(a_, out);
-    Fold fold;
-    for (const std::size_t u : units) {
-      if (!out[u]) fold.units.push_back(u);
-    }
-    for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
-    measure(comparison, decision, marginalised, fold);
-    return fold;
-  }
-
- private:
-  void measure(const ModelComparison& comparison,
-               const Decision& decision,
-               const MarginalisedSystem& marginalised,
-               Fold& fold) const {
-    const std::vector<int>& all = a_.decision.regressors;
-    const auto without = [&](const std::vector<int>& regressors) {
-      return errors(fit(marginalised, regressors), fold.units);
-    };
-    const auto beside = [&](const std::vector<int>& regressors) {
-      const int discrepancy =
-          preferred_discrepancy(comparison, decision.marginalised, regressors);
-      return errors(fit(marginalised, regressors, discrepancy), fold.units);
-    };
-    fold.errors.calibrated = errors(fit(without_slips(a_, marginalised), {}), fold.units);
-    fold.errors.surface_only = beside({});
-    fold.errors.extended = without(decision.regressors);
-    fold.errors.extended_and_surface = beside(decision.regressors);
-    fold.errors.fixed_naming = without(all);
-    fold.errors.fixed_naming_and_surface = beside(all);
-  }
-
-  [[nodiscard]] Estimate fit(const MarginalisedSystem& marginalised,
-                             const std::vector<int>& regressors,
-                             int discrepancy = -1) const {
-    return estimate(a_.system, marginalised, regressors, discrepancy);
-  }
-
-  /// The discrepancy that the readings prefer beside these causes; none where they would rather
-  /// have none.
-  static int preferred_discrepancy(const ModelComparison& comparison,
-                                   std::size_t marginalised,
-                                   const std::vector<int>& regressors) {
-    for (const CandidateModel& model : comparison.models) {
-      if (model.regressors == regressors && model.marginalised == marginalised)
-        return model.discrepancy;
-    }
-    return -1;
-  }
-
-  /// What the model leaves, the discrepancy that it may have taken out.
-  [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Estimate& model,
-                                                    const std::vector<std::size_t>& units) const {
-    const Eigen::VectorXd left = left_of_machine(a_.system, model, model.left_beside_discrepancy);
-    std::vector<Eigen::Vector2d> result;
-    for (const std::size_t u : units) result.push_back(error_of_unit(a_.system, left, u));
-    return result;
-  }
-
-  const Analysis& a_;
-};
-
-/// Units held out together, and what they are.
-struct Blocks {
-  std::vector<std::vector<std::size_t>> units;
-  bool of_the_bed = false;  ///< or each hole with all distances that end there
-};
-
-/// Blocks of the bed over all marks at which chains were read; none where they are too few.
-Blocks blocks_of_the_bed(const Session& session) {
-  std::vector<LengthPoint> points;
-  std::vector<std::size_t> units;
-  for (const auto& [part, readings] : parts_of<observation::ChainLengthReadings>(session)) {
-    for (std::size_t i = 0; i < readings->places().size(); ++i) {
-      const SessionPlace& place = session.places[part->first_place + i];
-      points.push_back({place.index, place.mark, place.lengths});
-      units.push_back(part->first_unit + i);
-    }
-  }
-  Blocks result{{}, true};
-  if (points.size() < 2 * kFewestPoints) return result;
-  result.units = spatial_blocks(points);
-  for (auto& block : result.units) {
-    for (std::size_t& u : block) u = units[u];
-  }
-  return result;
-}
-
-/// Each hole with all distances that end there; none where too few distances would be left.
-Blocks blocks_by_hole(const Session& session) {
-  Blocks result;
-  for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
-    const MeasuredHoles& set = tape->set();
-    const std::size_t first = result.units.size();
-    result.units.resize(first + set.holes.size());
-    for (std::size_t k = 0; k < set.distances.size(); ++k) {
-      const HoleDistance& distance = set.distances[k];
-      result.units[first + distance.from].push_back(part->first_unit + k);
-      if (!distance.edge) result.units[first + distance.to].push_back(part->first_unit + k);
-    }
-  }
-  std::erase_if(result.units, [](const auto& block) { return block.empty(); });
-  const bool enough = std::all_of(result.units.begin(), result.units.end(), [&](const auto& block) {
-    return session.units.size() - block.size() >= kFewestDistances;
-  });
-  if (!enough) result.units.clear();
-  return result;
-}
-
-/// What is held out tells of the tool where chains were read at marks enough, else of distances.
-Blocks held_out_blocks(const Session& session) {
-  constexpr std::size_t kFewestBlocks = 3;
-  for (const auto& blocks : {blocks_of_the_bed(session), blocks_by_hole(session)}) {
-    if (blocks.units.size() >= kFewestBlocks) return blocks;
-  }
-  return {};
-}
 
 struct Extent {
   double low = std::numeric_limits<double>::infinity();
@@ -310,7 +152,7 @@ Extension extension_of(const Analysis& a, const Errors& errors) {
   return {&errors.calibrated, &errors.surface_only, false, true};
 }
 
-std::string scheme_of(const Session& session, const Blocks& blocks, bool naming_repeated) {
+std::string scheme_of(const Session& session, const HeldOutBlocks& blocks, bool naming_repeated) {
   return fmt::format(
       "{}, each held out in turn, {}",
       blocks.of_the_bed
@@ -364,9 +206,8 @@ HeldOut summarise(const std::vector<Eigen::Vector2d>& tool_mm,
 }
 
 std::optional<Gain> measure_gain(const Analysis& a) {
-  const Blocks blocks = held_out_blocks(a.session);
+  const HeldOutBlocks blocks = held_out_blocks(a.session);
   if (blocks.units.empty()) return std::nullopt;
-  const Folds folds(a);
   Gain gain;
   std::vector<std::size_t> units;
   std::vector<std::size_t> number;
@@ -374,7 +215,7 @@ std::optional<Gain> measure_gain(const Analysis& a) {
   for (std::size_t b = 0; b < blocks.units.size(); ++b) {
     const double share = static_cast<double>(b) / static_cast<double>(blocks.units.size());
     tell(a.options.progress, {"what a name gains, block by block", 3, 4, share});
-    const Fold fold = folds.hold_out(blocks.units[b]);
+    const Fold fold = hold_out(a, blocks.units[b]);
     gain.folds += 1;
     gain.folds_agree += names_agree(fold, a) ? 1 : 0;
     units.insert(units.end(), fold.units.begin(), fold.units.end());
@@ -400,7 +241,7 @@ std::optional<Gain> measure_gain(const Analysis& a) {
   }
   const auto edge = border(a, blocks.of_the_bed);
   if (a.session.units.size() - edge.size() >= a.session.fewest_units) {
-    const Errors outer = folds.hold_out(edge).errors;
+    const Errors outer = hold_out(a, edge).errors;
     gain.border = {rms_length(outer.calibrated),
                    rms_length(outer.extended),
                    rms_length(outer.extended_and_surface),

@@ -178,7 +178,10 @@ std::optional<Stability> examine_stability(const Analysis& a) {
   const double all = statement.log_odds(downdating.without({}).comparison);
   Stability result;
   result.probability = probability_of(all);
-  for (const LeftOut& group : groups) {
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const LeftOut& group = groups[k];
+    const double share = static_cast<double>(k) / static_cast<double>(groups.size());
+    tell(a.options.progress, {"the name without each reading", 2, 4, share});
     const auto without = downdating.without(group.units);
     std::vector<bool> excluded(a.session.units.size(), false);
     for (const std::size_t u : group.units) excluded[u] = true;

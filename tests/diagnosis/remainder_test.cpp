@@ -33,8 +33,8 @@ MeasuredGrid with_dent(MeasuredGrid grid) {
     const double dx = (point.mark.x_mm - 400.0) / 250.0;
     const double dy = (point.mark.y_mm + 100.0) / 250.0;
     const double mm = 1.5 * std::exp(-0.5 * (dx * dx + dy * dy));
-    point.lengths.left_mm += 0.6 * mm;
-    point.lengths.right_mm += 0.8 * mm;
+    point.lengths->left_mm += 0.6 * mm;
+    point.lengths->right_mm += 0.8 * mm;
   }
   return grid;
 }

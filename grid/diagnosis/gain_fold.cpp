@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/gain_fold.hpp"
+
+#include "grid/diagnosis/expected_gain.hpp"
+#include "grid/diagnosis/leading.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+class Folds {
+ public:
+  explicit Folds(const Analysis& analysis) : a_(analysis) {}
+
+  [[nodiscard]] Fold without(const std::vector<std::size_t>& units) const {
+    std::vector<bool> excluded(a_.session.units.size(), false);
+    for (const std::size_t u : units) excluded[u] = true;
+    const DiagnosisOptions& options = a_.options;
+    const ModelComparison comparison =
+        compare_models(a_.system,
+                       excluded,
+                       {.steps = options.steps,
+                        .kernels = leading_kernels(a_.comparison),
+                        .told = options.told});
+    // The same gate as for all units: the strongest score against what noise does.
+    const MarginalisedSystem& first =
+        comparison.marginalised_systems[comparison.best().marginalised];
+    const SingleScore score(a_.system, first, a_.session.noise_dof);
+    const bool seen = options.told.has_value() ||
+                      a_.null.p_value(score.by_cause(first.e).maxCoeff()) < kFalseAlarm;
+    const Decision decision = decide_for_leaders(a_.system, comparison, excluded, seen);
+    const MarginalisedSystem& marginalised =
+        comparison.marginalised_systems[decision.marginalised];
+    // A reading wrong at its own visit alone says nothing of any other.
+    std::vector<bool> out = marginalised_system(a_).outliers;
+    set_slips_aside(a_, out);
+    Fold fold;
+    for (const std::size_t u : units) {
+      if (!out[u]) fold.units.push_back(u);
+    }
+    for (const std::size_t index : decision.listed) fold.named.push_back(decision.classes[index]);
+    measure(comparison, decision, marginalised, fold);
+    return fold;
+  }
+
+ private:
+  void measure(const ModelComparison& comparison,
+               const Decision& decision,
+               const MarginalisedSystem& marginalised,
+               Fold& fold) const {
+    const std::vector<int>& all = a_.decision.regressors;
+    const auto without = [&](const std::vector<int>& regressors) {
+      return errors(fit(marginalised, regressors), fold.units);
+    };
+    const auto beside = [&](const std::vector<int>& regressors) {
+      const int discrepancy =
+          preferred_discrepancy(comparison, decision.marginalised, regressors);
+      return errors(fit(marginalised, regressors, discrepancy), fold.units);
+    };
+    fold.errors.calibrated = errors(fit(without_slips(a_, marginalised), {}), fold.units);
+    fold.errors.surface_only = beside({});
+    fold.errors.extended = without(decision.regressors);
+    fold.errors.extended_and_surface = beside(decision.regressors);
+    fold.errors.fixed_naming = without(all);
+    fold.errors.fixed_naming_and_surface = beside(all);
+  }
+
+  [[nodiscard]] Estimate fit(const MarginalisedSystem& marginalised,
+                             const std::vector<int>& regressors,
+                             int discrepancy = -1) const {
+    return estimate(a_.system, marginalised, regressors, discrepancy);
+  }
+
+  /// The discrepancy that the readings prefer beside these causes; none where they would rather
+  /// have none.
+  static int preferred_discrepancy(const ModelComparison& comparison,
+                                   std::size_t marginalised,
+                                   const std::vector<int>& regressors) {
+    for (const CandidateModel& model : comparison.models) {
+      if (model.regressors == regressors && model.marginalised == marginalised)
+        return model.discrepancy;
+    }
+    return -1;
+  }
+
+  /// What the model leaves, the discrepancy that it may have taken out.
+  [[nodiscard]] std::vector<Eigen::Vector2d> errors(const Estimate& model,
+                                                    const std::vector<std::size_t>& units) const {
+    const Eigen::VectorXd left = left_of_machine(a_.system, model, model.left_beside_discrepancy);
+    std::vector<Eigen::Vector2d> result;
+    for (const std::size_t u : units) result.push_back(error_of_unit(a_.system, left, u));
+    return result;
+  }
+
+  const Analysis& a_;
+};
+
+}  // namespace
+
+Fold hold_out(const Analysis& analysis, const std::vector<std::size_t>& units) {
+  return Folds(analysis).without(units);
+}
+
+}  // namespace chaintrue::grid::diagnosis
