@@ -94,7 +94,7 @@ TEST_F(MixedCommands, ThePageShowsReadingsOfBothKinds) {
                     Not(HasSubstr("right of its mark, mm")),
                     HasSubstr("Both chains at every good point, and every good distance"),
                     HasSubstr("At the border the outermost points were held out."),
-                    HasSubstr("mm a chain and 0.3 mm a mark"),
+                    HasSubstr("mm a chain and 0.3 mm a "),  // the mark is explained on hover
                     HasSubstr("mm a reading of the tape and 0.3 mm a hole")));
 }
 
