@@ -21,6 +21,9 @@ constexpr int kDirections = 8;
 /// Length of a trend over the bed: two thirds of its height, a third of its width.
 constexpr double kTrendMm = 800.0;
 
+/// Radius of a sled: that far from the border its rim begins to hang over.
+constexpr double kSledMm = 230.0;
+
 class Kernels {
  public:
   Kernels() {
@@ -38,13 +41,15 @@ class Kernels {
                      {FieldOf::y, 180.0, FieldEntry::tool},
                      {FieldOf::x, kTrendMm, FieldEntry::tool},
                      {FieldOf::y, kTrendMm, FieldEntry::tool}},
-                    0.15});
+                    0.10});
+    // The tool moved where the sled hangs over the border, alike on all sides.
+    all_.push_back({{{FieldOf::border, 180.0, FieldEntry::tool}}, 0.05});
     // The tool moved along one axis of the sheet.
     for (const FieldOf of : {FieldOf::place, FieldOf::x, FieldOf::y}) {
       for (const double mm : {250.0, 450.0}) along_an_axis({of, mm}, group);
     }
     // The tool moved the way it goes across something: a board's wave, a fold.
-    for (const double mm : {150.0, 400.0}) oblique({FieldOf::across, mm}, group);
+    oblique({FieldOf::across, 200.0}, group);
     take(group, 0.20);
     // A function of one coordinate: a strip of the banner, a beam, a chain, its angle, its pull.
     for (const FieldOf of : {FieldOf::x, FieldOf::y, FieldOf::length_left, FieldOf::length_right}) {
@@ -74,12 +79,13 @@ class Kernels {
       group.push_back(field);
     }
   }
-  /// Along x and y others have it.
+  /// Along x and y others have it. A fold seen a step beside its direction bends elsewhere too:
+  /// twice as many as of entry.
   static void oblique(DiscrepancyField field, std::vector<DiscrepancyField>& group) {
     field.entry = FieldEntry::tool;
-    for (int k = 1; k < kDirections; ++k) {
-      if (2 * k == kDirections) continue;
-      field.across_rad = std::numbers::pi * k / kDirections;
+    for (int k = 1; k < 2 * kDirections; ++k) {
+      if (k == kDirections) continue;
+      field.across_rad = 0.5 * std::numbers::pi * k / kDirections;
       field.direction_rad = field.across_rad;
       group.push_back(field);
     }
@@ -129,6 +135,7 @@ std::string_view name(FieldOf of) {
                                          "tension_left",
                                          "tension_right",
                                          "",
+                                         "",
                                          ""};
   return kNames[static_cast<std::size_t>(of)];
 }
@@ -167,25 +174,42 @@ DiscrepancyPlace discrepancy_place(const SystemPlace& place) {
            pose.chains.right.angle_rad,
            pose.chains.left.tension_at_sprocket_n,
            pose.chains.right.tension_at_sprocket_n},
-          place.by_mark};
+          place.by_mark,
+          place.bed};
 }
 
-double field_correlation(const DiscrepancyField& field,
-                         const DiscrepancyPlace& a,
-                         const DiscrepancyPlace& b) {
-  const auto difference = [&](FieldOf of) {
-    const auto k = static_cast<std::size_t>(of);
-    return a.at[k] - b.at[k];
-  };
-  const double x = difference(FieldOf::x);
-  const double y = difference(FieldOf::y);
-  const double square =
-      field.of == FieldOf::place    ? x * x + y * y
-      : field.of == FieldOf::across ? std::pow(x * std::cos(field.across_rad) +
-                                                   y * std::sin(field.across_rad),
-                                               2)
-                                    : std::pow(difference(field.of), 2);
-  return std::exp(-0.5 * square / (field.length * field.length));
+FieldArgument field_argument(const DiscrepancyField& field,
+                             const DiscrepancyPlace& place,
+                             Eigen::Index component) {
+  const double x = place.at[static_cast<std::size_t>(FieldOf::x)];
+  const double y = place.at[static_cast<std::size_t>(FieldOf::y)];
+  switch (field.of) {
+    case FieldOf::place:
+      return {x, y};
+    case FieldOf::across:
+      return {x * std::cos(field.across_rad) + y * std::sin(field.across_rad)};
+    case FieldOf::border: {
+      const double from_middle = component == 0 ? x : y;
+      const double half = 0.5 * (component == 0 ? place.bed.width_mm : place.bed.height_mm);
+      const double beyond = std::abs(from_middle) - half;
+      return {beyond, 0.0, std::copysign(std::exp(beyond / kSledMm), from_middle)};
+    }
+    default:
+      return {place.at[static_cast<std::size_t>(field.of)]};
+  }
+}
+
+double field_covariance(const DiscrepancyField& field,
+                        const FieldArgument& a,
+                        const FieldArgument& b) {
+  const double square = std::pow(a.first - b.first, 2) + std::pow(a.second - b.second, 2);
+  return a.weight * b.weight * std::exp(-0.5 * square / (field.length * field.length));
+}
+
+std::optional<Eigen::Vector2d> entry_direction(const DiscrepancyField& field) {
+  if (field.of == FieldOf::border) return Eigen::Vector2d::Ones();
+  if (!field.direction_rad) return std::nullopt;
+  return Eigen::Vector2d(std::cos(*field.direction_rad), std::sin(*field.direction_rad));
 }
 
 Eigen::Matrix2d field_entry(const DiscrepancyField& field, const DiscrepancyPlace& place) {
@@ -198,13 +222,15 @@ Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
                                   const DiscrepancyPlace& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (const DiscrepancyField& field : kernel.fields) {
-    Eigen::Matrix2d directions = Eigen::Matrix2d::Identity();
-    if (field.direction_rad) {
-      const Eigen::Vector2d d(std::cos(*field.direction_rad), std::sin(*field.direction_rad));
-      directions = d * d.transpose();
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+    if (const auto d = entry_direction(field)) covariance = *d * d->transpose();
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      for (Eigen::Index j = 0; j < 2; ++j) {
+        covariance(i, j) *= field_covariance(
+            field, field_argument(field, a, i), field_argument(field, b, j));
+      }
     }
-    sum += field_correlation(field, a, b) * field_entry(field, a) * directions *
-           field_entry(field, b).transpose();
+    sum += field_entry(field, a) * covariance * field_entry(field, b).transpose();
   }
   return sum / static_cast<double>(kernel.fields.size());
 }

@@ -11,7 +11,8 @@
 ///   cov(r_i, r_j) = s^2 / F sum_f k_f(t_i, t_j) T_i D_f T_j'
 ///   k(t, u) = exp(-|t - u|^2 / (2 length^2)),  t what the field is a function of
 ///   T  identity where it enters the chains, J = d(L, R)/d(mark) where it moves the tool
-///   D  d d' with d = (cos, sin) of the direction of entry, or the identity where it has none
+///   D  d d' with d = (cos, sin) of the direction of entry, or the identity where it has none; of
+///      the border d = (1, 1), and either component has a t and a weight of its own
 ///   F  fields of the kernel; of several lengths where something displaced has a trend as well
 #pragma once
 
@@ -38,6 +39,9 @@ enum class FieldOf {
   tension_right,  ///< N
   place,
   across,  ///< mm, over the bed in a direction of its own
+  /// mm, from the border of the bed: what drops over it moves the tool outwards, by one function of
+  /// the distance from the side for x and from the top or bottom for y.
+  border,
 };
 /// Coordinates that a place has by itself.
 inline constexpr std::size_t kFieldCoordinates = static_cast<std::size_t>(FieldOf::place);
@@ -81,13 +85,30 @@ struct Discrepancy {
 struct DiscrepancyPlace {
   std::array<double, kFieldCoordinates> at{};  ///< by FieldOf
   Eigen::Matrix2d by_mark;                     ///< J
+  model::Bed bed;
 };
 [[nodiscard]] DiscrepancyPlace discrepancy_place(const SystemPlace& place);
 
-/// k of two places.
-[[nodiscard]] double field_correlation(const DiscrepancyField& field,
-                                       const DiscrepancyPlace& a,
-                                       const DiscrepancyPlace& b);
+/// What a field is a function of at a place, for either component of what it enters; alike but for
+/// the border's.
+struct FieldArgument {
+  double first = 0.0;
+  double second = 0.0;  ///< of the place: y
+  double weight = 1.0;  ///< of the field there, with its sign
+};
+[[nodiscard]] FieldArgument field_argument(const DiscrepancyField& field,
+                                           const DiscrepancyPlace& place,
+                                           Eigen::Index component);
+
+/// Of the field's values at two arguments.
+[[nodiscard]] double field_covariance(const DiscrepancyField& field,
+                                      const FieldArgument& a,
+                                      const FieldArgument& b);
+
+/// What a field enters by: d of its direction; (1, 1) of the border, where both components are one
+/// field's; nothing where the components are independent.
+[[nodiscard]] std::optional<Eigen::Vector2d> entry_direction(const DiscrepancyField& field);
+
 /// T at a place.
 [[nodiscard]] Eigen::Matrix2d field_entry(const DiscrepancyField& field,
                                           const DiscrepancyPlace& place);

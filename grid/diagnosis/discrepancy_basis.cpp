@@ -14,21 +14,24 @@ namespace {
 /// A hundredth of its sigma, which is seldom beyond a millimetre.
 constexpr double kLeftOfField = 1e-4;
 
-/// F, a line a place.
+/// F, a line an argument.
 Eigen::MatrixXd low_rank_field(const DiscrepancyField& field,
-                               const std::vector<DiscrepancyPlace>& places) {
-  const auto n = static_cast<Eigen::Index>(places.size());
+                               const std::vector<FieldArgument>& arguments) {
+  const auto n = static_cast<Eigen::Index>(arguments.size());
+  const auto covariance = [&](Eigen::Index i, Eigen::Index j) {
+    return field_covariance(field,
+                            arguments[static_cast<std::size_t>(i)],
+                            arguments[static_cast<std::size_t>(j)]);
+  };
   Eigen::MatrixXd factor(n, 0);
-  Eigen::VectorXd left = Eigen::VectorXd::Ones(n);
+  Eigen::VectorXd left(n);
+  for (Eigen::Index i = 0; i < n; ++i) left(i) = covariance(i, i);
   for (Eigen::Index rank = 0; rank < n; ++rank) {
     Eigen::Index pivot = 0;
     const double most = left.maxCoeff(&pivot);
     if (most < kLeftOfField) break;
     Eigen::VectorXd column(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      column(i) = field_correlation(
-          field, places[static_cast<std::size_t>(i)], places[static_cast<std::size_t>(pivot)]);
-    }
+    for (Eigen::Index i = 0; i < n; ++i) column(i) = covariance(i, pivot);
     column -= factor * factor.row(pivot).transpose();
     column /= std::sqrt(most);
     factor.conservativeResize(n, rank + 1);
@@ -36,6 +39,19 @@ Eigen::MatrixXd low_rank_field(const DiscrepancyField& field,
     left -= column.cwiseAbs2();
   }
   return factor;
+}
+
+/// Of every place, first component first; only of the border the second has arguments of its own.
+std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
+                                        const std::vector<DiscrepancyPlace>& places) {
+  std::vector<FieldArgument> result;
+  const Eigen::Index components = field.of == FieldOf::border ? 2 : 1;
+  for (Eigen::Index component = 0; component < components; ++component) {
+    for (const DiscrepancyPlace& place : places) {
+      result.push_back(field_argument(field, place, component));
+    }
+  }
+  return result;
 }
 
 /// L^-1 of what a field makes of the kept rows, through either component of its entry.
@@ -47,7 +63,9 @@ Components components_of(const LinearisedSystem& system,
                          const MarginalisedSystem& marginalised,
                          const DiscrepancyField& field,
                          const std::vector<DiscrepancyPlace>& places) {
-  const Eigen::MatrixXd factor = low_rank_field(field, places);
+  const Eigen::MatrixXd factor = low_rank_field(field, arguments_of(field, places));
+  // Where the second component's arguments begin.
+  const Eigen::Index second = factor.rows() - static_cast<Eigen::Index>(places.size());
   const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
   Components result{Eigen::MatrixXd::Zero(n, factor.cols()),
                     Eigen::MatrixXd::Zero(n, factor.cols())};
@@ -58,7 +76,7 @@ Components components_of(const LinearisedSystem& system,
       const auto at = static_cast<Eigen::Index>(seen.place);
       for (Eigen::Index k = 0; k < unit.rows; ++k) {
         result.first.row(row + k) += entry(k, 0) * factor.row(at);
-        result.second.row(row + k) += entry(k, 1) * factor.row(at);
+        result.second.row(row + k) += entry(k, 1) * factor.row(second + at);
       }
     }
   }
@@ -161,9 +179,8 @@ DiscrepancyBasis::DiscrepancyBasis(const LinearisedSystem& system,
     const double share = 1.0 / std::sqrt(static_cast<double>(kernel.fields.size()));
     for (const DiscrepancyField& field : kernel.fields) {
       Products* const products = &fields_->of(field);
-      if (field.direction_rad) {
-        const double angle = *field.direction_rad;
-        own.blocks.push_back({products, share * std::cos(angle), share * std::sin(angle)});
+      if (const auto direction = entry_direction(field)) {
+        own.blocks.push_back({products, share * direction->x(), share * direction->y()});
       } else {
         own.blocks.push_back({products, share, 0.0});
         own.blocks.push_back({products, 0.0, share});

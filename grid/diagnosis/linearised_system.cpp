@@ -158,7 +158,8 @@ tl::expected<LinearisedSystem, observation::Unreachable> linearise(const Session
                              place.mark,
                              own.state.by_mark,
                              place.order,
-                             part.reads_chains() && part.observation->ordered()});
+                             part.reads_chains() && part.observation->ordered(),
+                             session.stated.bed});
   }
   system.unit_of_row.assign(static_cast<std::size_t>(session.rows), -1);
   for (const estimation::SystemUnit& own : line->units) {

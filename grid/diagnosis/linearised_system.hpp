@@ -60,6 +60,7 @@ struct SystemPlace {
   Eigen::Matrix2d by_mark;  ///< d(L, R)/d(mark)
   int order = 0;
   bool ordered = false;  ///< chains were read here, at this visit
+  model::Bed bed;        ///< of the machine that stood here
 };
 
 /// What a unit sees of the chains at a place: D_i; a unit of one row leaves the second line empty.
