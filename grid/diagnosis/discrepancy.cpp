@@ -109,14 +109,25 @@ class Kernels {
   std::vector<DiscrepancyKernel> all_;
 };
 
+/// A unit with the places of its system.
+struct PlacedUnit {
+  const SystemUnit& unit;
+  const std::vector<DiscrepancyPlace>& places;
+};
+
+std::vector<DiscrepancyPlace> places_of(const LinearisedSystem& system) {
+  std::vector<DiscrepancyPlace> places;
+  for (const SystemPlace& place : system.places) places.push_back(discrepancy_place(place));
+  return places;
+}
+
 Eigen::Matrix2d between_units(const DiscrepancyKernel& kernel,
-                              const std::vector<DiscrepancyPlace>& places,
-                              const SystemUnit& a,
-                              const SystemUnit& b) {
+                              const PlacedUnit& a,
+                              const PlacedUnit& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  for (const SeenPlace& i : a.places) {
-    for (const SeenPlace& j : b.places) {
-      sum += i.by_chain * discrepancy_block(kernel, places[i.place], places[j.place]) *
+  for (const SeenPlace& i : a.unit.places) {
+    for (const SeenPlace& j : b.unit.places) {
+      sum += i.by_chain * discrepancy_block(kernel, a.places[i.place], b.places[j.place]) *
              j.by_chain.transpose();
     }
   }
@@ -235,11 +246,27 @@ Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
   return sum / static_cast<double>(kernel.fields.size());
 }
 
+Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& to,
+                                       const LinearisedSystem& from,
+                                       const std::vector<Eigen::Index>& kept,
+                                       const DiscrepancyKernel& kernel) {
+  const std::vector<DiscrepancyPlace> there = places_of(to);
+  const std::vector<DiscrepancyPlace> here = places_of(from);
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(to.e.size(), static_cast<Eigen::Index>(kept.size()));
+  for (const auto& [column, number] : units_in(from, kept)) {
+    const SystemUnit& seen = from.units[number];
+    for (const SystemUnit& own : to.units) {
+      c.block(own.first_row, column, own.rows, seen.rows) =
+          between_units(kernel, {own, there}, {seen, here}).topLeftCorner(own.rows, seen.rows);
+    }
+  }
+  return c;
+}
+
 Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& system,
                                        const std::vector<Eigen::Index>& kept,
                                        const DiscrepancyKernel& kernel) {
-  std::vector<DiscrepancyPlace> places;
-  for (const SystemPlace& place : system.places) places.push_back(discrepancy_place(place));
+  const std::vector<DiscrepancyPlace> places = places_of(system);
   const auto units = units_in(system, kept);
   const auto n = static_cast<Eigen::Index>(kept.size());
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
@@ -247,7 +274,7 @@ Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& system,
     const SystemUnit& own = system.units[units[a].second];
     for (std::size_t b = 0; b <= a; ++b) {
       const SystemUnit& other = system.units[units[b].second];
-      const Eigen::Matrix2d block = between_units(kernel, places, own, other);
+      const Eigen::Matrix2d block = between_units(kernel, {own, places}, {other, places});
       const Eigen::Index row = units[a].first;
       const Eigen::Index column = units[b].first;
       c.block(row, column, own.rows, other.rows) = block.topLeftCorner(own.rows, other.rows);

@@ -118,6 +118,13 @@ struct FieldArgument {
                                                 const DiscrepancyPlace& a,
                                                 const DiscrepancyPlace& b);
 
+/// Covariance of all whitened rows of `to` with these of `from`, for s = 1: rows(to) x kept. Rows
+/// that see no place stay 0.
+[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& to,
+                                                     const LinearisedSystem& from,
+                                                     const std::vector<Eigen::Index>& kept,
+                                                     const DiscrepancyKernel& kernel);
+
 /// Covariance of these whitened rows, for s = 1.
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& system,
                                                      const std::vector<Eigen::Index>& kept,

@@ -54,7 +54,7 @@ std::vector<FieldArgument> arguments_of(const DiscrepancyField& field,
   return result;
 }
 
-/// L^-1 of what a field makes of the kept rows, through either component of its entry.
+/// R^-1 of what a field makes of the kept rows, through either component of its entry.
 struct Components {
   Eigen::MatrixXd first, second;  ///< N x r
 };
@@ -80,10 +80,7 @@ Components components_of(const LinearisedSystem& system,
       }
     }
   }
-  const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
-  lower.solveInPlace(result.first);
-  lower.solveInPlace(result.second);
-  return result;
+  return {marginalised.root.solve(result.first), marginalised.root.solve(result.second)};
 }
 
 /// One field's inner products, by component.

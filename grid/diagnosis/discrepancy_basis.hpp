@@ -5,7 +5,7 @@
 ///
 /// Notation
 ///   F      field over the places, low rank: k ~= F F', what is left of its diagonal below 1e-4
-///   B      L^-1 W T F of a marginalised system, N x r; a direction of entry mixes two of these
+///   B      R^-1 W T F of a marginalised system, N x r; a direction of entry mixes two of these
 ///   E      residual and columns of the marginalised system
 ///   lambda, V  eigenvalues and vectors of B'B
 ///

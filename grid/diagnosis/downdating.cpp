@@ -128,8 +128,7 @@ void Downdating::add_factorisation(std::size_t number,
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
   const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
-  const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
-  factorised.inverse = lower.solve(Eigen::MatrixXd::Identity(n, n));
+  factorised.inverse = marginalised.root.inverse();
   Eigen::MatrixXd e(n, static_cast<Eigen::Index>(columns.size()) + 1);
   e.col(0) = marginalised.e;
   e.rightCols(e.cols() - 1) = marginalised.g(Eigen::all, columns);
@@ -138,8 +137,8 @@ void Downdating::add_factorisation(std::size_t number,
     const Discrepancy process = discrepancy_of(marginalised, discrepancy);
     Eigen::MatrixXd k =
         discrepancy_covariance(a_.system, marginalised.kept, process.kernel);
-    lower.solveInPlace(k);
-    k = lower.solve(k.transpose()).eval() * (process.sigma_mm * process.sigma_mm);
+    k = marginalised.root.solve(k);
+    k = marginalised.root.solve(k.transpose()) * (process.sigma_mm * process.sigma_mm);
     k.diagonal().array() += 1.0;
     const Eigen::LLT<Eigen::MatrixXd> llt(k);
     llt.matrixL().solveInPlace(factorised.inverse);

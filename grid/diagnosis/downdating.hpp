@@ -5,7 +5,7 @@
 ///
 /// Notation
 ///   V     covariance of a marginalised system's rows, the discrepancy integrated out as well;
-///         V = L L', P = V^-1
+///         V = L L' with any such L, P = V^-1
 ///   E     residual and columns of the models, whitened by L
 ///   O     rows of the points left out
 ///   U     P times the residual and the columns

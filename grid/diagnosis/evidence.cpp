@@ -90,21 +90,16 @@ MarginalisedSystem marginalise(const LinearisedSystem& system,
   }
   marginalised.log_outliers = log_price_of_outliers(system, outliers);
   const Eigen::MatrixXd a = system.by_setting(marginalised.kept, Eigen::all);
-  Eigen::MatrixXd v = Eigen::MatrixXd::Identity(a.rows(), a.rows());
+  Eigen::VectorXd e = system.e(marginalised.kept);
   if (steps.project_settings) {
-    const Eigen::MatrixXd scaled = a * system.sigma.asDiagonal();
-    v += scaled * scaled.transpose();
+    marginalised.root = CovarianceRoot(a * system.sigma.asDiagonal());
+    e -= a * system.expected_change;
+  } else {
+    marginalised.root = CovarianceRoot(Eigen::MatrixXd(a.rows(), 0));
   }
-  const Eigen::LLT<Eigen::MatrixXd> llt(v);
-  marginalised.factor = llt.matrixL();
-  marginalised.log_det = 2.0 * marginalised.factor.diagonal().array().log().sum();
-  const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
-  marginalised.e = system.e(marginalised.kept);
-  if (steps.project_settings) marginalised.e -= a * system.expected_change;
-  lower.solveInPlace(marginalised.e);
-  marginalised.g = system.g(marginalised.kept, Eigen::all);
-  // Eigen's solver reads past an empty right side.
-  if (marginalised.g.cols() > 0) lower.solveInPlace(marginalised.g);
+  marginalised.log_det = marginalised.root.log_det();
+  marginalised.e = marginalised.root.solve(e);
+  marginalised.g = marginalised.root.solve(system.g(marginalised.kept, Eigen::all));
   return marginalised;
 }
 
@@ -133,9 +128,7 @@ double length_in_noise(const LinearisedSystem& system,
 }
 
 Eigen::VectorXd reduced(const MarginalisedSystem& marginalised, const Eigen::VectorXd& column) {
-  Eigen::VectorXd result = column(marginalised.kept);
-  marginalised.factor.triangularView<Eigen::Lower>().solveInPlace(result);
-  return result;
+  return marginalised.root.solve(column(marginalised.kept));
 }
 
 Eigen::Index NormalEquations::position(int column) const {

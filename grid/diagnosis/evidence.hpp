@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "grid/diagnosis/constants.hpp"
+#include "grid/diagnosis/covariance_root.hpp"
 #include "grid/diagnosis/discrepancy.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -56,9 +57,9 @@ class NoiseDensity {
 struct MarginalisedSystem {
   std::vector<bool> outliers;      ///< a flag a unit
   std::vector<Eigen::Index> kept;  ///< N rows, ascending
-  Eigen::MatrixXd factor;          ///< N x N, lower L of V = L L'
-  Eigen::VectorXd e;               ///< N, L^-1 times the residual
-  Eigen::MatrixXd g;               ///< N x a column a regressor, L^-1 times it
+  CovarianceRoot root;             ///< N x N, R of V = R R
+  Eigen::VectorXd e;               ///< N, R^-1 times the residual
+  Eigen::MatrixXd g;               ///< N x a column a regressor, R^-1 times it
   double log_det = 0.0;            ///< log |V|
   double log_outliers = 0.0;       ///< prior and density of the points set aside
   /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.
@@ -83,7 +84,7 @@ struct MarginalisedSystem {
 [[nodiscard]] double length_in_noise(const LinearisedSystem& system,
                                      const std::vector<Eigen::Index>& kept,
                                      const Eigen::VectorXd& column);
-/// L^-1 of a column of all rows.
+/// R^-1 of a column of all rows.
 [[nodiscard]] Eigen::VectorXd reduced(const MarginalisedSystem& marginalised,
                                       const Eigen::VectorXd& column);
 

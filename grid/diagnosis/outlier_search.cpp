@@ -34,8 +34,8 @@ Seen seen_by(const Seen& nothing,
   for (const int k : set) {
     if (system.regressors[static_cast<std::size_t>(k)].fixed) e -= marginalised.g.col(k);
   }
-  const auto upper = marginalised.factor.transpose().triangularView<Eigen::Upper>();
-  seen.u = upper.solve(e);
+  const CovarianceRoot& root = marginalised.root;
+  seen.u = root.solve(e);
   seen.quadratic = e.squaredNorm();
   std::vector<Eigen::VectorXd> taken;
   for (const int k : set) {
@@ -43,8 +43,8 @@ Seen seen_by(const Seen& nothing,
     const double prior =
         marginalised.g.col(k).squaredNorm() / (kWideSignalToNoise * kWideSignalToNoise);
     // P g for the precision so far
-    Eigen::VectorXd pg = upper.solve(Eigen::VectorXd(marginalised.g.col(k)));
-    const Eigen::VectorXd g = marginalised.factor * marginalised.g.col(k);
+    Eigen::VectorXd pg = root.solve(marginalised.g.col(k));
+    const Eigen::VectorXd g = root.times(marginalised.g.col(k));
     for (const Eigen::VectorXd& t : taken) pg -= t * t.dot(g);
     const double denominator = prior + g.dot(pg);
     const double ug = seen.u.dot(g);
@@ -148,11 +148,8 @@ std::vector<std::vector<bool>> outlier_sets(const LinearisedSystem& system,
                                             const Steps& steps) {
   if (!steps.robust) return {excluded};
   const MarginalisedSystem marginalised = marginalise(system, excluded, steps);
-  const auto n = static_cast<Eigen::Index>(marginalised.kept.size());
   Seen nothing;
-  const Eigen::MatrixXd inverse =
-      marginalised.factor.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));
-  nothing.precision = inverse.transpose() * inverse;
+  nothing.precision = marginalised.root.precision();
   nothing.log_det = marginalised.log_det;
   std::vector<Found> found;
   for (const auto& set : hypotheses) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "grid/diagnosis/leading.hpp"
 #include "grid/diagnosis/normal.hpp"
@@ -33,25 +34,30 @@ struct Group {
   std::map<std::vector<Member>, Alternative> members;
 };
 
-/// By the classes of the causes, and in each group by the causes.
+/// By the classes of the causes, and in each group by the causes. Where nothing is named a pattern
+/// makes a group of its own.
 std::vector<Group> groups_of(const Analysis& a) {
-  std::map<std::vector<std::size_t>, Group> groups;
-  const std::size_t together = std::max<std::size_t>(a.decision.regressors.size(), 1);
+  std::map<std::pair<bool, std::vector<std::size_t>>, Group> groups;
+  const std::size_t named = a.decision.regressors.size();
   for (const CandidateModel& model : a.comparison.models) {
-    if (model.regressors.size() != together) continue;
+    if (named > 0 ? model.regressors.size() != named : model.regressors.size() > 1) continue;
     std::vector<Member> causes;
     for (const int k : model.regressors) causes.push_back(member_of(a, regressor(a, k).cause));
     std::sort(causes.begin(), causes.end());
     std::vector<std::size_t> classes;
     for (const Member& cause : causes) classes.push_back(cause.first);
-    Group& group = groups[classes];
+    const bool pattern = named == 0 && model.discrepancy >= 0;
+    Group& group = groups[{pattern, std::move(classes)}];
     Alternative& one = group.members[causes];
-    if (one.probability == 0.0) one.regressors = model.regressors;
+    if (one.probability == 0.0) {
+      one.regressors = model.regressors;
+      one.discrepancy = model.discrepancy;
+    }
     one.probability += a.comparison.probability(model);
     group.probability += a.comparison.probability(model);
   }
   std::vector<Group> result;
-  for (auto& [classes, group] : groups) result.push_back(std::move(group));
+  for (auto& [key, group] : groups) result.push_back(std::move(group));
   return result;
 }
 
@@ -78,12 +84,59 @@ std::vector<Alternative> leading(const Analysis& a) {
   return result;
 }
 
+/// S with S S' = a positive semidefinite matrix of whitened rows, but for a hundredth of the noise.
+Eigen::MatrixXd square_root(const Eigen::MatrixXd& matrix) {
+  constexpr double kNegligible = 1e-4;
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(matrix);
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+    if (ldlt.vectorD()(k) > kNegligible) columns.push_back(k);
+  }
+  const Eigen::MatrixXd lower = ldlt.matrixL();
+  const Eigen::MatrixXd result =
+      lower(Eigen::all, columns) * ldlt.vectorD()(columns).cwiseSqrt().asDiagonal();
+  return ldlt.transpositionsP().transpose() * result;
+}
+
+/// Adds the discrepancy of the estimate to what is expected of the rows of `system`, by kriging: K
+/// of the rows to come with those measured, C of these with their noise, X their design.
+///   mean + K C^-1 (what is left),  design - K C^-1 X,  and K** - K C^-1 K' of its own
+/// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.41.
+/// \returns a square root of the last.
+Eigen::MatrixXd add_discrepancy(const Analysis& a,
+                                const LinearisedSystem& system,
+                                const Estimate& fitted,
+                                Eigen::VectorXd& mean,
+                                Eigen::MatrixXd& design) {
+  const std::vector<Eigen::Index>& kept = marginalised_system(a).kept;
+  const DiscrepancyKernel& kernel = fitted.discrepancy.kernel;
+  const double square = fitted.discrepancy.sigma_mm * fitted.discrepancy.sigma_mm;
+  const Eigen::MatrixXd k = square * discrepancy_covariance(system, a.system, kept, kernel);
+  Eigen::MatrixXd c = square * discrepancy_covariance(a.system, kept, kernel);
+  c.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> llt(c);
+  Eigen::MatrixXd x(c.rows(), design.cols());
+  const Eigen::Index settings = fitted.setting_change.size();
+  x.leftCols(settings) = a.system.by_setting(kept, Eigen::all);
+  for (std::size_t i = 0; i < fitted.free.size(); ++i) {
+    x.col(settings + static_cast<Eigen::Index>(i)) =
+        a.system.g(kept, fitted.regressors[fitted.free[i]]);
+  }
+  mean += k * fitted.discrepancy_weights;
+  design -= k * llt.solve(x);
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(system.e.size()));
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  const Eigen::MatrixXd own = square * discrepancy_covariance(system, system, rows, kernel);
+  return square_root(own - k * llt.solve(k.transpose()));
+}
+
 /// What an alternative expects of every candidate.
 void predict(const Analysis& a,
              const Session& next,
              const LinearisedSystem& system,
              Alternative& h) {
-  const Estimate fitted = estimate_of(a, h.regressors);
+  const Estimate fitted =
+      estimate(a.system, marginalised_system(a), h.regressors, h.discrepancy);
   // Holes that are not cut yet have columns of their own, after all others.
   const Eigen::Index settings = fitted.setting_change.size();
   const Eigen::Index to_come = system.by_setting.cols() - settings;
@@ -102,11 +155,14 @@ void predict(const Analysis& a,
       design.col(column++) = column_of;
     }
   }
+  Eigen::MatrixXd of_pattern(design.rows(), 0);
+  if (h.discrepancy >= 0) of_pattern = add_discrepancy(a, system, fitted, h.mean, design);
   const Eigen::LLT<Eigen::MatrixXd> llt(fitted.covariance);
-  h.spread.resize(design.rows(), design.cols() + to_come);
+  h.spread.resize(design.rows(), design.cols() + to_come + of_pattern.cols());
   h.spread.leftCols(design.cols()) = design * Eigen::MatrixXd(llt.matrixL());
-  h.spread.rightCols(to_come) =
+  h.spread.middleCols(design.cols(), to_come) =
       system.by_setting.rightCols(to_come) * system.sigma.tail(to_come).asDiagonal();
+  h.spread.rightCols(of_pattern.cols()) = of_pattern;
 }
 
 /// D over these rows, for two alternatives.

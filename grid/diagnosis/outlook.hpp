@@ -3,7 +3,7 @@
 /// How well the leading explanations will be told apart once something more is measured.
 ///
 /// Notation
-///   p_k       probability of alternative k, a set of causes
+///   p_k       probability of alternative k, a set of causes and whether a discrepancy is beside it
 ///   K, p_K    its group: alternatives that the verdict does not tell apart, and their sum; of causes
 ///             of one class there is one alternative for each, since a reading may touch one of them
 ///             and not the other (a link's pitch: the chain, and not the tape)
@@ -36,15 +36,17 @@ namespace chaintrue::grid::diagnosis {
 struct Alternative {
   std::size_t group = 0;
   std::vector<int> regressors;
+  int discrepancy = -1;      ///< beside them, as the most probable model of these causes has it
   double probability = 0.0;  ///< of all alternatives together 1
   Eigen::VectorXd mean;      ///< m_k, whitened, of every row of the session of candidates
   Eigen::MatrixXd spread;    ///< rows x unknowns: a square root of S_k but for the noise
 };
 
-/// The sets of causes, as many as the verdict speaks of, that the comparison leaves, each at its
-/// best places, groups one after the other and the most probable first; with what they expect of
-/// every row of `next`, which has the analysis' unknowns (NextCandidates). Nothing where a place of
-/// `next` cannot be reached.
+/// The sets of causes that the comparison leaves, each at its best places, groups one after the
+/// other and the most probable first; with what they expect of every row of `next`, which has the
+/// analysis' unknowns (NextCandidates). Where the verdict names causes these are the sets of as
+/// many; where it names none, those of none and of one, with and without a discrepancy. Nothing
+/// where a place of `next` cannot be reached.
 [[nodiscard]] std::optional<std::vector<Alternative>> alternatives_about(const Analysis& analysis,
                                                                          const Session& next);
 

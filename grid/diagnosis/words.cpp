@@ -220,11 +220,12 @@ void say_what_to_do(Diagnosis& d) {
             ? first.what
             : fmt::format("a new point at ({:.0f}, {:.0f}) mm", first.mark->x_mm, first.mark->y_mm);
     d.what_to_do.push_back(
-        fmt::format("Measure next: {}{}. All of it raises the chance of a single name to {:.0f} %.",
+        fmt::format("Measure next: {}{}. All of it raises the chance of {} to {:.0f} %.",
                     what,
                     d.next_measurements.size() > 1
                         ? fmt::format(", and {} more below", d.next_measurements.size() - 1)
                         : "",
+                    d.causes.empty() ? "one explanation alone" : "a single name",
                     100.0 * d.next_measurements.back().raises_probability_to));
   }
   if (!d.outliers.empty() && d.what_to_do.size() < 3) {
@@ -243,10 +244,15 @@ void say_what_to_do(Diagnosis& d) {
                                        s.calibrated,
                                        name(d.observations)));
   }
-  if (d.what_to_do.empty() && d.verdict == Verdict::model_discrepancy) {
+  if (d.verdict == Verdict::model_discrepancy && d.what_to_do.size() < 3) {
     d.what_to_do.emplace_back(
         "Use the measured map (chaintrue fit): it corrects a pattern that repeats, whatever makes "
         "it.");
+    // Whose it is no further mark on the same sheet can tell.
+    d.what_to_do.emplace_back(
+        "Measure again with the sheet turned by half, or set out with another tape: what turns with "
+        "it is the sheet's or the tape's; what stays is the machine's; what another day does not "
+        "show was that day's.");
   }
   if (d.what_to_do.empty()) {
     d.what_to_do.push_back(

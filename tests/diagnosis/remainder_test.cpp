@@ -72,9 +72,8 @@ TEST(Discrepancy, LowRankIsTheDenseCovariance) {
     const auto own = basis.beside(kernel, plain).equations(strength, plain.columns);
     const Discrepancy process = discrepancy_of(marginalised, discrepancy);
     Eigen::MatrixXd v = discrepancy_covariance(a.system, marginalised.kept, process.kernel);
-    const auto lower = marginalised.factor.triangularView<Eigen::Lower>();
-    lower.solveInPlace(v);
-    v = lower.solve(v.transpose()).eval() * (process.sigma_mm * process.sigma_mm);
+    v = marginalised.root.solve(v);
+    v = marginalised.root.solve(v.transpose()) * (process.sigma_mm * process.sigma_mm);
     v.diagonal().array() += 1.0;
     const Eigen::LLT<Eigen::MatrixXd> llt(v);
     const Eigen::VectorXd e = llt.solve(marginalised.e);

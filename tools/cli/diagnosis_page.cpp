@@ -253,7 +253,8 @@ std::string_view where_it_goes(const Diagnosis& found) {
 
 Section next_section(const Diagnosis& found) {
   Section section{"What to measure next", {}};
-  Table table{{{"no.", true}, {"what"}, {"a single right name then", true}}, {}, ""};
+  Table table{
+      {{"no.", true}, {"what"}, {fmt::format("{} then", what_stands_alone(found)), true}}, {}, ""};
   const std::vector<std::string> sentences = follow_ups_in_words(found);
   for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
     table.rows.push_back({{fmt::format("{}", i + 1),

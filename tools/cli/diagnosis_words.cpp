@@ -202,6 +202,10 @@ std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
   return text;
 }
 
+std::string_view what_stands_alone(const grid::diagnosis::Diagnosis& diagnosis) {
+  return diagnosis.causes.empty() ? "One explanation alone" : "A single right name";
+}
+
 std::vector<std::string> follow_ups_in_words(const grid::diagnosis::Diagnosis& diagnosis) {
   std::vector<std::string> sentences;
   const auto& list = diagnosis.next_measurements;

@@ -54,6 +54,10 @@ namespace chaintrue::cli {
 /// What was held out at the border, or why no error is given there.
 [[nodiscard]] std::string border_sentence(const grid::diagnosis::Gain& gain);
 
+/// Of what the next measurements raise the probability: "A single right name", or "One explanation
+/// alone" where none is named.
+[[nodiscard]] std::string_view what_stands_alone(const grid::diagnosis::Diagnosis& diagnosis);
+
 /// The next measurements as sentences: what to do, where, and how well.
 [[nodiscard]] std::vector<std::string> follow_ups_in_words(
     const grid::diagnosis::Diagnosis& diagnosis);

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/covariance_root.hpp"
+
+#include <Eigen/SVD>
+
+namespace chaintrue::grid::diagnosis {
+
+CovarianceRoot::CovarianceRoot(const Eigen::MatrixXd& a) : basis_(a.rows(), 0) {
+  if (a.rows() == 0 || a.cols() == 0) return;
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU);
+  basis_ = svd.matrixU();
+  log_variance_ = svd.singularValues().array().square().log1p();
+}
+
+Eigen::MatrixXd CovarianceRoot::power(double exponent, const Eigen::MatrixXd& m) const {
+  if (basis_.cols() == 0 || m.cols() == 0) return m;
+  const Eigen::VectorXd change = (exponent * log_variance_).exp() - 1.0;
+  Eigen::MatrixXd result = m;
+  result.noalias() += basis_ * (change.asDiagonal() * (basis_.transpose() * m));
+  return result;
+}
+
+Eigen::MatrixXd CovarianceRoot::solve(const Eigen::MatrixXd& m) const { return power(-0.5, m); }
+
+Eigen::MatrixXd CovarianceRoot::times(const Eigen::MatrixXd& m) const { return power(0.5, m); }
+
+Eigen::MatrixXd CovarianceRoot::inverse() const {
+  return power(-0.5, Eigen::MatrixXd::Identity(basis_.rows(), basis_.rows()));
+}
+
+Eigen::MatrixXd CovarianceRoot::precision() const {
+  return power(-1.0, Eigen::MatrixXd::Identity(basis_.rows(), basis_.rows()));
+}
+
+}  // namespace chaintrue::grid::diagnosis

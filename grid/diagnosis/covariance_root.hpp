@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The symmetric square root of a covariance V = I + A A' with few columns in A: noise of one and a
+/// few unknowns that all rows share. Of the thin A = U diag(a) W',
+///   V^p = I + U diag((1 + a^2)^p - 1) U'
+/// so that nothing of size rows x rows is made (G. Golub and C. Van Loan, Matrix Computations, 4th
+/// edition (2013), section 2.1.4 on low-rank changes). A product loses to rounding what a factor's
+/// would: some 1e-16 of what it is given.
+///
+///   const CovarianceRoot root(a);                  // rows x unknowns
+///   const Eigen::MatrixXd white = root.solve(m);   // its rows have a covariance of I
+#pragma once
+
+#include <Eigen/Core>
+
+namespace chaintrue::grid::diagnosis {
+
+class CovarianceRoot {
+ public:
+  CovarianceRoot() = default;
+  /// \param a  rows x unknowns, either may be 0.
+  explicit CovarianceRoot(const Eigen::MatrixXd& a);
+
+  /// V^(-1/2) m.
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& m) const;
+  /// V^(1/2) m.
+  [[nodiscard]] Eigen::MatrixXd times(const Eigen::MatrixXd& m) const;
+  /// V^(-1/2), rows x rows.
+  [[nodiscard]] Eigen::MatrixXd inverse() const;
+  /// V^(-1), rows x rows.
+  [[nodiscard]] Eigen::MatrixXd precision() const;
+  [[nodiscard]] double log_det() const { return log_variance_.sum(); }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd power(double exponent, const Eigen::MatrixXd& m) const;
+  Eigen::MatrixXd basis_;         ///< U
+  Eigen::ArrayXd log_variance_;   ///< log(1 + a^2)
+};
+
+}  // namespace chaintrue::grid::diagnosis
