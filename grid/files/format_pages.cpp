@@ -140,11 +140,19 @@ void tell_units(Json& schema) {
 
 std::string number_text(const Json& number) { return fmt::format("{}", number.get<double>()); }
 
+/// What an object is called; in messages a noun may go on behind it.
+std::string noun_of(const Json& schema) {
+  auto noun = schema["title"].get<std::string>();
+  if (noun.ends_with(',')) noun.pop_back();
+  return noun;
+}
+
 /// An object's keys stand in a table of their own, found by its noun.
 std::string anchor_of(const std::string& noun) {
   std::string anchor;
   for (const char c : noun) {
-    if (c == ' ') anchor += '-';
+    if (c == ' ' || c == '-') anchor += '-';
+    if (c >= 'A' && c <= 'Z') anchor += static_cast<char>(c - 'A' + 'a');
     if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) anchor += c;
   }
   return anchor;
@@ -217,7 +225,7 @@ std::string values_of(const Json& schema) {
     return words;
   }
   if (schema.contains("title")) {
-    const auto noun = schema["title"].get<std::string>();
+    const std::string noun = noun_of(schema);
     return fmt::format("[{}](#{})", noun, anchor_of(noun));
   }
   if (type == "object") return "object: " + values_of(schema["additionalProperties"]);
@@ -252,7 +260,7 @@ class Tables {
     }
     if (!schema.contains("properties")) return;
     if (!schema.contains("title")) return add(schema["additionalProperties"]);
-    const auto noun = schema["title"].get<std::string>();
+    const std::string noun = noun_of(schema);
     if (!told_.insert(noun).second) return;
     table(noun, schema);
     for (const auto& [key, property] : schema["properties"].items()) add(property);
