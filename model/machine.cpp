@@ -7,6 +7,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "model/machine_ranges.hpp"
+
 namespace chaintrue::model {
 namespace {
 
@@ -14,12 +16,16 @@ namespace {
 /// is outside is a slip.
 class Checker {
  public:
+  /// Where `ranges` are wanted, each that is looked at is noted there.
+  explicit Checker(std::vector<MachineRange>* ranges = nullptr) : ranges_(ranges) {}
   void range(std::string_view place,
              double value,
              double least,
              double most,
              std::string_view unit,
              std::string_view slip = "") {
+    if (ranges_ != nullptr)
+      ranges_->push_back({std::string(place), least, most, std::string(unit)});
     if (value >= least && value <= most) return;  // false for NaN
     std::string expected = fmt::format("a number from {} to {} {}", least, most, unit);
     while (!expected.empty() && expected.back() == ' ') expected.pop_back();
@@ -33,6 +39,7 @@ class Checker {
 
  private:
   std::vector<MachineProblem> problems_;
+  std::vector<MachineRange>* ranges_;
 };
 
 constexpr std::string_view kInches = "was it given in inches?";
@@ -116,14 +123,7 @@ void check_controller(const ControllerSettings& s, Checker& check) {
   optional("chainelongationfactor", s.chain_elongation_per_n, 0, 1e-3, "1/N");
 }
 
-}  // namespace
-
-double Sprocket::effective_radius_mm() const {
-  return radius_mm.value_or(pitch_mm * teeth / (2.0 * std::numbers::pi));
-}
-
-std::vector<MachineProblem> problems_of(const Machine& machine) {
-  Checker check;
+void check_machine(const Machine& machine, Checker& check) {
   check.range("/bed/width_mm", machine.bed.width_mm, 200, 20000, "mm", kInches);
   check.range("/bed/height_mm", machine.bed.height_mm, 200, 20000, "mm", kInches);
   check_motors(machine, check);
@@ -167,7 +167,46 @@ std::vector<MachineProblem> problems_of(const Machine& machine) {
                 "a finite number");
     }
   }
+}
+
+}  // namespace
+
+double Sprocket::effective_radius_mm() const {
+  return radius_mm.value_or(pitch_mm * teeth / (2.0 * std::numbers::pi));
+}
+
+std::vector<MachineProblem> problems_of(const Machine& machine) {
+  Checker check;
+  check_machine(machine, check);
   return check.take();
+}
+
+std::vector<MachineRange> machine_ranges() {
+  Machine machine;
+  machine.sprocket.radius_mm = machine.sprocket.effective_radius_mm();
+  ControllerSettings& settings = machine.controller.settings;
+  for (std::optional<double>* setting : {&settings.bed_width_mm,
+                                         &settings.bed_height_mm,
+                                         &settings.motor_spacing_mm,
+                                         &settings.motor_offset_y_mm,
+                                         &settings.rotation_radius_mm,
+                                         &settings.chain_sag_correction,
+                                         &settings.left_chain_tolerance_percent,
+                                         &settings.right_chain_tolerance_percent,
+                                         &settings.top_beam_tilt_deg,
+                                         &settings.chain_pitch_mm,
+                                         &settings.gear_teeth,
+                                         &settings.sled_weight_n,
+                                         &settings.chain_elongation_per_n}) {
+    *setting = 0.0;
+  }
+  std::vector<MachineRange> ranges;
+  Checker with_ring(&ranges);
+  check_machine(machine, with_ring);
+  machine.attachment = Brackets{};
+  Checker with_brackets(&ranges);
+  check_attachment(machine.attachment, with_brackets);
+  return ranges;
 }
 
 }  // namespace chaintrue::model

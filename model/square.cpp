@@ -47,10 +47,7 @@ void place(CutSquare& square,
 
 }  // namespace
 
-tl::expected<CutSquare, SquareFailure> predict_square(const Machine& machine,
-                                                      const Machine& controller_machine,
-                                                      const SquareTask& task,
-                                                      Model model) {
+std::vector<BedPoint> outline_of(const SquareTask& task) {
   if (!(task.size_mm > 0.0 && std::isfinite(task.size_mm)) || task.points_per_side < 2) {
     throw std::invalid_argument(
         fmt::format("a square of size_mm = {} with {} points to a side: expected a positive size "
@@ -58,37 +55,60 @@ tl::expected<CutSquare, SquareFailure> predict_square(const Machine& machine,
                     task.size_mm,
                     task.points_per_side));
   }
-  const auto controller = make_controller_kinematics(controller_machine);
-  const ReadingModel world(machine, model);
   const std::array<BedPoint, 4> corners = corners_of(task);
-  CutSquare square;
-  std::array<BedPoint, 4> cut_corners;
+  std::vector<BedPoint> outline;
   for (std::size_t i = 0; i < 4; ++i) {
     const BedPoint a = corners[i], b = corners[(i + 1) % 4];
-    const std::size_t first = square.cut.size();
     for (int n = 0; n < task.points_per_side; ++n) {
       const double share = static_cast<double>(n) / (task.points_per_side - 1);
-      const BedPoint p{a.x_mm + share * (b.x_mm - a.x_mm), a.y_mm + share * (b.y_mm - a.y_mm)};
-      const auto lengths = controller->lengths(p);
-      if (!lengths) return tl::unexpected(SquareFailure{p, lengths.error(), true});
-      const auto tool = world.find(*lengths, p);
-      if (!tool) return tl::unexpected(SquareFailure{p, tool.error(), false});
-      square.commanded.push_back(p);
-      square.cut.push_back(tool->pose.position);
+      outline.push_back({a.x_mm + share * (b.x_mm - a.x_mm), a.y_mm + share * (b.y_mm - a.y_mm)});
     }
-    const BedPoint from = square.cut[first], to = square.cut.back();
+  }
+  return outline;
+}
+
+CutSquare measured_square(const SquareTask& task, std::vector<BedPoint> cut) {
+  CutSquare square;
+  square.commanded = outline_of(task);
+  if (cut.size() != square.commanded.size()) {
+    throw std::invalid_argument(fmt::format(
+        "{} points of a square cut, of an outline of {}", cut.size(), square.commanded.size()));
+  }
+  square.cut = std::move(cut);
+  const std::size_t count = square.cut.size() / 4;
+  std::array<BedPoint, 4> cut_corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const BedPoint from = square.cut[i * count], to = square.cut[(i + 1) * count - 1];
     cut_corners[i] = from;
     CutSide& side = square.sides[i];
     side.length_mm = distance_mm(from, to);
-    for (std::size_t n = first; n < square.cut.size(); ++n) {
+    for (std::size_t n = i * count; n < (i + 1) * count; ++n) {
       const double bow = outwards_mm(from, to, square.cut[n]);
       if (std::abs(bow) > std::abs(side.bow_mm)) side.bow_mm = bow;
     }
   }
   square.rising_diagonal_mm = distance_mm(cut_corners[0], cut_corners[2]);
   square.falling_diagonal_mm = distance_mm(cut_corners[1], cut_corners[3]);
-  place(square, corners, cut_corners);
+  place(square, corners_of(task), cut_corners);
   return square;
+}
+
+tl::expected<CutSquare, SquareFailure> predict_square(const Machine& machine,
+                                                      const Machine& controller_machine,
+                                                      const SquareTask& task,
+                                                      Model model) {
+  const std::vector<BedPoint> outline = outline_of(task);
+  const auto controller = make_controller_kinematics(controller_machine);
+  const ReadingModel world(machine, model);
+  std::vector<BedPoint> cut;
+  for (const BedPoint p : outline) {
+    const auto lengths = controller->lengths(p);
+    if (!lengths) return tl::unexpected(SquareFailure{p, lengths.error(), true});
+    const auto tool = world.find(*lengths, p);
+    if (!tool) return tl::unexpected(SquareFailure{p, tool.error(), false});
+    cut.push_back(tool->pose.position);
+  }
+  return measured_square(task, std::move(cut));
 }
 
 }  // namespace chaintrue::model

@@ -58,6 +58,14 @@ struct CutSquare {
   }
 };
 
+/// The points of the outline as commanded, in the order of CutSquare::commanded.
+/// \throws std::invalid_argument for a size that is no positive number or fewer than two points to a
+/// side.
+[[nodiscard]] std::vector<BedPoint> outline_of(const SquareTask& task);
+/// What a ruler shows where the tool went through `cut`, a point for each of the outline.
+/// \throws std::invalid_argument as above, and for another number of points.
+[[nodiscard]] CutSquare measured_square(const SquareTask& task, std::vector<BedPoint> cut);
+
 /// Which commanded point, and why.
 struct SquareFailure {
   BedPoint commanded;

@@ -8,6 +8,7 @@
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/machine_record.hpp"
+#include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::files {
@@ -32,7 +33,9 @@ Value<std::uint64_t> seed_value() {
             return std::nullopt;
           },
           [](const std::uint64_t& value) { return Json(value); },
-          expected};
+          {expected, [] {
+             return Json{{"type", "integer"}, {"minimum", 0}};
+           }}};
 }
 
 const Record<StatedNoise>& noise_record() {
@@ -248,5 +251,7 @@ Diagnosis parse_diagnosis(const std::string& text,
 std::string write_diagnosis(const Diagnosis& diagnosis) {
   return write_document(diagnosis_record(), diagnosis);
 }
+
+Json diagnosis_schema() { return diagnosis_record().schema(); }
 
 }  // namespace chaintrue::grid::files

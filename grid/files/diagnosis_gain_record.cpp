@@ -52,7 +52,7 @@ constexpr std::array kTransferRows = {
 
 /// One figure of a row: how it is read into the row and written from it.
 struct Figure {
-  std::string expected;
+  Expected expected;
   std::function<void(const Cursor&, HeldOut&)> read;
   std::function<Json(const HeldOut&)> write;
 };
@@ -69,7 +69,12 @@ Figure single(double HeldOut::*member) {
 Figure interval() {
   constexpr const char* kExpected = "a pair of numbers in mm, the lower one first";
   const Value<std::vector<double>> value = list(number(kErrorMm), 2);
-  return {kExpected,
+  return {{kExpected,
+           [value] {
+             Json schema = value.expected.schema();
+             schema["maxItems"] = 2;
+             return schema;
+           }},
           [value](const Cursor& at, HeldOut& row) {
             const auto read = value.read(at);
             if (!read || read->size() < 2) return;

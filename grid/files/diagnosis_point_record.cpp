@@ -34,7 +34,12 @@ void pair_key(Record<T>& record,
   record.custom(
       key,
       true,
-      expected,
+      {expected,
+       [value] {
+         Json schema = value.expected.schema();
+         schema["maxItems"] = 2;
+         return schema;
+       }},
       [value, set, expected](const Cursor& at, T& object) {
         const auto read = value.read(at);
         if (read && read->size() == 2) {
@@ -98,7 +103,7 @@ void place_keys(Record<T>& record,
     record.custom(
         key,
         true,
-        "a number in mm",
+        {"a number in mm", [] { return number_schema(kMm); }},
         [place, member](const Cursor& at, T& object) {
           if (const auto value = at.number(kMm)) place(object).*member = *value;
         },
@@ -127,7 +132,7 @@ const Record<NextMeasurement>& next_measurement_record() {
       next.custom(
           key,
           false,
-          "a number in mm",
+          {"a number in mm", [] { return number_schema(kMm); }},
           [member](const Cursor& at, NextMeasurement& object) {
             const auto value = at.number(kMm);
             if (!value) return;

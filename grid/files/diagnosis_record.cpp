@@ -108,7 +108,8 @@ void parameter_keys(Record<T>& record) {
   record.custom(
       "parameters",
       true,
-      "an object, each value a value with its sigma",
+      {"an object, each value a value with its sigma",
+       [] { return dictionary_schema(estimate_record().schema()); }},
       [](const Cursor& at, T& object) {
         if (!at.json().is_object())
           return at.expect("an object, each value a value with its sigma");

@@ -67,7 +67,7 @@ void line_key(Record<Removal>& record) {
   record.custom(
       "at_mm",
       false,
-      "a number in mm",
+      {"a number in mm", [] { return number_schema(kMm); }},
       [](const Cursor& at, Removal& object) {
         if (const auto value = at.number(kMm)) object.at_mm = *value;
       },

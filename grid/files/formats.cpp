@@ -29,6 +29,11 @@ bool is_newer(const Format& format, std::string_view found) {
 
 }  // namespace
 
+std::string name_of(const Format& format) {
+  constexpr std::string_view kBegin = "chaintrue_";
+  return std::string(format.file_type.substr(kBegin.size()));
+}
+
 Json headed(const Format& format) {
   Json file = Json::object();
   file["file_type"] = format.file_type;

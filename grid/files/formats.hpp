@@ -36,10 +36,11 @@ struct Format {
 inline constexpr std::array kOlderMaps = {OlderVersion{
     "1.0", "written before maps carried a hash of their content; taken to be undamaged"}};
 
-inline constexpr std::array kOlderDiagnoses = {OlderVersion{
-    "1.0",
-    "written before a diagnosis said what remains besides its causes and what the error is made of; "
-    "taken to leave nothing unexplained"}};
+inline constexpr std::array kOlderDiagnoses = {
+    OlderVersion{"1.0",
+                 "written before a diagnosis said what remains besides its causes and what the "
+                 "error is made of; "
+                 "taken to leave nothing unexplained"}};
 
 inline constexpr Format kMachineFormat{"chaintrue_machine", "1.0"};
 inline constexpr Format kGridFormat{"chaintrue_grid", "1.0"};
@@ -66,6 +67,9 @@ inline constexpr std::array<const Format*, 12> kFormats = {&kMachineFormat,
                                                            &kFitFormat,
                                                            &kEffectsFormat,
                                                            &kEffectPictureFormat};
+
+/// What stands behind chaintrue_: "machine".
+[[nodiscard]] std::string name_of(const Format& format);
 
 /// An object that begins as such a file begins.
 [[nodiscard]] Json headed(const Format& format);

@@ -12,6 +12,7 @@
 #include "grid/files/machine_record.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/reading_record.hpp"
+#include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
 
 namespace chaintrue::grid::files {
@@ -69,6 +70,15 @@ const Record<StatedPoint>& point_record() {
   return record;
 }
 
+/// A point has lengths, or the command that it was sent to; blank, null stands for what was not read.
+Json points_schema() {
+  Json point = point_record().schema();
+  for (const char* key : {"x_mm", "y_mm"}) point["properties"][key]["type"] = {"number", "null"};
+  point["anyOf"] = {{{"required", {"left_mm", "right_mm"}}},
+                    {{"required", {"commanded_x_mm", "commanded_y_mm"}}}};
+  return list_schema(point, 0);
+}
+
 /// A point of a list to fill in: a mark with null for both lengths, or a command with null for both
 /// coordinates.
 bool is_blank(const Cursor& at) {
@@ -110,11 +120,12 @@ const Record<StatedGrid>& grid_record() {
           .sparse("readings", &StatedGrid::readings, list(object(reading_record())))
           .custom("points",
                   true,
-                  "a list of points",
+                  {"a list of points", points_schema},
                   read_points,
                   [value = list(object(point_record()))](const StatedGrid& grid) {
                     return std::optional<Json>(value.write(grid.points));
                   })
+          .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
           .check([](const Cursor& at, StatedGrid& grid) {
             if (grid.machine && !grid.machine_file.empty()) {
               at.child("machine_file").expect("either \"machine\" or \"machine_file\", not both");
@@ -307,5 +318,7 @@ std::string write_grid_sheet(const MeasuredGrid& plan) {
   }
   return print_json(json);
 }
+
+Json grid_schema() { return grid_record().schema(); }
 
 }  // namespace chaintrue::grid::files

@@ -9,6 +9,7 @@
 #include "grid/files/machine_record.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/reading_record.hpp"
+#include "grid/files/schemas.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -39,7 +40,7 @@ const Record<Hole>& hole_record() {
       hole.custom(
           key,
           true,
-          kHoleCoordinate.expected(),
+          number(kHoleCoordinate).expected,
           [member](const Cursor& at, Hole& h) {
             if (const auto value = at.number(kHoleCoordinate)) h.commanded.*member = *value;
           },
@@ -56,11 +57,14 @@ const Record<Hole>& hole_record() {
 Record<StatedDistance>& end_of(Record<StatedDistance>& record,
                                const std::string& key,
                                std::string StatedDistance::*member) {
-  constexpr int kMost = 100000;
+  static constexpr int kMost = 100000;
   return record.custom(
       key,
       true,
-      "a hole's name or number",
+      {"a hole's name or number",
+       [] {
+         return Json{{"type", {"string", "integer"}}, {"minimum", 0}, {"maximum", kMost}};
+       }},
       [member](const Cursor& at, StatedDistance& distance) {
         if (at.json().is_number()) {
           if (const auto value = at.integer(0, kMost)) distance.*member = fmt::format("{}", *value);
@@ -80,7 +84,12 @@ const Record<StatedDistance>& distance_record() {
         .custom(
             "distance_mm",
             true,
-            kTapeDistance.expected(),
+            {kTapeDistance.expected(),
+             [] {
+               Json schema = number_schema(kTapeDistance);
+               schema["type"] = {"number", "null"};
+               return schema;
+             }},
             [](const Cursor& at, StatedDistance& d) {
               d.is_blank = at.json().is_null();
               if (d.is_blank) return;
@@ -134,7 +143,7 @@ const Record<StatedHoles>& holes_record() {
           .custom(
               "holes",
               true,
-              "a list of holes",
+              {"a list of holes", [] { return list_schema(hole_record().schema(), 0); }},
               [](const Cursor& at, StatedHoles& stated) {
                 read_list<Hole>(at, hole_record(), stated.holes, [&stated](Hole&, bool spoilt) {
                   stated.is_hole_spoilt.push_back(spoilt);
@@ -144,7 +153,7 @@ const Record<StatedHoles>& holes_record() {
           .custom(
               "distances",
               true,
-              "a list of distances",
+              {"a list of distances", [] { return list_schema(distance_record().schema(), 0); }},
               [](const Cursor& at, StatedHoles& stated) {
                 read_list<StatedDistance>(
                     at,
@@ -153,6 +162,7 @@ const Record<StatedHoles>& holes_record() {
                     [](StatedDistance& distance, bool spoilt) { distance.is_spoilt = spoilt; });
               },
               list_writer(distance_record(), &StatedHoles::distances))
+          .schema_also({{"not", {{"required", {"machine", "machine_file"}}}}})
           .check([](const Cursor& at, StatedHoles& stated) {
             stated.hook_is_stated = at.has("tape") && at.child("tape").json().is_object() &&
                                     at.child("tape").has("hook_offset_mm");
@@ -162,5 +172,7 @@ const Record<StatedHoles>& holes_record() {
           });
   return record;
 }
+
+Json holes_schema() { return holes_record().schema(); }
 
 }  // namespace chaintrue::grid::files

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "grid/files/meanings.hpp"
+
 namespace chaintrue::grid::files {
 namespace {
 
@@ -85,25 +87,31 @@ Value<double> number(Range range) {
   return {[range](const Cursor& at) { return at.number(range); },
           // A negative zero would come back as a zero: the same number, other bytes.
           [](const double& value) { return Json(value + 0.0); },
-          range.expected()};
+          {range.expected(), [range] { return number_schema(range); }}};
 }
 
 Value<int> integer(int least, int most) {
   return {[least, most](const Cursor& at) { return at.integer(least, most); },
           [](const int& value) { return Json(value); },
-          fmt::format("a whole number from {} to {}", least, most)};
+          {fmt::format("a whole number from {} to {}", least, most), [least, most] {
+             return Json{{"type", "integer"}, {"minimum", least}, {"maximum", most}};
+           }}};
 }
 
 Value<bool> boolean() {
   return {[](const Cursor& at) { return at.boolean(); },
           [](const bool& value) { return Json(value); },
-          "true or false"};
+          {"true or false", [] {
+             return Json{{"type", "boolean"}};
+           }}};
 }
 
 Value<std::string> text() {
   return {[](const Cursor& at) { return at.text(); },
           [](const std::string& value) { return Json(value); },
-          "a text"};
+          {"a text", [] {
+             return Json{{"type", "string"}};
+           }}};
 }
 
 Value<std::string> one_of(std::vector<std::string> names) {
@@ -123,10 +131,53 @@ Value<std::string> one_of(std::vector<std::string> names) {
             return std::nullopt;
           },
           [](const std::string& value) { return Json(value); },
-          expected};
+          {expected, [names] {
+             return Json{{"enum", names}};
+           }}};
+}
+
+Json with_default(Json schema, const Json& value) {
+  const bool says_something = schema.contains("enum") || value.is_number() || value.is_boolean() ||
+                              (value.is_array() && !value.empty());
+  if (says_something) schema["default"] = value;
+  return schema;
+}
+
+Json number_schema(const Range& range) {
+  // Wider ranges only keep what is no measure of anything away from arithmetic.
+  constexpr double kWiderThanAnyMeaning = 1e9;
+  Json schema = {{"type", "number"}};
+  if (!range.unit.empty()) schema["unit"] = std::string(range.unit);
+  if (range.least > -kWiderThanAnyMeaning) schema["minimum"] = range.least;
+  if (range.most < kWiderThanAnyMeaning) schema["maximum"] = range.most;
+  return schema;
+}
+
+Json list_schema(const Json& element, std::size_t fewest) {
+  Json schema = {{"type", "array"}, {"items", element}};
+  if (fewest > 0) schema["minItems"] = fewest;
+  return schema;
+}
+
+Json dictionary_schema(const Json& element) {
+  return {{"type", "object"},
+          {"properties", {{"comment", {{"description", "Anything; not read."}}}}},
+          {"additionalProperties", element}};
 }
 
 namespace {
+
+/// The same, or null: how a key that may be absent may stand.
+Json or_null(Json schema) {
+  if (schema.contains("enum")) {
+    schema["enum"].push_back(nullptr);
+  } else if (schema.contains("type") && schema["type"].is_string()) {
+    schema["type"] = {schema["type"], "null"};
+  } else if (!schema.empty()) {
+    schema = {{"anyOf", {schema, {{"type", "null"}}}}};
+  }
+  return schema;
+}
 
 /// What a file of another kind is, and which verbs take it.
 std::string what_takes(const Json& file_type) {
@@ -176,6 +227,35 @@ bool KnownKeys::open(const Cursor& at, bool is_root) const {
     return false;
   }
   return true;
+}
+
+Json KnownKeys::schema_of_part(const std::vector<KeySchema>& keys) const {
+  if (format_ == nullptr) return schema_of_keys(keys);
+  const std::string name = name_of(*format_);
+  return {{"$ref", fmt::format("{0}.schema.json#/definitions/{0}", name)}};
+}
+
+Json KnownKeys::schema_of_keys(const std::vector<KeySchema>& keys) const {
+  Json properties = Json::object();
+  Json required = Json::array();
+  if (format_ != nullptr) {
+    properties["file_type"] = {{"const", std::string(format_->file_type)}};
+    Json versions = {std::string(format_->version)};
+    for (const OlderVersion& older : format_->older) versions.push_back(std::string(older.version));
+    properties["format_version"] = {{"enum", std::move(versions)}};
+  }
+  properties["comment"] = {{"description", "Anything; not read."}};
+  for (const KeySchema& key : keys) {
+    Json schema = key.is_required ? key.schema : or_null(key.schema);
+    if (const std::string meaning = meaning_of(noun_, key.key); !meaning.empty())
+      schema["description"] = meaning;
+    properties[key.key] = std::move(schema);
+    if (key.is_required) required.push_back(key.key);
+  }
+  Json schema = {{"type", "object"}, {"title", noun_}, {"properties", std::move(properties)}};
+  if (!required.empty()) schema["required"] = std::move(required);
+  schema["additionalProperties"] = false;
+  return schema;
 }
 
 std::vector<std::string> KnownKeys::report_unknown_keys(const Cursor& at) const {

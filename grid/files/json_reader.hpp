@@ -110,13 +110,33 @@ class Cursor {
   std::size_t index_ = 0;
 };
 
-/// How one value is read and written, and the words for what is expected.
+/// What is expected of a value: in words for messages, and as a JSON Schema for editors and for the
+/// reference pages (schema.hpp). A schema is made when it is asked for; words without one allow
+/// anything.
+struct Expected {
+  Expected(const char* in_words) : words(in_words) {}  // NOLINT: words are the usual case
+  Expected(std::string in_words) : words(std::move(in_words)) {}  // NOLINT
+  Expected(std::string in_words, std::function<Json()> as_schema)
+      : words(std::move(in_words)), schema(std::move(as_schema)) {}
+  operator const std::string&() const { return words; }  // NOLINT: messages take the words
+
+  std::string words;
+  std::function<Json()> schema = [] { return Json::object(); };
+};
+
+/// How one value is read and written, and what is expected.
 template <class V>
 struct Value {
   std::function<std::optional<V>(const Cursor&)> read;
   std::function<Json(const V&)> write;
-  std::string expected;
+  Expected expected;
 };
+
+/// `schema` with that default where it is a number, a word, a truth or a list of such that is not
+/// empty. Texts have none: an empty one says nothing.
+[[nodiscard]] Json with_default(Json schema, const Json& value);
+/// Schema of a number in its range.
+[[nodiscard]] Json number_schema(const Range& range);
 
 [[nodiscard]] Value<double> number(Range range);
 [[nodiscard]] Value<int> integer(int least, int most);
@@ -146,12 +166,18 @@ template <class E>
           word.expected};
 }
 
+/// Schema of a list of such elements.
+[[nodiscard]] Json list_schema(const Json& element, std::size_t fewest);
+/// Schema of an object whose keys are not known beforehand.
+[[nodiscard]] Json dictionary_schema(const Json& element);
+
 /// `fewest` elements at least.
 template <class V>
 [[nodiscard]] Value<std::vector<V>> list(Value<V> element, std::size_t fewest = 0) {
   const std::string expected =
-      fewest == 0 ? fmt::format("a list, each element {}", element.expected)
-                  : fmt::format("a list of at least {}, each element {}", fewest, element.expected);
+      fewest == 0
+          ? fmt::format("a list, each element {}", element.expected.words)
+          : fmt::format("a list of at least {}, each element {}", fewest, element.expected.words);
   return {[element, fewest, expected](const Cursor& at) -> std::optional<std::vector<V>> {
             if (!at.json().is_array()) {
               at.expect(expected);
@@ -175,13 +201,13 @@ template <class V>
             for (const V& value : values) array.push_back(element.write(value));
             return array;
           },
-          expected};
+          {expected, [element, fewest] { return list_schema(element.expected.schema(), fewest); }}};
 }
 
 /// Keys that are not known beforehand.
 template <class V>
 [[nodiscard]] Value<std::map<std::string, V>> dictionary(Value<V> element) {
-  const std::string expected = fmt::format("an object, each value {}", element.expected);
+  const std::string expected = fmt::format("an object, each value {}", element.expected.words);
   return {[element, expected](const Cursor& at) -> std::optional<std::map<std::string, V>> {
             if (!at.json().is_object()) {
               at.expect(expected);
@@ -199,16 +225,27 @@ template <class V>
             for (const auto& [key, value] : values) object[key] = element.write(value);
             return object;
           },
-          expected};
+          {expected, [element] { return dictionary_schema(element.expected.schema()); }}};
 }
 
 /// The part of a record that does not depend on its type: which keys there are.
 class KnownKeys {
  public:
   KnownKeys(std::string noun, const Format* format) : noun_(std::move(noun)), format_(format) {}
-  [[nodiscard]] std::string expected() const { return noun_; }
+  [[nodiscard]] const std::string& noun() const { return noun_; }
 
  protected:
+  /// A key with the schema of its value.
+  struct KeySchema {
+    std::string key;
+    bool is_required;
+    Json schema;
+  };
+  /// Of an object with these keys; where this is a file's record, a reference to that file's schema.
+  [[nodiscard]] Json schema_of_part(const std::vector<KeySchema>& keys) const;
+  /// Of the object itself, written out.
+  [[nodiscard]] Json schema_of_keys(const std::vector<KeySchema>& keys) const;
+
   void add_key(std::string key) { keys_.push_back(std::move(key)); }
   /// False, and reported, where this is no object or a file of another type or version. Warns of
   /// what is assumed of an older version.
@@ -242,10 +279,13 @@ class Record : public KnownKeys {
 
   template <class V>
   Record& optional(const std::string& key, V T::*member, Value<V> value) {
-    return add(
-        key, false, value.expected, plain_reader(member, value), [member, value](const T& t) {
-          return std::optional<Json>(value.write(t.*member));
-        });
+    const Expected expected{value.expected.words, [member, value] {
+                              return with_default(value.expected.schema(),
+                                                  value.write(T{}.*member));
+                            }};
+    return add(key, false, expected, plain_reader(member, value), [member, value](const T& t) {
+      return std::optional<Json>(value.write(t.*member));
+    });
   }
 
   template <class V>
@@ -271,7 +311,7 @@ class Record : public KnownKeys {
   /// `write` gives nothing where the key is to be left out.
   Record& custom(const std::string& key,
                  bool is_required,
-                 std::string expected,
+                 Expected expected,
                  std::function<void(const Cursor&, T&)> read,
                  std::function<std::optional<Json>(const T&)> write) {
     return add(key, is_required, std::move(expected), std::move(read), std::move(write));
@@ -282,7 +322,7 @@ class Record : public KnownKeys {
     return add(
         key,
         true,
-        fmt::format("\"{}\"", word),
+        one_of({word}).expected,
         [read = one_of({word}).read](const Cursor& at, T&) { (void)read(at); },
         [word](const T&) { return std::optional<Json>(word); });
   }
@@ -291,6 +331,21 @@ class Record : public KnownKeys {
   Record& check(std::function<void(const Cursor&, T&)> check) {
     checks_.push_back(std::move(check));
     return *this;
+  }
+
+  /// What a schema says beside the keys: `{"not": {"required": ["machine", "machine_file"]}}`.
+  Record& schema_also(Json rule) {
+    rules_.push_back(std::move(rule));
+    return *this;
+  }
+  [[nodiscard]] Expected expected() const {
+    return {noun(), [this] { return schema_of_part(key_schemas()); }};
+  }
+  /// Of the object itself, also where it is a file's.
+  [[nodiscard]] Json schema() const {
+    Json schema = schema_of_keys(key_schemas());
+    for (const Json& rule : rules_) schema.update(rule);
+    return schema;
   }
 
   /// Nothing where this is no object at all; otherwise the object, with what could be read.
@@ -330,7 +385,7 @@ class Record : public KnownKeys {
   struct Field {
     std::string key;
     bool is_required;
-    std::string expected;
+    Expected expected;
     std::function<void(const Cursor&, T&)> read;
     std::function<std::optional<Json>(const T&)> write;
   };
@@ -342,9 +397,16 @@ class Record : public KnownKeys {
     };
   }
 
+  [[nodiscard]] std::vector<KeySchema> key_schemas() const {
+    std::vector<KeySchema> keys;
+    for (const Field& field : fields_)
+      keys.push_back({field.key, field.is_required, field.expected.schema()});
+    return keys;
+  }
+
   Record& add(const std::string& key,
               bool is_required,
-              std::string expected,
+              Expected expected,
               std::function<void(const Cursor&, T&)> read,
               std::function<std::optional<Json>(const T&)> write) {
     add_key(key);
@@ -354,6 +416,7 @@ class Record : public KnownKeys {
 
   std::vector<Field> fields_;
   std::vector<std::function<void(const Cursor&, T&)>> checks_;
+  std::vector<Json> rules_;
 };
 
 /// The record must outlive the value: records are static.

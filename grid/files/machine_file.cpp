@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/files/machine_record.hpp"
+#include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -306,7 +307,14 @@ const Record<Machine>& machine_record() {
           .required("feed",
                     &Machine::feed,
                     choice<Feed>({{"over_top", Feed::over_top}, {"off_bottom", Feed::off_bottom}}))
-          .custom("attachment", true, "a ring or brackets", read_attachment, write_attachment)
+          .custom("attachment",
+                  true,
+                  {"a ring or brackets",
+                   [] {
+                     return Json{{"oneOf", {ring_record().schema(), brackets_record().schema()}}};
+                   }},
+                  read_attachment,
+                  write_attachment)
           .required("chain", &Machine::chain, object(chain_record()))
           .optional("chain_zero", &Machine::chain_zero, object(chain_zero_record()))
           .required("sled", &Machine::sled, object(sled_record()))
@@ -346,5 +354,7 @@ std::string write_machine(const Machine& machine, const std::vector<std::string>
   if (!comments.empty()) json["comment"] = comments;
   return print_json(json);
 }
+
+Json machine_schema() { return machine_record().schema(); }
 
 }  // namespace chaintrue::grid::files

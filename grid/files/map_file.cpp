@@ -9,6 +9,7 @@
 #include "grid/files/json_reader.hpp"
 #include "grid/files/map_surface_record.hpp"
 #include "grid/files/ranges.hpp"
+#include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -102,6 +103,12 @@ const Record<SettingResult>& setting_record() {
   return record;
 }
 
+Json pair_schema() {
+  Json schema = list_schema(number_schema(kErrorMm), 2);
+  schema["maxItems"] = 2;
+  return schema;
+}
+
 /// A vector in the plane as a pair of numbers.
 template <class T>
 Record<T>& pair(Record<T>& record, const std::string& key, Eigen::Vector2d T::*member) {
@@ -109,7 +116,7 @@ Record<T>& pair(Record<T>& record, const std::string& key, Eigen::Vector2d T::*m
   return record.custom(
       key,
       true,
-      "a pair of numbers in mm",
+      {"a pair of numbers in mm", pair_schema},
       [member, value](const Cursor& at, T& object) {
         const auto read = value.read(at);
         if (read && read->size() == 2) {
@@ -131,7 +138,7 @@ const Record<MapPoint>& point_record() {
       point.custom(
           key,
           true,
-          "a number in mm",
+          {"a number in mm", [] { return number_schema(kPlaceMm); }},
           [get](const Cursor& at, MapPoint& p) {
             if (const auto value = at.number(kPlaceMm)) get(p) = *value;
           },
@@ -161,7 +168,7 @@ const Record<MirrorTest>& mirror_record() {
           .custom(
               "points",
               true,
-              "a count",
+              {"a count", integer(0, 1000000).expected.schema},
               [](const Cursor& at, MirrorTest& test) {
                 if (const auto count = at.integer(0, 1000000))
                   test.points = static_cast<std::size_t>(*count);
@@ -274,6 +281,7 @@ Record<MapContents> make_map_record() {
           text().expected,
           [](const Cursor& at, MapContents&) { (void)at.text(); },
           [](const MapContents&) { return std::optional<Json>(); })
+      .schema_also({{"oneOf", {{{"required", {"on_machine"}}}, {{"required", {"direct"}}}}}})
       .check(check_map);
   return record;
 }
@@ -305,5 +313,7 @@ std::string write_map(const CompensationMap& map) {
   json["content_hash"] = content_hash(json);
   return print_json(json);
 }
+
+Json map_schema() { return map_record().schema(); }
 
 }  // namespace chaintrue::grid::files

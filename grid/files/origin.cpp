@@ -119,7 +119,7 @@ Origin origin_of(std::string_view text) {
   const std::string_view first_line = text.substr(0, text.find('\n'));
   if (first_line.starts_with("<svg") && first_line.ends_with(kMark)) return Origin::drawing;
   if (first_line.starts_with("(compensated by chaintrue") ||
-      first_line.starts_with("(chaintrue plan:")) {
+      first_line.starts_with("(chaintrue plan:") || first_line.starts_with("(chaintrue square:")) {
     return Origin::program;
   }
   if (text.find("\nMeasured less map  ") != std::string_view::npos) return Origin::table;

@@ -9,6 +9,7 @@
 #include "grid/files/json_reader.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/machine_record.hpp"
+#include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/statistics.hpp"
 #include "model/effects/catalogue.hpp"
@@ -63,7 +64,9 @@ Value<GridLevel> grid_size(int least) {
             return size;
           },
           [](const GridLevel& size) { return Json(fmt::format("{}x{}", size.columns, size.rows)); },
-          expected};
+          {expected, [] {
+             return Json{{"type", "string"}, {"pattern", "^[0-9]+x[0-9]+$"}};
+           }}};
 }
 
 const Record<NoiseLevel>& noise_record() {
@@ -110,6 +113,17 @@ const Record<UseLevel>& use_record() {
   return record;
 }
 
+/// What a sweep does where its file does not say.
+void fill_defaults(SweepSpec& spec) {
+  if (spec.grids.empty()) spec.grids = {GridLevel{}};
+  if (spec.spacings.empty()) spec.spacings = {DesignKind::regular};
+  if (spec.noises.empty()) spec.noises = {NoiseLevel{}};
+  if (spec.jitters_mm.empty()) spec.jitters_mm = {0.0};
+  if (spec.surfaces.empty()) spec.surfaces = {SurfaceLevel::residual};
+  if (spec.effects.empty()) spec.effects = {{"none", {}}};
+  if (spec.uses.empty()) spec.uses = {{"the same machine", {}, false}};
+}
+
 /// A field of the specification inside the file as it stands.
 template <class V>
 void add_to(Record<StatedSweep>& record,
@@ -120,7 +134,13 @@ void add_to(Record<StatedSweep>& record,
   record.custom(
       key,
       is_required,
-      value.expected,
+      {value.expected.words,
+       [member, value, is_required] {
+         SweepSpec spec;
+         fill_defaults(spec);
+         const Json schema = value.expected.schema();
+         return is_required ? schema : with_default(schema, value.write(spec.*member));
+       }},
       [member, value](const Cursor& at, StatedSweep& stated) {
         if (auto read = value.read(at)) stated.spec.*member = std::move(*read);
       },
@@ -136,7 +156,7 @@ Record<StatedSweep> make_record() {
   record.custom(
       "seed",
       false,
-      "a whole number from 0",
+      {"a whole number from 0", integer(0, 2'000'000'000).expected.schema},
       [](const Cursor& at, StatedSweep& stated) {
         if (const auto seed = at.integer(0, 2'000'000'000))
           stated.spec.seed = static_cast<std::uint64_t>(*seed);
@@ -189,16 +209,6 @@ Record<StatedSweep> make_record() {
 const Record<StatedSweep>& sweep_record() {
   static const auto record = make_record();
   return record;
-}
-
-void fill_defaults(SweepSpec& spec) {
-  if (spec.grids.empty()) spec.grids = {GridLevel{}};
-  if (spec.spacings.empty()) spec.spacings = {DesignKind::regular};
-  if (spec.noises.empty()) spec.noises = {NoiseLevel{}};
-  if (spec.jitters_mm.empty()) spec.jitters_mm = {0.0};
-  if (spec.surfaces.empty()) spec.surfaces = {SurfaceLevel::residual};
-  if (spec.effects.empty()) spec.effects = {{"none", {}}};
-  if (spec.uses.empty()) spec.uses = {{"the same machine", {}, false}};
 }
 
 void read_machines(const fs::path& path, StatedSweep& stated, Problems& problems) {
@@ -310,5 +320,7 @@ std::string sweep_summary_line(const SweepSpec& spec,
 }
 
 std::string sweep_summary_tail() { return "  ]\n}\n"; }
+
+Json sweep_schema() { return sweep_record().schema(); }
 
 }  // namespace chaintrue::grid::files

@@ -11,6 +11,7 @@ namespace chaintrue {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -94,7 +95,7 @@ TEST_F(MixedCommands, ThePageShowsReadingsOfBothKinds) {
                     Not(HasSubstr("right of its mark, mm")),
                     HasSubstr("Both chains at every good point, and every good distance"),
                     HasSubstr("At the border the outermost points were held out."),
-                    HasSubstr("mm a chain and 0.3 mm a "),  // the mark is explained on hover
+                    ContainsRegex("mm a chain and 0.3 mm a (<abbr [^>]*>)?mark"),
                     HasSubstr("mm a reading of the tape and 0.3 mm a hole")));
 }
 

@@ -145,7 +145,7 @@ Visit visit(const std::string& html, std::string_view probe, Window window) {
   if (!probe.empty()) {
     // Charts are drawn asynchronously; the page says when they are done.
     const std::string script = fmt::format(
-        "<script>(function wait() {{ if (!document.documentElement.dataset.charts) return "
+        "<script>(async function wait() {{ if (!document.documentElement.dataset.charts) return "
         "setTimeout(wait, 20);\n{}\n}})();"
         "</script>\n</body>",
         probe);

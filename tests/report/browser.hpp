@@ -28,6 +28,14 @@ struct Visit {
 /// are drawn.
 [[nodiscard]] Visit visit(const std::string& html, std::string_view probe = {}, Window window = {});
 
+/// A probe: how many texts of charts end in an ellipsis, and which.
+inline constexpr std::string_view kCutLabels = R"(
+    for (const folded of document.querySelectorAll("details")) folded.open = true;
+    await new Promise((done) => setTimeout(done, 300));
+    const ends = [...document.querySelectorAll("figure.chart text")].filter((label) => label.textContent.includes("\u2026"));
+    document.documentElement.dataset.cutLabels = ends.length + ": " + ends.slice(0, 5).map((label) => label.textContent).join("; ");
+)";
+
 /// Why the visited page is not good: console lines, charts that failed, charts with fewer marks
 /// than the rows of their largest table, marks at no place. Empty for a good page.
 [[nodiscard]] std::vector<std::string> problems_of(const Visit& visit);

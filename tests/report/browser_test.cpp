@@ -71,22 +71,23 @@ TEST_F(InBrowser, NothingStandsOutOfAPhoneScreen) {
   EXPECT_THAT(visited.dom, HasSubstr("data-overflow=\"0\""));
 }
 
-TEST_F(InBrowser, NoCellIsCutOffOnAPhone) {
-  const Visit visited = visit(html_,
-                              R"(
+TEST_F(InBrowser, NoCellAndNoLabelIsCutOffOnAPhone) {
+  std::string probe(kCutLabels);
+  probe += R"(
     for (const folded of document.querySelectorAll("details")) folded.open = true;
     const cut = [...document.querySelectorAll("td, caption, p, figcaption")].filter((cell) => {
       const box = cell.getBoundingClientRect();
       return box.width > 0 && (box.right > document.documentElement.clientWidth || cell.scrollWidth > cell.clientWidth + 1);
     });
     document.documentElement.dataset.cut = cut.length + ": " + cut.slice(0, 3).map((cell) => cell.textContent).join("; ");
-  )",
-                              {390, 844});
+  )";
+  const Visit visited = visit(html_, probe, {390, 844});
   EXPECT_THAT(visited.console, IsEmpty());
   EXPECT_THAT(visited.dom, HasSubstr("data-cut=\"0: \""));
+  EXPECT_THAT(visited.dom, HasSubstr("data-cut-labels=\"0: \""));
 }
 
-TEST_F(InBrowser, LabelsOfAChartDoNotCollide) {
+TEST_F(InBrowser, LabelsOfAChartHideNeitherEachOtherNorPoints) {
   const Visit visited = visit(html_, R"(
     const overlaps = [];
     for (const chart of document.querySelectorAll("figure.chart")) {
@@ -98,9 +99,20 @@ TEST_F(InBrowser, LabelsOfAChartDoNotCollide) {
       }));
     }
     document.documentElement.dataset.overlaps = overlaps.length + ": " + overlaps.slice(0, 3).join("; ");
+    const hidden = [];
+    for (const chart of document.querySelectorAll("figure.chart")) {
+      const points = [...chart.querySelectorAll(".mark-symbol path")].map((point) => point.getBoundingClientRect());
+      for (const label of chart.querySelectorAll(".line_labels text, .ring_labels text")) {
+        const box = label.getBoundingClientRect();
+        if (points.some((point) => point.right > box.left && point.left < box.right && point.bottom > box.top && point.top < box.bottom))
+          hidden.push(chart.dataset.spec + ": " + label.textContent);
+      }
+    }
+    document.documentElement.dataset.hidden = hidden.length + ": " + hidden.join("; ");
   )");
   EXPECT_THAT(visited.console, IsEmpty());
   EXPECT_THAT(visited.dom, HasSubstr("data-overlaps=\"0: \""));
+  EXPECT_THAT(visited.dom, HasSubstr("data-hidden=\"0: \""));
 }
 
 TEST_F(InBrowser, WordsAreExplainedOnceAndAtTheEnd) {

@@ -179,15 +179,16 @@ TEST_F(DiagnosisPage, OfHolesDrawsDistances) {
   EXPECT_EQ(count_marks(visited, "residual_scatter", "point_marks"), 4 * kDistances);
 }
 
-TEST_F(DiagnosisPage, NothingStandsOutOfAPhoneScreen) {
+TEST_F(DiagnosisPage, NothingStandsOutOfAPhoneScreenAndNoLabelIsCutOff) {
   if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
-  const Visit visited =
-      visit(page_of(sample_diagnosis()),
-            "document.documentElement.dataset.overflow = "
-            "document.documentElement.scrollWidth - document.documentElement.clientWidth;",
-            {390, 844});
+  std::string probe(kCutLabels);
+  probe +=
+      "document.documentElement.dataset.overflow = "
+      "document.documentElement.scrollWidth - document.documentElement.clientWidth;";
+  const Visit visited = visit(page_of(sample_diagnosis()), probe, {390, 844});
   EXPECT_THAT(problems_of(visited), IsEmpty());
   EXPECT_THAT(visited.dom, HasSubstr("data-overflow=\"0\""));
+  EXPECT_THAT(visited.dom, HasSubstr("data-cut-labels=\"0: \""));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -51,6 +52,19 @@ std::string in_words(const grid::MapCheck& check) {
   return text;
 }
 
+/// A valid map says what it is good for; after re-zeroing, and where the points do not decide, a few
+/// more tell; a map that no longer holds is made anew.
+void say_next_of(const grid::MapCheck& check, const CheckCommand& command) {
+  if (check.is_valid_as_it_is()) {
+    return say_next({"report", command.map, "--certificate", "-o", "certificate.html"});
+  }
+  if (check.decided && check.verdict == grid::CheckVerdict::measure_again &&
+      !command.input.machine.empty()) {
+    return say_next({"plan", "--machine", command.input.machine, "-o", "marks.csv"});
+  }
+  say_next({"plan", "--check", command.map, "-o", "check.csv"});
+}
+
 int run_check(const CheckCommand& command) {
   const grid::CompensationMap map = read_map_input(command.map);
   grid::Measured measured;
@@ -71,6 +85,7 @@ int run_check(const CheckCommand& command) {
     return kBadInput;
   }
   write_output(command.output, command.json ? grid::files::write_check(*check) : in_words(*check));
+  say_next_of(*check, command);
   return check->is_valid_as_it_is() ? kDone : kCheckFailed;
 }
 

@@ -13,8 +13,8 @@ namespace chaintrue::cli {
 /// The words after the program's name; `help fit` becomes `fit --help`.
 [[nodiscard]] std::vector<std::string> words_of(int argc, char** argv);
 
-/// "Did you mean --machine?" and the line to type, for a verb or an option that nobody knows; empty
-/// where all are known, or where nothing is near.
+/// The sentence about a verb or an option that nobody knows, with the one that was probably meant or
+/// where to look; empty where all are known.
 [[nodiscard]] std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace chaintrue::cli

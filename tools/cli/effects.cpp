@@ -25,6 +25,7 @@
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -57,7 +58,7 @@ std::string sides_of(const Effect& effect) {
   return list;
 }
 
-int list_catalogue() {
+void list_catalogue() {
   std::string station;
   for (const Effect* effect : model::effects::catalogue()) {
     if (name(effect->station) != station) {
@@ -72,7 +73,6 @@ int list_catalogue() {
     fmt::print("      {}; usually {}\n", effect->cause, effect->typical);
   }
   fmt::print("\nOne of them: chaintrue effects ID [--machine M.json]\n");
-  return kDone;
 }
 
 void describe(const Effect& effect) {
@@ -301,13 +301,19 @@ int run_effects(const EffectsOptions& options) {
     return kDone;
   }
   if (options.id.empty()) {
-    if (!options.json) return list_catalogue();
+    if (!options.json) {
+      list_catalogue();
+      say_next({"effects", std::string(model::effects::catalogue().front()->id)});
+      return kDone;
+    }
     fmt::print("{}", files::write_catalogue());
     return kDone;
   }
   const Effect* effect = model::effects::find_effect(options.id);
   if (!options.machine.empty()) return show_picture(*effect, options);
   describe(*effect);
+  // Shown on a machine, it needs one.
+  say_next({"start"});
   return kDone;
 }
 

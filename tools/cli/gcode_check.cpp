@@ -13,6 +13,7 @@
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/gcode/controller_check.hpp"
 #include "tools/gcode/path_lengths.hpp"
 #include "tools/gcode/survey.hpp"
@@ -99,6 +100,21 @@ double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
                     rows * 1e-7)}});
 }
 
+/// The program beside which the compensated one is to lie, or its first line in words.
+void say_next_of_program(const GcodeOptions& options) {
+  if (options.map.empty()) {
+    if (options.program != "-") say_next({"gcode", "explain", options.program + ":1"});
+    return;
+  }
+  say_next({"gcode",
+            "compensate",
+            options.program,
+            "--map",
+            options.map,
+            "-o",
+            options.program == "-" ? "-" : compensated_name(options.program)});
+}
+
 }  // namespace
 
 int run_gcode_check(const GcodeOptions& options) {
@@ -121,7 +137,9 @@ int run_gcode_check(const GcodeOptions& options) {
   }
   if (options.map.empty()) {
     print_survey(*survey, options.json);
-    return report(options.program, findings);
+    const int code = report(options.program, findings);
+    if (code == kDone) say_next_of_program(options);
+    return code;
   }
   // With a map: everything that compensating would object to; what it would write is thrown away.
   const GcodeMachine machine(options);
@@ -141,6 +159,7 @@ int run_gcode_check(const GcodeOptions& options) {
                outcome->largest_correction_mm,
                outcome->largest_correction_line);
   }
+  if (code == kDone) say_next_of_program(options);
   return code;
 }
 
@@ -208,7 +227,9 @@ int run_gcode_lengths(const GcodeOptions& options) {
                                            findings);
   if (!outcome) return report(options.program, outcome.error());
   take_place(output, options.output, {});
-  return report(options.program, findings);
+  const int code = report(options.program, findings);
+  if (code == kDone) say_next_of_program(options);
+  return code;
 }
 
 }  // namespace chaintrue::cli

@@ -11,6 +11,7 @@
 
 #include "grid/files/input_error.hpp"
 #include "tools/cli/gcode_verbs.hpp"
+#include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -104,6 +105,11 @@ int run_gcode_explain(const GcodeOptions& options) {
   fmt::print("line {}:{}\n", line, events.words.empty() ? "" : " passes" + events.words);
   for (const gcode::Move& move : events.moves) explain_move(move, options.home_mm(), machine.get());
   print_state("after:");
+  if (options.map.empty()) {
+    say_next({"gcode", "check", file});
+  } else {
+    say_next({"gcode", "check", file, "--map", options.map});
+  }
   return kDone;
 }
 

@@ -173,6 +173,13 @@ std::string GcodeText::hash() const {
   return hash.text();
 }
 
+std::string compensated_name(const std::string& program) {
+  const std::filesystem::path path(program);
+  return std::filesystem::path(path)
+      .replace_extension(".true" + path.extension().string())
+      .string();
+}
+
 int report(const std::string& file, const gcode::Problem& problem) {
   end_progress();
   fmt::print(stderr, "{}: {}\n", grid::files::name_in_messages(file), problem.message());

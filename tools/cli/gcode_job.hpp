@@ -99,6 +99,9 @@ class GcodeText {
   std::optional<std::string> text_;
 };
 
+/// part.nc becomes part.true.nc.
+[[nodiscard]] std::string compensated_name(const std::string& program);
+
 /// Prints a problem to stderr as `file: line 3: ...`; gives the exit code that its kind has.
 int report(const std::string& file, const gcode::Problem& problem);
 /// Prints all findings and how many there are beyond those kept; the exit code of the first, or

@@ -8,6 +8,7 @@
 
 #include "tools/cli/gcode_verbs.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -119,6 +120,15 @@ int run_gcode_verify(const GcodeOptions& options) {
     print_json(*summary, control, options.tolerance_mm);
   } else {
     print_words(*summary, control, options, machine.corrector().firmware().name);
+  }
+  if (summary->holds()) {
+    say_next({"plan", "--check", options.map, "-o", "check.csv"});
+  } else if (options.program != "-") {
+    say_next({"gcode",
+              "explain",
+              fmt::format("{}:{}", options.program, worst(*summary).original_line),
+              "--map",
+              options.map});
   }
   return summary->holds() ? kDone : kCheckFailed;
 }

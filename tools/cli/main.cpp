@@ -125,9 +125,16 @@ int main_with_exit_code(int argc, char** argv) {
     // The parser takes its words from the end.
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error) == 0 ? kDone : kUsage;
-    if (code == kUsage) fmt::print(stderr, "{}", did_you_mean(app, words));
-    return finish_standard_output(code, 0);
+    // What nobody knows is said alone: what else the parser misses there follows from it.
+    const bool is_help_of_a_verb = argc > 1 && std::string_view(argv[1]) == "help";
+    if (error.get_exit_code() != 0 || is_help_of_a_verb) {
+      const std::string unknown = did_you_mean(app, words);
+      if (!unknown.empty()) {
+        fmt::print(stderr, "{}", unknown);
+        return kUsage;
+      }
+    }
+    return finish_standard_output(app.exit(error) == 0 ? kDone : kUsage, 0);
   }
   QuietTalk talk(is_quiet);
   const int code = run_verb(run, app.get_subcommands().front()->get_name());

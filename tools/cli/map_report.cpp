@@ -210,7 +210,10 @@ std::vector<report::ReportSetting> settings_of(const grid::CompensationMap& map)
   return settings;
 }
 
-std::vector<std::string> advice_of(const MapContents& contents) {
+/// What to do now, the most urgent first.
+std::vector<std::string> advice_of(const MapContents& contents,
+                                   const model::Machine* machine,
+                                   std::string_view source) {
   std::vector<std::string> advice;
   for (std::size_t i = 0; i < contents.points.size(); ++i) {
     const MapPoint& point = contents.points[i];
@@ -231,6 +234,16 @@ std::vector<std::string> advice_of(const MapContents& contents) {
                     in_unit(result.setting, result.stated),
                     unit_of(result.setting),
                     in_unit(result.setting, result.calibrated)));
+  }
+  if (machine != nullptr) {
+    advice.push_back(fmt::format(
+        "Now rewrite each program with it: chaintrue gcode compensate part.nc --map {0} -o "
+        "part.true.nc.{1}",
+        source,
+        machine->controller.settings.motor_spacing_mm
+            ? fmt::format(" Or type better numbers in, once: chaintrue export groundcontrol {}.",
+                          source)
+            : ""));
   }
   const grid::MapAccuracy& accuracy = contents.accuracy;
   advice.push_back(
@@ -264,7 +277,7 @@ report::MapReport map_report(const grid::CompensationMap& map, std::string_view 
   page.sheet = sheet_of(map);
   page.verdict = fit_sentence(map);
   page.tone = is_clean ? report::Tone::good : report::Tone::caution;
-  page.advice = advice_of(contents);
+  page.advice = advice_of(contents, map.machine(), source);
   page.not_proved =
       "These figures hold for the machine as it was when the points were measured. They do not say "
       "why it erred, and "

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/cli/warnings.hpp"
 
@@ -33,6 +35,7 @@ struct PassesCommand {
   std::string machine;
   grid::SimulatedPassesRequest request;
   std::string map;
+  bool json = false;
 };
 
 std::string heading(bool is_simulated) {
@@ -50,6 +53,32 @@ std::string line_of(const grid::HolesPass& pass) {
                                  pass.expected_next_mm);
   if (pass.true_mm) text += fmt::format("{:>13.2f}", *pass.true_mm);
   return text + "\n";
+}
+
+/// null where a truth is not known.
+std::string as_json(const std::vector<grid::HolesPass>& passes, std::optional<double> before_mm) {
+  const auto or_null = [](std::optional<double> value) {
+    return value ? fmt::format("{}", *value) : std::string("null");
+  };
+  std::string text = fmt::format("{{\n  \"before_mm\": {},\n  \"passes\": [", or_null(before_mm));
+  const char* separator = "\n";
+  for (const grid::HolesPass& pass : passes) {
+    fmt::format_to(std::back_inserter(text),
+                   "{}    {{\"number\": {}, \"as_cut_rms_mm\": {}, \"left_out_rms_mm\": {}, "
+                   "\"set_aside\": {}, \"expected_mm\": {}, \"expected_next_mm\": {}, "
+                   "\"next_pays\": {}, \"true_mm\": {}}}",
+                   separator,
+                   pass.number,
+                   pass.as_cut_rms_mm,
+                   pass.left_out_rms_mm,
+                   pass.set_aside,
+                   pass.expected_mm,
+                   pass.expected_next_mm,
+                   pass.next_pays,
+                   or_null(pass.true_mm));
+    separator = ",\n";
+  }
+  return text + "\n  ]\n}\n";
 }
 
 std::string ending(const grid::HolesPass& last, double worthwhile_mm, std::size_t unused) {
@@ -87,7 +116,18 @@ int simulate(const PassesCommand& command) {
     write_output(command.map, files::write_map(grid::map_of(result->last_set, result->fit)));
   }
   end_progress();
-  fmt::print("{}", text);
+  fmt::print("{}", command.json ? as_json(result->passes, result->before_mm) : text);
+  if (command.map.empty()) {
+    say_next({"plan",
+              "--machine",
+              command.machine,
+              "--holes",
+              fmt::format("{}", command.request.plan.holes),
+              "-o",
+              "holes.csv"});
+  } else {
+    say_next({"report", command.map, "-o", "map.html"});
+  }
   return kDone;
 }
 
@@ -106,29 +146,33 @@ int follow(const PassesCommand& command) {
   }
   grid::HolesPasses passes(*sets.front().machine, command.request.worthwhile_mm);
   std::string text = heading(false);
-  grid::HolesPass last;
+  std::vector<grid::HolesPass> done;
   std::size_t used = 0;
   for (; used < sets.size(); ++used) {
-    shown_progress()({"a set of holes, fitted",
-                      static_cast<int>(used) + 1,
-                      static_cast<int>(sets.size())});
+    shown_progress()(
+        {"a set of holes, fitted", static_cast<int>(used) + 1, static_cast<int>(sets.size())});
     const auto pass = passes.add(sets[used]);
     if (!pass) {
       fmt::print(stderr, "{}: {}\n", command.sets[used], pass.error().sentence);
       return kBadInput;
     }
-    last = *pass;
-    text += line_of(last);
-    if (last.next_pays) continue;
+    done.push_back(*pass);
+    text += line_of(*pass);
+    if (pass->next_pays) continue;
     ++used;
     break;
   }
-  text += ending(last, command.request.worthwhile_mm, sets.size() - used);
+  text += ending(done.back(), command.request.worthwhile_mm, sets.size() - used);
   if (!command.map.empty()) {
     write_output(command.map, files::write_map(grid::map_of(sets[used - 1], *passes.fit())));
   }
   end_progress();
-  fmt::print("{}", text);
+  fmt::print("{}", command.json ? as_json(done, std::nullopt) : text);
+  if (command.map.empty()) {
+    say_next({"fit", command.sets[used - 1], "-o", "map.json"});
+  } else {
+    say_next({"report", command.map, "-o", "map.html"});
+  }
   return kDone;
 }
 
@@ -182,6 +226,7 @@ void add_passes(CLI::App& app, Run& run) {
              {"mm", 0.0, 100.0},
              "A pass that takes less off the expected error is not asked for");
   add_number(*verb, "--seed", request.seed, {"", 0.0, 9e15}, "Simulated: same seed, same bytes");
+  verb->add_flag("--json", command->json, "All digits, for scripts");
   add_output(
       *verb, "-o,--output", command->map, {Origin::map}, "Write the last pass's map to this file");
   verb->footer(

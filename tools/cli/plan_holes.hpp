@@ -14,7 +14,7 @@ namespace chaintrue::cli {
 
 struct HolesPlanOptions {
   /// 0 holes: points are planned instead.
-  grid::HolesPlanRequest request{.holes = 0};
+  grid::HolesPlanRequest request{.holes = 0, .progress = {}};
 };
 
 /// The numbers of holes and distances and their sigmas, as every verb that plans holes has them.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -18,6 +19,7 @@
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -127,6 +129,10 @@ int run_inverse(const grid::CompensationMap& map, const QueryCommand& command) {
   return kDone;
 }
 
+std::string page_of(const std::string& map) {
+  return std::filesystem::path(map).replace_extension(".html").string();
+}
+
 int run_query(const QueryCommand& command) {
   const grid::CompensationMap stored = read_map_input(command.map);
   if (command.outside.way == "fade" && stored.machine() == nullptr) {
@@ -142,7 +148,12 @@ int run_query(const QueryCommand& command) {
         stderr, "{}: a map without a machine knows only the frame of its marks\n", command.map);
     return kNotSupportedOrOutside;
   }
-  if (!command.inverse.empty()) return run_inverse(map, command);
+  const std::vector<std::string> next = {"report", command.map, "-o", page_of(command.map)};
+  if (!command.inverse.empty()) {
+    const int code = run_inverse(map, command);
+    if (code == kDone) say_next(next);
+    return code;
+  }
   std::vector<AnswerLine> lines;
   std::string outside;
   const std::vector<model::BedPoint> points = points_asked(command);
@@ -161,6 +172,7 @@ int run_query(const QueryCommand& command) {
     fmt::print(stderr, "{}", outside);
   }
   write_output(command.output, command.json ? as_json(lines) : as_csv(lines));
+  if (outside.empty()) say_next(next);
   return outside.empty() ? kDone : kNotSupportedOrOutside;
 }
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/file_type.hpp"
@@ -19,6 +20,7 @@
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/map_report.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/cli/warnings.hpp"
 #include "tools/report/map_report.hpp"
@@ -44,6 +46,9 @@ struct Reportable {
   report::Page (*certificate)(const std::string& text,
                               const std::string& file,
                               std::string_view source);
+  std::vector<std::string> (*next)(const std::string& text,
+                                   const std::string& file,
+                                   const std::string& path);
 };
 
 report::Page page_of_map(const std::string& text,
@@ -67,9 +72,24 @@ report::Page page_of_diagnosis(const std::string& text,
   return diagnosis_page(found, source);
 }
 
+std::vector<std::string> next_of_map(const std::string& text,
+                                     const std::string& file,
+                                     const std::string& path) {
+  if (parse_map_input(text, file).machine() == nullptr) return {"query", path, "--help"};
+  return {"plan", "--check", path, "-o", "check.csv"};
+}
+
+std::vector<std::string> next_of_diagnosis(const std::string& text,
+                                           const std::string& file,
+                                           const std::string& path) {
+  const grid::diagnosis::Diagnosis found = files::parse_diagnosis(text, file);
+  if (!found.causes.empty()) return {"effects", std::string(found.causes.front().cause.effect->id)};
+  return {"export", "groundcontrol", path};
+}
+
 constexpr std::array kReportables = {
-    Reportable{"chaintrue_map", "a map", page_of_map, certificate_of_map},
-    Reportable{"chaintrue_diagnosis", "a diagnosis", page_of_diagnosis, nullptr},
+    Reportable{"chaintrue_map", "a map", page_of_map, certificate_of_map, next_of_map},
+    Reportable{"chaintrue_diagnosis", "a diagnosis", page_of_diagnosis, nullptr, next_of_diagnosis},
 };
 
 const Reportable& reportable(const std::string& text, const std::string& file) {
@@ -104,6 +124,7 @@ int run_report(const ReportCommand& command) {
   write_output(command.output, report::render(made));
   if (command.output != "-")
     fmt::print(stderr, "The report is {}: open it in any browser.\n", command.output);
+  if (command.output != "-") say_next(kind.next(text, file, command.input));
   return kDone;
 }
 

@@ -21,6 +21,7 @@
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/simulate_options.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
@@ -28,6 +29,12 @@ namespace {
 
 namespace files = grid::files;
 namespace synthetic = grid::synthetic;
+
+/// What is hidden is there to be found.
+void say_next_of(const SimulateOptions& options) {
+  if (options.effects.empty()) return say_next({"fit", options.output, "-o", "map.json"});
+  say_next({"diagnose", options.output, "-o", "diagnosis.json"});
+}
 
 int simulate_session(const SimulateOptions& options, const model::Machine& machine) {
   const synthetic::SyntheticSpec spec = parse_spec(options, machine);
@@ -44,6 +51,7 @@ int simulate_session(const SimulateOptions& options, const model::Machine& machi
       options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;
   const std::string text = files::write_grid(session->grid);
   write_outputs({{options.answer, files::write_answer(session->answer)}, {options.output, text}});
+  say_next_of(options);
   return kDone;
 }
 
@@ -95,7 +103,9 @@ int run_simulate(const SimulateOptions& options) {
     for (const synthetic::SettingOffset& offset : offsets) {
       synthetic::offset_setting(truth, spec.sheet, offset);
     }
-    return simulate_the_holes(options.holes, machine, truth, spec, options.output);
+    const int code = simulate_the_holes(options.holes, machine, truth, spec, options.output);
+    if (code == kDone) say_next_of(options);
+    return code;
   }
   return options.points.empty() ? simulate_session(options, machine)
                                 : simulate_places(options, machine);

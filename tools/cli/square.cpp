@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue square: the square that a person would cut and measure, predicted, when the controller
-/// believes one machine and the machine is another.
+/// chaintrue square: the test square that a person would cut and measure, predicted: by a map, or
+/// when the controller believes one machine and the machine is another; and the program that cuts
+/// it.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -13,13 +14,19 @@
 #include <vector>
 
 #include "grid/files/whole_file.hpp"
+#include "model/kinematics.hpp"
 #include "model/square.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/gcode_job.hpp"
 #include "tools/cli/machine_input.hpp"
+#include "tools/cli/map_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/square_drawing.hpp"
+#include "tools/cli/square_program.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/gcode/compensation_target.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -29,11 +36,14 @@ namespace files = grid::files;
 struct SquareOptions {
   std::string machine;
   std::string controller_machine;
+  std::string map;
   double size_mm = 100.0;
   std::vector<double> at;
   bool below = false;
   bool json = false;
   std::string drawing;
+  std::string program;
+  double depth_mm = 3.0;
 };
 
 constexpr const char* kSideNames[] = {"left", "top", "right", "bottom"};
@@ -44,8 +54,61 @@ model::SquareTask checked_task(const SquareOptions& options) {
   for (const double coordinate : options.at)
     problems.require("--at", coordinate, -20000.0, 20000.0);
   problems.throw_if_any();
-  return {
-      .size_mm = options.size_mm, .corner = {options.at[0], options.at[1]}, .below = options.below};
+  // Where nobody says, around the bed's middle.
+  const double half_mm = 0.5 * options.size_mm;
+  const model::BedPoint corner = options.at.empty()
+                                     ? model::BedPoint{-half_mm, options.below ? half_mm : -half_mm}
+                                     : model::BedPoint{options.at[0], options.at[1]};
+  return {.size_mm = options.size_mm, .corner = corner, .below = options.below};
+}
+
+/// Why a square cannot be predicted; who fails, at which command.
+struct SquareRefusal {
+  std::string who;
+  model::BedPoint commanded;
+  std::string why;
+};
+
+tl::expected<model::CutSquare, SquareRefusal> by_machines(const SquareOptions& options,
+                                                          const model::SquareTask& task) {
+  const model::Machine machine = read_machine_input(options.machine);
+  const model::Machine believed = read_machine_input(options.controller_machine);
+  auto square = model::predict_square(machine, believed, task);
+  if (square) return *std::move(square);
+  const model::SquareFailure& failure = square.error();
+  return tl::unexpected(SquareRefusal{failure.controllers ? "the controller" : "the machine",
+                                      failure.commanded,
+                                      std::string(model::explain(failure.reason))});
+}
+
+/// The controller pays out what its settings say for each command; the map tells where the tool is
+/// with that.
+tl::expected<model::CutSquare, SquareRefusal> by_map(const SquareOptions& options,
+                                                     const model::SquareTask& task) {
+  const grid::CompensationMap map = read_map_input(options.map);
+  const auto believed = options.controller_machine.empty()
+                            ? gcode::stated_machine(map)
+                            : read_machine_input(options.controller_machine);
+  if (!believed) {
+    throw files::InputError({{options.map,
+                              "",
+                              "",
+                              "a map that knows its machine; this one does not, so say with "
+                              "--controller-machine what the controller believes"}});
+  }
+  const auto controller = model::make_controller_kinematics(*believed);
+  std::vector<model::BedPoint> cut;
+  for (const model::BedPoint commanded : model::outline_of(task)) {
+    const auto lengths = controller->lengths(commanded);
+    if (!lengths)
+      return tl::unexpected(
+          SquareRefusal{"the controller", commanded, std::string(model::explain(lengths.error()))});
+    const auto tool = map.inverse(*lengths);
+    if (!tool)
+      return tl::unexpected(SquareRefusal{"the map", commanded, grid::explain(tool.error())});
+    cut.push_back(*tool);
+  }
+  return model::measured_square(task, std::move(cut));
 }
 
 std::string as_table(const model::CutSquare& square, const model::SquareTask& task) {
@@ -92,25 +155,59 @@ std::string as_json(const model::CutSquare& square, const model::SquareTask& tas
   return text;
 }
 
+void say_what_to_do(const SquareOptions& options, const model::SquareTask& task) {
+  if (options.program.empty()) {
+    std::vector<std::string> again = {"square"};
+    if (!options.map.empty()) again.insert(again.end(), {"--map", options.map});
+    if (!options.machine.empty()) again.insert(again.end(), {"--machine", options.machine});
+    if (!options.controller_machine.empty())
+      again.insert(again.end(), {"--controller-machine", options.controller_machine});
+    again.insert(again.end(),
+                 {"--size-mm",
+                  fmt::format("{}", task.size_mm),
+                  "--at",
+                  fmt::format("{}", task.corner.x_mm),
+                  fmt::format("{}", task.corner.y_mm)});
+    if (task.below) again.push_back("--below");
+    again.insert(again.end(), {"--gcode", "square.nc"});
+    return say_next(again);
+  }
+  fmt::print(stderr,
+             "Cut {} and measure the four sides and both diagonals, each from an edge of one "
+             "groove to the same edge of the other, so that the bit's width drops out: as the "
+             "machine is, the lengths are those under cut_mm.{}\n",
+             options.program == "-" ? "the program" : options.program,
+             options.map.empty() ? "" : " Compensated, they are those under commanded_mm.");
+  if (options.map.empty()) return say_next({"gcode", "check", options.program});
+  say_next({"gcode",
+            "compensate",
+            options.program,
+            "--map",
+            options.map,
+            "-o",
+            options.program == "-" ? "-" : compensated_name(options.program)});
+}
+
 int run_square(const SquareOptions& options) {
   const model::SquareTask task = checked_task(options);
-  const model::Machine machine = read_machine_input(options.machine);
-  const model::Machine believed = read_machine_input(options.controller_machine);
-  const auto square = model::predict_square(machine, believed, task);
+  const auto square = options.map.empty() ? by_machines(options, task) : by_map(options, task);
   if (!square) {
-    const model::SquareFailure& failure = square.error();
+    const SquareRefusal& refusal = square.error();
     fmt::print(stderr,
                "chaintrue square: {} cannot bring the tool to ({:.1f}, {:.1f}) mm: {}\n",
-               failure.controllers ? "the controller" : "the machine",
-               failure.commanded.x_mm,
-               failure.commanded.y_mm,
-               model::explain(failure.reason));
+               refusal.who,
+               refusal.commanded.x_mm,
+               refusal.commanded.y_mm,
+               refusal.why);
     return kNotSupportedOrOutside;
   }
   std::vector<files::OutputFile> outputs = {
       {"-", options.json ? as_json(*square, task) : as_table(*square, task)}};
   if (!options.drawing.empty()) outputs.push_back({options.drawing, draw_square(*square, task)});
+  if (!options.program.empty())
+    outputs.push_back({options.program, square_program(task, options.depth_mm)});
   write_outputs(outputs);
+  say_what_to_do(options, task);
   return kDone;
 }
 
@@ -119,32 +216,47 @@ int run_square(const SquareOptions& options) {
 void add_square(CLI::App& app, Run& run) {
   auto options = std::make_shared<SquareOptions>();
   CLI::App* verb = app.add_subcommand(
-      "square", "Predict a test square: sides, diagonals and bows as a ruler would show them");
-  add_input(*verb,
-            "--machine",
-            options->machine,
-            "chaintrue_machine file: what the machine is, with its effects")
-      ->required();
+      "square",
+      "A test square: sides, diagonals and bows as a ruler will show them, and its program");
+  auto* map = add_input(
+      *verb, "--map", options->map, "The compensation map of the machine that will cut it");
+  auto* machine =
+      add_input(*verb,
+                "--machine",
+                options->machine,
+                "Without a map, a chaintrue_machine file: what the machine is, with its "
+                "effects");
+  machine->excludes(map);
   add_input(*verb,
             "--controller-machine",
             options->controller_machine,
-            "chaintrue_machine file: what the controller believes")
-      ->required();
+            "chaintrue_machine file: what the controller believes; of a map its own machine as it "
+            "was stated");
   add_number(*verb, "--size-mm", options->size_mm, {"mm", 1.0, 5000.0}, "Length of a side");
-  verb->add_option("--at", options->at, "X Y of the lower left corner, mm")
-      ->required()
+  verb->add_option(
+          "--at", options->at, "X Y of the lower left corner, mm; default: around the bed's middle")
       ->expected(2);
   verb->add_flag(
       "--below", options->below, "The square hangs below --at, which is its upper left corner");
   verb->add_flag("--json", options->json, "JSON, all digits, instead of a table");
   add_output(
       *verb, "-o,--output", options->drawing, {Origin::drawing}, "Draw it into this SVG file");
+  add_output(*verb, "--gcode", options->program, {Origin::program}, "The program that cuts it");
+  add_number(*verb, "--depth-mm", options->depth_mm, {"mm", 0.1, 100.0}, "Of --gcode: how deep");
   verb->footer(
-      "Example:\n"
+      "Examples:\n"
+      "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
+      "  build/chaintrue square --map map.json --size-mm 500 --gcode square.nc\n"
       "  build/chaintrue square --machine fixtures/machines/classic.json --controller-machine "
       "fixtures/machines/believed_straight.json --size-mm 100 --at -1040 535 --below -o "
       "square.svg");
-  verb->callback([options, &run] { run = [options] { return run_square(*options); }; });
+  verb->callback([options, &run] {
+    if (options->map.empty()) {
+      if (options->machine.empty()) throw CLI::RequiredError("--map, or --machine,");
+      if (options->controller_machine.empty()) throw CLI::RequiredError("--controller-machine");
+    }
+    run = [options] { return run_square(*options); };
+  });
 }
 
 }  // namespace chaintrue::cli

@@ -22,6 +22,7 @@
 #include "tools/cli/processes.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/sweep_page.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/cli/warnings.hpp"
 
@@ -87,19 +88,18 @@ int assemble(const sweep::SweepSpec& spec,
     fmt::print(stderr,
                "chaintrue sweep: {} of {} cells are finished; results.csv is written once the "
                "parts of all shards "
-               "stand in {}/parts and `chaintrue sweep {} -o {} --resume` finds them there\n",
+               "stand in {}/parts\n",
                store.finished(),
                store.cells(),
-               options.directory,
-               options.specification,
                options.directory);
+    say_next({"sweep", options.specification, "-o", options.directory, "--resume"});
     return kDone;
   }
   const auto errors = write_results(spec, store, options.directory);
   files::write_whole_file(fs::path(options.directory) / "report.html",
                           report::render(sweep_page(spec, errors)));
   fmt::print(stderr,
-             "{} cells: {}/results.csv, summary.json, report.html\n",
+             "{} cells: {}/results.csv, summary.json, report.html (open it in any browser)\n",
              store.cells(),
              options.directory);
   return kDone;

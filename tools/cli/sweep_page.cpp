@@ -117,6 +117,12 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
     const auto level = [&](auto at) {
       return sweep::level_name(spec, factor, static_cast<std::size_t>(at - rms.begin()));
     };
+    // What rounds to the same hundredths is the same to whoever cuts with it.
+    if (fmt::format("{:.2f}", *least) == fmt::format("{:.2f}", *most)) {
+      sentences.push_back(fmt::format(
+          "{}: no difference, {:.2f} mm rms at the tool with each.", kTitles[factor], *least));
+      continue;
+    }
     sentences.push_back(
         fmt::format("{}: {} errs least, {:.2f} mm rms at the tool; {} most, {:.2f} mm.",
                     kTitles[factor],

@@ -15,7 +15,7 @@ install(TARGETS ${libraries} EXPORT chaintrueTargets ARCHIVE COMPONENT library L
 install(DIRECTORY interp model grid
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/chaintrue COMPONENT library
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN "json_*.hpp" EXCLUDE PATTERN "*_record.hpp" EXCLUDE
-  PATTERN "*_keys.hpp" EXCLUDE PATTERN "content_hash.hpp" EXCLUDE PATTERN "formats.hpp" EXCLUDE PATTERN "read_log.hpp" EXCLUDE
+  PATTERN "*_keys.hpp" EXCLUDE PATTERN "content_hash.hpp" EXCLUDE PATTERN "formats.hpp" EXCLUDE PATTERN "meanings.hpp" EXCLUDE PATTERN "schemas.hpp" EXCLUDE PATTERN "read_log.hpp" EXCLUDE
   PATTERN "printing*" EXCLUDE)
 install(EXPORT chaintrueTargets NAMESPACE chaintrue:: DESTINATION ${package_dir} COMPONENT library)
 

@@ -176,16 +176,12 @@ Chart points_chart(const MapReport& report, const HeldOut& held_out) {
                            point.held_out_sigmas,
                            point.is_bad});
   }
-  DataTable lines{"lines", {"value_mm", "label", "is_dashed", "is_label_below"}, {}};
-  lines.rows.push_back({held_out.rms_mm,
-                        fmt::format("rms {:.2f} mm", held_out.rms_mm),
-                        false,
-                        held_out.rms_mm < report.noise_floor_mm});
+  DataTable lines{"lines", {"value_mm", "label", "is_dashed"}, {}};
+  lines.rows.push_back({held_out.rms_mm, fmt::format("rms {:.2f} mm", held_out.rms_mm), false});
   if (report.noise_floor_mm > 0.0) {
     lines.rows.push_back({report.noise_floor_mm,
                           fmt::format("noise of the readings {:.2f} mm", report.noise_floor_mm),
-                          true,
-                          report.noise_floor_mm <= held_out.rms_mm});
+                          true});
   }
   chart.data = {std::move(points), std::move(lines)};
   chart.signals = {

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/format_pages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+
+#include "grid/files/formats.hpp"
+#include "grid/files/schemas.hpp"
+#include "model/machine_ranges.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+struct Described {
+  const Format* format;
+  Json (*schema)();
+  std::string_view title;
+  std::string_view about;  ///< Markdown
+};
+
+constexpr std::array kDescribed = {
+    Described{&kMachineFormat,
+              machine_schema,
+              "A machine",
+              "What a machine is, as its owner states it. `chaintrue start` and `chaintrue import` "
+              "write one "
+              "from the controller's settings; `chaintrue start` alone writes one to fill in. "
+              "Ranges hold "
+              "every real hanging router; what is outside is taken for a slip. The motors must "
+              "hang above "
+              "the bed, the left one on the left."},
+    Described{
+        &kGridFormat,
+        grid_schema,
+        "A grid of measured points",
+        "What was read at marks: chain lengths, or where a commanded tool stood. `chaintrue plan` "
+        "writes one to fill in, `simulate` and `import optical` write whole ones; `fit`, "
+        "`diagnose` "
+        "and `check` read them.\n\nAs CSV the first line names the columns, in any order: `x_mm`, "
+        "`y_mm`, and `left_mm`, `right_mm` or `commanded_x_mm`, `commanded_y_mm`, and where wanted "
+        "`order`; the rest comes from options. Cells are parted by commas, semicolons or tabs; "
+        "with "
+        "semicolons numbers may have decimal commas. Lines that begin with # are left out, and a "
+        "row "
+        "without its readings counts as not measured."},
+    Described{
+        &kHolesFormat,
+        holes_schema,
+        "Holes and distances",
+        "Holes that the machine drilled, and what a tape said between them. `chaintrue plan "
+        "--holes` "
+        "writes one to fill in; `fit`, `diagnose`, `check` and `passes` read them.\n\nAs CSV it is "
+        "two "
+        "tables, one below the other: `hole`, `x_mm`, `y_mm`, and `from`, `to`, `distance_mm`, and "
+        "where wanted `sigma_mm`; the rest comes from options."},
+    Described{&kMapFormat,
+              map_schema,
+              "A compensation map",
+              "What the chains must be for every place of the bed, with the map's own error. "
+              "`chaintrue fit` "
+              "writes it; `query`, `gcode`, `report`, `check`, `export` and `square` read it. It "
+              "is not to "
+              "be edited: a hash of its content says whether it was."},
+    Described{&kDiagnosisFormat,
+              diagnosis_schema,
+              "A diagnosis",
+              "Why a machine errs, and how sure that is. `chaintrue diagnose` writes it; `report`, "
+              "`export` "
+              "and `plan --after` read it. [diagnosis](../diagnosis.md) says what the words mean."},
+    Described{&kSweepFormat,
+              sweep_schema,
+              "A sweep",
+              "Which combinations `chaintrue sweep` tries against the simulator. Every list is a "
+              "factor: all "
+              "combinations of their entries are done. See [sweeps](../sweeps.md)."},
+};
+
+const Described& described(std::string_view name) {
+  const auto found = std::find_if(kDescribed.begin(), kDescribed.end(), [&](const Described& d) {
+    return name_of(*d.format) == name;
+  });
+  if (found == kDescribed.end())
+    throw std::invalid_argument(fmt::format("no file format is described as \"{}\"", name));
+  return *found;
+}
+
+/// The object that has the first key of `place` ("/bed/width_mm"), here or in an alternative.
+Json* property_at(Json& schema, std::string_view place) {
+  const std::string_view rest = place.substr(1);
+  const std::size_t slash = rest.find('/');
+  const std::string key(rest.substr(0, slash));
+  if (schema.contains("oneOf")) {
+    for (Json& alternative : schema["oneOf"]) {
+      if (Json* found = property_at(alternative, place)) return found;
+    }
+  }
+  if (!schema.contains("properties") || !schema["properties"].contains(key)) return nullptr;
+  Json& property = schema["properties"][key];
+  return slash == std::string_view::npos ? &property : property_at(property, rest.substr(slash));
+}
+
+/// The reader keeps only what is no number of anything away; what a machine may be is the model's.
+void put_machine_ranges(Json& schema) {
+  for (const model::MachineRange& range : model::machine_ranges()) {
+    Json* property = property_at(schema, range.place);
+    if (property == nullptr)
+      throw std::logic_error(fmt::format("a machine file has no place {}", range.place));
+    (*property)["minimum"] = range.least;
+    (*property)["maximum"] = range.most;
+  }
+}
+
+Json schema_with_units(const Described& d) {
+  Json schema = d.schema();
+  if (d.format == &kMachineFormat) put_machine_ranges(schema);
+  return schema;
+}
+
+/// Editors show descriptions, and know no units.
+void tell_units(Json& schema) {
+  if (schema.is_array()) {
+    for (Json& element : schema) tell_units(element);
+  } else if (schema.is_object()) {
+    if (schema.contains("unit") && schema["unit"].is_string()) {
+      const std::string told = fmt::format("In {}.", schema["unit"].get<std::string>());
+      schema["description"] =
+          schema.contains("description")
+              ? fmt::format("{} {}", schema["description"].get<std::string>(), told)
+              : told;
+      schema.erase("unit");
+    }
+    for (auto& [key, value] : schema.items()) tell_units(value);
+  }
+}
+
+std::string number_text(const Json& number) { return fmt::format("{}", number.get<double>()); }
+
+/// What an object is called; in messages a noun may go on behind it.
+std::string noun_of(const Json& schema) {
+  auto noun = schema["title"].get<std::string>();
+  if (noun.ends_with(',')) noun.pop_back();
+  return noun;
+}
+
+/// An object's keys stand in a table of their own, found by its noun.
+std::string anchor_of(const std::string& noun) {
+  std::string anchor;
+  for (const char c : noun) {
+    if (c == ' ' || c == '-') anchor += '-';
+    if (c >= 'A' && c <= 'Z') anchor += static_cast<char>(c - 'A' + 'a');
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) anchor += c;
+  }
+  return anchor;
+}
+
+bool allows_null(const Json& schema) {
+  const Json null;
+  const auto holds = [&](const char* key) {
+    return schema.contains(key) && schema[key].is_array() &&
+           std::find(schema[key].begin(), schema[key].end(), null) != schema[key].end();
+  };
+  if (holds("type") || holds("enum")) return true;
+  return schema.contains("anyOf") && schema["anyOf"].back() == Json{{"type", "null"}};
+}
+
+std::string type_of(const Json& schema) {
+  if (!schema.contains("type")) return {};
+  const Json& type = schema["type"];
+  return type.is_array() ? type.front().get<std::string>() : type.get<std::string>();
+}
+
+std::string range_words(const Json& schema) {
+  std::string words;
+  if (schema.contains("minimum") && schema.contains("maximum")) {
+    words =
+        fmt::format(", {} to {}", number_text(schema["minimum"]), number_text(schema["maximum"]));
+  } else if (schema.contains("minimum")) {
+    words = fmt::format(", at least {}", number_text(schema["minimum"]));
+  }
+  if (schema.contains("unit")) words += " " + schema["unit"].get<std::string>();
+  return words;
+}
+
+std::string one_of_words(const Json& names) {
+  std::string words;
+  for (const Json& name : names) {
+    if (name.is_null()) continue;
+    fmt::format_to(std::back_inserter(words),
+                   "{}`{}`",
+                   words.empty() ? "" : ", ",
+                   name.is_string() ? name.get<std::string>() : compact_json(name));
+  }
+  return words;
+}
+
+/// What may stand there, and where its own keys are told.
+std::string values_of(const Json& schema) {
+  if (schema.contains("$ref")) {
+    const auto reference = schema["$ref"].get<std::string>();
+    const std::string name = reference.substr(0, reference.find('.'));
+    return fmt::format("[{0}]({0}.md)", name);
+  }
+  if (schema.contains("enum")) return one_of_words(schema["enum"]);
+  if (schema.contains("const")) return one_of_words(Json::array({schema["const"]}));
+  if (schema.contains("oneOf") && !schema.contains("properties")) {
+    std::string words;
+    for (const Json& alternative : schema["oneOf"])
+      words += (words.empty() ? "" : " or ") + values_of(alternative);
+    return words;
+  }
+  if (schema.contains("anyOf") && !schema.contains("properties"))
+    return values_of(schema["anyOf"][0]);
+  const std::string type = type_of(schema);
+  if (type == "array") {
+    std::string words = "list: " + values_of(schema["items"]);
+    if (schema.contains("maxItems") && schema["minItems"] == schema["maxItems"])
+      return fmt::format("{} of: {}", schema["minItems"].get<int>(), values_of(schema["items"]));
+    if (schema.contains("minItems"))
+      words += fmt::format("; {} at least", schema["minItems"].get<int>());
+    return words;
+  }
+  if (schema.contains("title")) {
+    const std::string noun = noun_of(schema);
+    return fmt::format("[{}](#{})", noun, anchor_of(noun));
+  }
+  if (type == "object") return "object: " + values_of(schema["additionalProperties"]);
+  if (type == "integer") return "whole number" + range_words(schema);
+  if (type == "string") return schema.contains("minimum") ? "text or number" : "text";
+  if (type == "boolean") return "`true` or `false`";
+  return type + range_words(schema);
+}
+
+std::string absent_words(const Json& object, const std::string& key, const Json& schema) {
+  if (key == "file_type" || key == "format_version") return "must begin a file";
+  const Json names = object.value("required", Json::array());
+  if (std::find(names.begin(), names.end(), Json(key)) != names.end())
+    return allows_null(schema) ? "must stand; may be null" : "must stand";
+  if (schema.contains("default")) return fmt::format("`{}`", compact_json(schema["default"]));
+  return "may be left out";
+}
+
+/// Tables of an object and of what it holds, each noun once.
+class Tables {
+ public:
+  explicit Tables(std::string& text) : text_(text) {}
+
+  void add(const Json& schema) {
+    if (schema.is_array()) {
+      for (const Json& element : schema) add(element);
+      return;
+    }
+    if (!schema.is_object()) return;
+    for (const char* key : {"oneOf", "anyOf", "items", "additionalProperties"}) {
+      if (schema.contains(key) && !schema.contains("properties")) add(schema[key]);
+    }
+    if (!schema.contains("properties")) return;
+    if (!schema.contains("title")) return add(schema["additionalProperties"]);
+    const std::string noun = noun_of(schema);
+    if (!told_.insert(noun).second) return;
+    table(noun, schema);
+    for (const auto& [key, property] : schema["properties"].items()) add(property);
+  }
+
+ private:
+  void table(const std::string& noun, const Json& schema) {
+    const auto out = std::back_inserter(text_);
+    fmt::format_to(
+        out, "\n## {}\n\n| key | what it is | values | where absent |\n|---|---|---|---|\n", noun);
+    for (const auto& [key, property] : schema["properties"].items()) {
+      if (key == "comment") continue;
+      fmt::format_to(out,
+                     "| `{}` | {} | {} | {} |\n",
+                     key,
+                     property.value("description",
+                                    std::string("In a part of another file it may be "
+                                                "left out.")),
+                     values_of(property),
+                     absent_words(schema, key, property));
+    }
+  }
+
+  std::string& text_;
+  std::set<std::string> told_;
+};
+
+}  // namespace
+
+std::vector<std::string> described_formats() {
+  std::vector<std::string> names;
+  for (const Described& d : kDescribed) names.push_back(name_of(*d.format));
+  return names;
+}
+
+std::string write_format_schema(std::string_view name) {
+  const Described& d = described(name);
+  Json part = schema_with_units(d);
+  tell_units(part);
+  Json schema;
+  schema["$schema"] = "http://json-schema.org/draft-07/schema#";
+  schema["title"] = fmt::format("{} {}", d.format->file_type, d.format->version);
+  schema["description"] = std::string(d.title) + ", as chaintrue reads it.";
+  schema["definitions"][std::string(name)] = std::move(part);
+  schema["allOf"] = {{{"$ref", fmt::format("#/definitions/{}", name)}},
+                     {{"required", {"file_type", "format_version"}}}};
+  return print_json(schema);
+}
+
+std::string write_format_page(std::string_view name) {
+  const Described& d = described(name);
+  std::string text = fmt::format(
+      "# {0}\n\n{1}\n\nA JSON file of type `{2}`, version {3}. Unknown keys are errors, but for "
+      "`comment`, "
+      "which may hold anything; a key that may be left out may be null as well. "
+      "[{4}.schema.json]({4}.schema.json) lets editors complete and check such files. This page is "
+      "written by `chaintrue formats {4}` from the tables that the reader goes by.\n",
+      d.title,
+      d.about,
+      d.format->file_type,
+      d.format->version,
+      name);
+  for (const OlderVersion& older : d.format->older)
+    text += fmt::format("\nVersion {} is read too: {}.\n", older.version, older.assumed);
+  Tables(text).add(schema_with_units(d));
+  return text;
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The tables of the formats as JSON Schemas, each made by the file that reads the format. Private to
+/// grid/files; format_pages.hpp is what others see.
+#pragma once
+
+#include "grid/files/json_text.hpp"
+
+namespace chaintrue::grid::files {
+
+[[nodiscard]] Json machine_schema();
+[[nodiscard]] Json grid_schema();
+[[nodiscard]] Json holes_schema();
+[[nodiscard]] Json map_schema();
+[[nodiscard]] Json diagnosis_schema();
+[[nodiscard]] Json sweep_schema();
+
+}  // namespace chaintrue::grid::files
