@@ -48,11 +48,18 @@ struct BeltDistance {
   double sigma_mm = 1.0;  ///< one sigma, of the tape and of what its ends stand for
 };
 
+/// What the machine's own message said of its fit ("Find Anchors fit: rms=..mm max=..mm").
+struct FirmwareFit {
+  double rms_mm = 0.0;
+  double max_mm = 0.0;
+};
+
 struct MeasuredBelts {
   std::string name;
   model::BeltMachine machine;
   std::vector<BeltPoint> points;
   std::vector<BeltDistance> distances;
+  std::optional<FirmwareFit> firmware_fit = std::nullopt;
 };
 
 /// 2 N - 5 checks of N places: fewer than these leave none to judge by.

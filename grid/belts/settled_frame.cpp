@@ -77,6 +77,46 @@ Worst worst_of(const MeasuredBelts& belts, const SettledFrame& frame, bool count
   return worst;
 }
 
+/// A point of another frame, or with digits lost, bends all others to itself, and its four readings
+/// hide one another: points are left out whole, the worst first, while that makes a frame of what was
+/// none.
+SettledFrame without_gross_points(const MeasuredBelts& belts, SettledFrame frame) {
+  // Of more points one cannot bend the frame so far that its own readings do not stand out.
+  constexpr std::size_t kMostPoints = 100;
+  constexpr double kMuchBetter = 3.0;
+  const std::size_t count = belts.points.size();
+  if (count > kMostPoints) return frame;
+  const auto most =
+      static_cast<std::size_t>(std::ceil(kMostBadReadings * static_cast<double>(count)));
+  MeasuredBelts untaped = belts;
+  untaped.distances.clear();
+  for (std::size_t out = 0; out < most; ++out) {
+    if (frame.is_sound && frame.spread_mm < kPlausibleSpreadMm) break;
+    std::optional<SettledFrame> best;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!frame.counting[k].tl) continue;
+      Counting fewer = frame.counting;
+      fewer[k] = {false, false, false, false};
+      auto without = settled(untaped, frame.state, std::move(fewer), 1.0);
+      if (!without || without->checks < 1 || !without->is_sound) continue;
+      if (!best || without->spread_mm < best->spread_mm) best = std::move(without);
+    }
+    if (!best || kMuchBetter * best->spread_mm > frame.spread_mm) break;
+    frame = *std::move(best);
+  }
+  if (belts.distances.empty()) return frame;
+  return settled(belts, frame.state, frame.counting, frame.spread_mm).value_or(frame);
+}
+
+void place_the_unplaced(const MeasuredBelts& belts, SettledFrame& frame) {
+  const model::BeltMachine machine = with_anchors(belts.machine, frame.state.anchors);
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    const auto& counts = frame.counting[k];
+    if (counts.tl + counts.tr + counts.bl + counts.br >= 2) continue;
+    frame.state.places[k] = nearest_place(machine, belts.points[k], {true, true, true, true});
+  }
+}
+
 }  // namespace
 
 std::optional<SettledFrame> settle_from(const MeasuredBelts& belts,
@@ -106,6 +146,7 @@ std::optional<SettledFrame> settle(const MeasuredBelts& belts) {
 
 std::optional<SettledFrame> settle_robustly(const MeasuredBelts& belts) {
   auto frame = settle(belts);
+  if (frame) frame = without_gross_points(belts, *std::move(frame));
   const auto most =
       static_cast<std::size_t>(kMostBadReadings * 4.0 * static_cast<double>(belts.points.size()));
   for (std::size_t aside = 0; frame && frame->is_sound && aside < most && frame->checks > 1;
@@ -128,6 +169,7 @@ std::optional<SettledFrame> settle_robustly(const MeasuredBelts& belts) {
     if (!next || worst_of(belts, *next, true).sigmas >= kBadReadingSigmas) break;
     frame = std::move(next);
   }
+  if (frame) place_the_unplaced(belts, *frame);
   return frame;
 }
 
