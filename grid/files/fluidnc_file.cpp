@@ -5,47 +5,13 @@
 
 #include <filesystem>
 #include <map>
-#include <sstream>
-#include <vector>
 
 #include "grid/files/number_text.hpp"
 #include "grid/files/problems.hpp"
+#include "grid/files/yaml_values.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
-
-struct YamlValue {
-  std::string text;
-  std::string place;
-};
-
-/// Values by the way to them: "kinematics/WallPlotter/left_anchor_x".
-std::map<std::string, YamlValue> values_of(const std::string& text) {
-  struct Level {
-    std::size_t indent;
-    std::string path;
-  };
-  std::vector<Level> levels;
-  std::map<std::string, YamlValue> values;
-  std::istringstream lines(text);
-  std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    line.resize(std::min(line.find('#'), line.size()));
-    const std::size_t indent = line.find_first_not_of(' ');
-    const std::size_t colon = line.find(':');
-    if (indent == std::string::npos || colon == std::string::npos) continue;
-    while (!levels.empty() && levels.back().indent >= indent) levels.pop_back();
-    const std::string key = line.substr(indent, colon - indent);
-    const std::string path = levels.empty() ? key : levels.back().path + "/" + key;
-    levels.push_back({indent, path});
-    const std::size_t first = line.find_first_not_of(" \t\r", colon + 1);
-    if (first == std::string::npos) continue;
-    const std::size_t last = line.find_last_not_of(" \t\r");
-    values[path] = {line.substr(first, last - first + 1), fmt::format("line {}", number)};
-  }
-  return values;
-}
 
 /// The numbers of the file; a missing one is a problem and reads as 0.
 class YamlReader {
@@ -81,7 +47,7 @@ ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
         "", "no WallPlotter", "kinematics: WallPlotter: with its anchors, as FluidNC has it");
     problems.throw_if_any();
   }
-  YamlReader reader(values_of(text), problems);
+  YamlReader reader(yaml_values(text), problems);
   // As model::problems_of, which the machine meets in any case.
   constexpr Range kAnchor{"mm", -20000.0, 20000.0};
   constexpr Range kTravel{"mm", 200.0, 20000.0};

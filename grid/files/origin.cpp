@@ -19,6 +19,7 @@ constexpr std::string_view kPageHead = "<!DOCTYPE html>\n";
 
 constexpr std::array kPlainTypes = {std::pair{"chaintrue_map", Origin::map},
                                     std::pair{"chaintrue_diagnosis", Origin::diagnosis},
+                                    std::pair{"chaintrue_anchors", Origin::anchors},
                                     std::pair{"chaintrue_answer", Origin::answer},
                                     std::pair{"chaintrue_check", Origin::check}};
 constexpr std::array kSignedTypes = {std::pair{"chaintrue_grid", Origin::measured},

@@ -24,7 +24,8 @@ enum class Origin {
   changed,  ///< of a kind that this program writes, but with something in it that it did not write
   map,
   diagnosis,
-  measured,  ///< chaintrue_grid or chaintrue_holes
+  anchors,
+  measured,  ///< chaintrue_grid, chaintrue_holes or chaintrue_belts
   machine,
   answer,  ///< what a simulation hid
   check,

@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 
+#include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/formats.hpp"
 #include "grid/files/grid_file.hpp"
@@ -104,6 +105,9 @@ const std::map<std::string_view, Sample>& samples() {
       {kHolesFormat.file_type,
        {[](const std::string& text) { return parse_holes(text, "holes.json").warnings; },
         text_of("holes/nine_holes.json")}},
+      {kBeltsFormat.file_type,
+       {[](const std::string& text) { return parse_belts(text, "belts.json").warnings; },
+        text_of("good/belts_every_key.json")}},
       {kMapFormat.file_type,
        {[](const std::string& text) {
           std::vector<Warning> warnings;

@@ -11,11 +11,13 @@
 #include <ostream>
 #include <sstream>
 
+#include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/machine_file.hpp"
+#include "grid/files/maslow4_log.hpp"
 #include "grid/files/optical_file.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/whole_file.hpp"
@@ -69,6 +71,16 @@ Outcome holes_outcome(const std::string& text, const std::string& name) {
   return {write_holes(read.holes), messages_of(read.warnings), {}};
 }
 
+Outcome belts_outcome(const std::string& text, const std::string& name) {
+  const ReadBelts read = parse_belts(text, name);
+  return {write_belts(read.belts), messages_of(read.warnings), {}};
+}
+
+Outcome maslow4_outcome(const std::string& text, const std::string& name) {
+  const Maslow4Import read = parse_maslow4(text, name);
+  return {write_belts(read.belts), messages_of(read.warnings), {}};
+}
+
 using Reader = std::function<Outcome(const std::string& text, const std::string& name)>;
 
 const std::map<std::string, Reader>& readers() {
@@ -78,7 +90,9 @@ const std::map<std::string, Reader>& readers() {
                                                         {"optical", optical_outcome},
                                                         {"groundcontrol", groundcontrol_outcome},
                                                         {"diagnosis", diagnosis_outcome},
-                                                        {"holes", holes_outcome}};
+                                                        {"holes", holes_outcome},
+                                                        {"belts", belts_outcome},
+                                                        {"maslow4", maslow4_outcome}};
   return by_kind;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue import: what other programs wrote becomes a machine or a grid.
+/// chaintrue import: what other programs wrote becomes a machine, a grid or belts.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -14,6 +14,7 @@
 #include "grid/files/optical_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/import_maslow4.hpp"
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
@@ -143,7 +144,7 @@ void add_groundcontrol(CLI::App& import, Run& run) {
 
 void add_import(CLI::App& app, Run& run) {
   CLI::App* verb =
-      app.add_subcommand("import", "Turn files of other programs into machine and grid files");
+      app.add_subcommand("import", "Turn files of other programs into machine, grid and belts files");
   verb->require_subcommand(1);
   verb->footer(
       "Example:\n"
@@ -151,6 +152,7 @@ void add_import(CLI::App& app, Run& run) {
       "    -o machine.json");
   add_optical(*verb, run);
   add_groundcontrol(*verb, run);
+  add_import_maslow4(*verb, run);
 }
 
 }  // namespace chaintrue::cli

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/belts/belts_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/belts/foretelling.hpp"
+#include "grid/belts/settled_frame.hpp"
+
+namespace chaintrue::grid {
+
+using model::Belt;
+using model::kBelts;
+
+namespace {
+
+/// An anchor that is less sure than this was not found: an arm's length.
+constexpr double kLostAnchorMm = 100.0;
+/// Lengths that are off by more, all told, are no readings of four belts of one frame: the machine
+/// itself gives up at 5 mm of its own kind.
+constexpr double kNoFrameMm = 50.0;
+
+/// Places in a strip no wider are on a line: the anchors could lie on either side of it.
+constexpr double kLineMm = 50.0;
+
+/// How far the places reach across their own longest direction.
+double across_mm(const std::vector<model::FramePoint>& places) {
+  Eigen::Matrix2Xd at(2, static_cast<Eigen::Index>(places.size()));
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    at.col(static_cast<Eigen::Index>(k)) << places[k].x_mm, places[k].y_mm;
+  }
+  at.colwise() -= at.rowwise().mean().eval();
+  const Eigen::Matrix2d square = at * at.transpose();
+  // Eigenvector of the smaller eigenvalue of a symmetric 2 x 2 matrix.
+  const double angle = 0.5 * std::atan2(2.0 * square(0, 1), square(0, 0) - square(1, 1));
+  const Eigen::RowVector2d across(-std::sin(angle), std::cos(angle));
+  const Eigen::RowVectorXd widths = across * at;
+  return widths.maxCoeff() - widths.minCoeff();
+}
+
+constexpr std::array<std::string_view, 5> kCoordinateNames = {
+    "tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"};
+
+void fill_coordinates(const MeasuredBelts& belts, const belts::FrameView& view, BeltsFit& fit) {
+  const belts::AnchorVector stated = belts::anchors_of(belts.machine);
+  const belts::AnchorVector fitted = belts::anchors_of(fit.machine);
+  Eigen::Matrix<double, 5, 4> squares = Eigen::Matrix<double, 5, 4>::Zero();
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    for (const Belt belt : kBelts) {
+      if (!view.solver().counts(k, belt)) continue;
+      squares.col(static_cast<Eigen::Index>(belt)) += view.influence(k, belt).head<5>().cwiseAbs2();
+    }
+  }
+  for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    AnchorCoordinate& coordinate = fit.coordinates[i];
+    coordinate.name = kCoordinateNames[i];
+    if (belts.machine.anchors_known) coordinate.stated_mm = stated[row];
+    coordinate.fitted_mm = fitted[row];
+    coordinate.sigma_mm = std::sqrt(fit.covariance_mm2(row, row));
+    for (const Belt belt : kBelts) {
+      coordinate.rests_on[belt] =
+          squares(row, static_cast<Eigen::Index>(belt)) / squares.row(row).sum();
+    }
+  }
+}
+
+void fill_places(const MeasuredBelts& belts,
+                 const belts::SettledFrame& frame,
+                 const belts::FrameView& view,
+                 BeltsFit& fit) {
+  double square = 0.0;
+  model::PerBelt<double> squares;
+  model::PerBelt<int> counts;
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    FittedPlace place{frame.state.places[k], view.place_covariance_mm2(k), {}};
+    int agreeing = 0;
+    for (const Belt belt : kBelts) {
+      BeltResidual& residual = place.belts[belt];
+      residual = view.residual(k, belt);
+      square += residual.off_mm * residual.off_mm;
+      if (residual.counts) {
+        squares[belt] += residual.off_mm * residual.off_mm;
+        ++counts[belt];
+        ++agreeing;
+      } else {
+        fit.bad.push_back({k, belt, residual.beside_mm});
+      }
+    }
+    if (agreeing < 3) fit.bad_points.push_back(k);
+    fit.places.push_back(std::move(place));
+  }
+  fit.rms_mm = std::sqrt(square / (4.0 * static_cast<double>(belts.points.size())));
+  for (const Belt belt : kBelts) {
+    fit.rms_of_mm[belt] = counts[belt] > 0 ? std::sqrt(squares[belt] / counts[belt]) : 0.0;
+  }
+  std::stable_sort(fit.bad.begin(), fit.bad.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.off_mm) > std::abs(b.off_mm);
+  });
+}
+
+void fill_scale(const MeasuredBelts& belts,
+                const belts::SettledFrame& frame,
+                const belts::FrameView& view,
+                BeltsFit& fit) {
+  if (!view.solver().fits_scale()) return;
+  BeltScale scale;
+  scale.factor = std::exp(frame.state.log_scale);
+  scale.sigma =
+      scale.factor * std::sqrt(view.covariance()(belts::kAnchorUnknowns, belts::kAnchorUnknowns));
+  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+    scale.residuals_mm.push_back(view.equations().distance_residual[static_cast<Eigen::Index>(i)] *
+                                 belts.distances[i].sigma_mm);
+  }
+  fit.scale = std::move(scale);
+}
+
+tl::unexpected<BeltsFitFailure> failure(BeltsFitFailure::Reason reason, std::string sentence) {
+  return tl::unexpected(BeltsFitFailure{reason, std::move(sentence)});
+}
+
+}  // namespace
+
+tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
+  using Reason = BeltsFitFailure::Reason;
+  if (belts.points.size() < kFewestBeltPoints) {
+    return failure(Reason::too_few_points,
+                   fmt::format("{} places are too few: {} leave {} checks of five anchor "
+                               "coordinates; measure at more places",
+                               belts.points.size(),
+                               kFewestBeltPoints,
+                               2 * kFewestBeltPoints - 5));
+  }
+  const bool has_holes =
+      std::any_of(belts.distances.begin(), belts.distances.end(), [](const BeltDistance& distance) {
+        return std::holds_alternative<CutHole>(distance.from) ||
+               std::holds_alternative<CutHole>(distance.to);
+      });
+  if (has_holes && !belts.machine.anchors_known) {
+    return failure(Reason::hole_without_anchors,
+                   "a distance ends at a hole, and where the machine cut that follows from the "
+                   "anchors that it had at the time: state x_mm and y_mm of the anchors in force");
+  }
+  const auto frame = belts::settle_robustly(belts);
+  constexpr const char* kNoFrame =
+      "no four anchors make sense of these lengths: are they of one frame, in mm, each under its "
+      "own "
+      "belt?";
+  if (!frame) return failure(Reason::no_frame, kNoFrame);
+  const belts::FrameView view(belts, *frame);
+  if (frame->spread_mm > kNoFrameMm) {
+    return failure(Reason::no_frame,
+                   fmt::format("the lengths contradict each other by {:.0f} mm whatever the "
+                               "anchors: are they of one frame, in mm, each under its own belt?",
+                               frame->spread_mm));
+  }
+  const Eigen::VectorXd variance = view.covariance().diagonal().head<5>();
+  if (!view.covariance().allFinite() || variance.minCoeff() <= 0.0 ||
+      variance.maxCoeff() > kLostAnchorMm * kLostAnchorMm ||
+      across_mm(frame->state.places) < kLineMm) {
+    return failure(
+        Reason::not_determined,
+        "the places do not tell where the anchors are: they lie on a line, or all in one "
+        "spot; measure at places spread over the sheet's width and height");
+  }
+  if (!frame->is_sound) return failure(Reason::no_frame, kNoFrame);
+  BeltsFit fit;
+  fit.machine = belts::with_anchors(belts.machine, frame->state.anchors);
+  fit.covariance_mm2 = view.covariance().topLeftCorner<5, 5>();
+  fit.spread_mm = frame->spread_mm;
+  fit.checks = static_cast<int>(frame->checks);
+  fill_coordinates(belts, view, fit);
+  fill_places(belts, *frame, view, fit);
+  fill_scale(belts, *frame, view, fit);
+  fit.one_left_out = belts::foretell_one_by_one(belts, view);
+  fit.half_left_out = belts::foretell_by_halves(belts, *frame);
+  return fit;
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The anchors of a router on four belts from what it measured by itself, with the sigma of each and
+/// what it rests on.
+///
+/// 4 N readings of N places leave 2 N - 5 checks once places and anchors have taken their share:
+///
+///   spread^2 = sum r^2 / (readings - 2 places - 5)                                          (1)
+///
+/// is what one belt's reading is off by, whereas the machine's own message ("Find Anchors fit: rms")
+/// divides by the readings. Sigmas are (4) of frame_solver.hpp with this spread.
+///
+/// A reading that does not fit the others is set aside, the worst first: the distance of its residual,
+/// seen from a fit without it, in units of the spread without it. That is Student's t; what counts is
+/// the normal deviate of the same chance.
+///
+/// Belts know nothing of the scale: all readings 1.005 times as long make a frame 1.005 times as
+/// large. Distances, taped, tell it.
+///
+/// Sources: R. Cook and S. Weisberg, Residuals and Influence in Regression (1982), sections 2.2 and
+/// 2.3, for readings left out; D. Wallace, Ann. Math. Statist. 30 (1959) 1121, for the deviate of t,
+/// within 0.02 of it from 4 degrees of freedom on.
+///
+/// \code
+///   const auto fit = fit_belts(belts);
+///   if (!fit) say(fit.error().sentence);
+///   else use(fit->machine, fit->coordinates[0].sigma_mm, fit->spread_mm);
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/belts/measured_belts.hpp"
+
+namespace chaintrue::grid {
+
+/// Normal deviate beyond which a reading is set aside: chance 7e-6 for a good one, so that one set of
+/// 100 places in 370 loses one.
+inline constexpr double kBadReadingSigmas = 4.5;
+/// Largest share that is set aside; beyond it the rest does not judge itself.
+inline constexpr double kMostBadReadings = 0.12;
+
+/// One of tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm, br_x_mm.
+struct AnchorCoordinate {
+  std::string_view name;
+  std::optional<double> stated_mm;
+  double fitted_mm = 0.0;
+  double sigma_mm = 0.0;
+  /// Share of its variance that comes of each belt's readings; together 1.
+  model::PerBelt<double> rests_on;
+};
+
+/// A reading of one belt.
+struct BeltResidual {
+  double off_mm = 0.0;     ///< read less fitted
+  bool counts = true;      ///< false: set aside
+  double sigmas = 0.0;     ///< seen from a fit without it; 0 where nothing else tells of it
+  double beside_mm = 0.0;  ///< read less what all other readings make of it
+};
+
+struct FittedPlace {
+  model::FramePoint at;
+  Eigen::Matrix2d covariance_mm2 = Eigen::Matrix2d::Zero();
+  model::PerBelt<BeltResidual> belts;
+};
+
+struct BadBeltReading {
+  std::size_t point = 0;
+  model::Belt belt = model::Belt::tl;
+  double off_mm = 0.0;  ///< read less what all other readings make of it
+};
+
+/// Lower belts as the upper two foretell them, at places that were not fitted: what the machine's own
+/// check of tension looks at.
+struct Foretold {
+  std::size_t readings = 0;
+  double rms_mm = 0.0;
+  double largest_mm = 0.0;
+};
+
+/// True over what belts say: from taped distances.
+struct BeltScale {
+  double factor = 1.0;
+  double sigma = 0.0;
+  std::vector<double> residuals_mm;  ///< taped less fitted, of each distance
+};
+
+struct BeltsFit {
+  model::BeltMachine machine;  ///< with the anchors fitted, in the belts' own millimetres
+  std::array<AnchorCoordinate, 5> coordinates;
+  Eigen::Matrix<double, 5, 5> covariance_mm2;
+  double spread_mm = 0.0;  ///< (1)
+  int checks = 0;          ///< the denominator of (1)
+  double rms_mm = 0.0;  ///< of all readings, those set aside too, as the machine's message has it
+  model::PerBelt<double> rms_of_mm;     ///< of those that count
+  std::vector<FittedPlace> places;      ///< of each point
+  std::vector<BadBeltReading> bad;      ///< set aside, the worst first
+  std::vector<std::size_t> bad_points;  ///< of which fewer than three readings agree
+  std::optional<BeltScale> scale;       ///< empty: not known
+  Foretold one_left_out;
+  std::optional<Foretold> half_left_out;  ///< either half by the other; with ten places and more
+};
+
+struct BeltsFitFailure {
+  enum class Reason {
+    too_few_points,
+    not_determined,  ///< on a line, or in one spot
+    no_frame,        ///< no anchors make sense of the lengths
+    hole_without_anchors,
+  } reason;
+  std::string sentence;
+};
+
+[[nodiscard]] tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts);
+
+}  // namespace chaintrue::grid

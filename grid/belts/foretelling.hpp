@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Lower belts as the upper two foretell them, at places that the anchors were not fitted to.
+/// Private to grid/belts.
+#pragma once
+
+#include <optional>
+
+#include "grid/belts/belts_fit.hpp"
+#include "grid/belts/settled_frame.hpp"
+
+namespace chaintrue::grid::belts {
+
+/// Each place by the anchors without it. Readings that are set aside neither foretell nor are
+/// foretold.
+[[nodiscard]] Foretold foretell_one_by_one(const MeasuredBelts& belts, const FrameView& view);
+/// Every second place, in the order of the visits, by the others, and those by these. Empty where a
+/// half has fewer than kFewestBeltPoints, or settles nowhere.
+[[nodiscard]] std::optional<Foretold> foretell_by_halves(const MeasuredBelts& belts,
+                                                         const SettledFrame& frame);
+
+}  // namespace chaintrue::grid::belts

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a router on four belts measures by itself: the lengths of all four at places that nobody
+/// measured, and distances that a person taped. The places are unknown and found with the anchors.
+///
+/// \code
+///   MeasuredBelts belts;
+///   belts.machine = machine;  // arm, extension, heights; the anchors where they are known
+///   belts.points.push_back({.lengths_mm = {998.65, 2400.60, 1631.15, 2729.87}});
+///   belts.distances.push_back({.from = Belt::bl, .to = Belt::br, .distance_mm = 3030.0});
+/// \endcode
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "model/belts/belt_machine.hpp"
+
+namespace chaintrue::grid {
+
+struct BeltPoint {
+  /// As the controller prints them, BeltMachine::lengths says what they count.
+  model::PerBelt<double> lengths_mm;
+  std::optional<model::BedPoint> commanded = std::nullopt;
+  /// Number of the visit; all points have it, distinct, or none.
+  std::optional<int> order = std::nullopt;
+  /// Belts that a motor pulled tight at the reading while the others held; absent: those of the
+  /// frame's orientation, the lower two.
+  std::optional<std::vector<model::Belt>> pulled = std::nullopt;
+  /// What the log holds of single readings that the controller threw away at this place because
+  /// they did not agree.
+  model::PerBelt<std::vector<double>> thrown_away_mm{};
+};
+
+/// A hole that the machine cut, where it was told to, with the anchors and scales in force.
+struct CutHole {
+  model::BedPoint commanded;
+};
+/// An end of a taped distance: a point of the file, an anchor, or a hole.
+using BeltEnd = std::variant<std::size_t, model::Belt, CutHole>;
+
+struct BeltDistance {
+  BeltEnd from;
+  BeltEnd to;
+  double distance_mm = 0.0;
+  double sigma_mm = 1.0;  ///< one sigma, of the tape and of what its ends stand for
+};
+
+/// What the machine's own message said of its fit ("Find Anchors fit: rms=..mm max=..mm").
+struct FirmwareFit {
+  double rms_mm = 0.0;
+  double max_mm = 0.0;
+};
+
+struct MeasuredBelts {
+  std::string name;
+  model::BeltMachine machine;
+  std::vector<BeltPoint> points;
+  std::vector<BeltDistance> distances;
+  std::optional<FirmwareFit> firmware_fit = std::nullopt;
+};
+
+/// 2 N - 5 checks of N places: fewer than these leave none to judge by.
+inline constexpr std::size_t kFewestBeltPoints = 5;
+
+/// Whether a motor pulled this belt at the reading.
+[[nodiscard]] bool is_pulled(const BeltPoint& point, model::Belt belt);
+/// "point 3", "the top left anchor", "the hole at (-900, 300)".
+[[nodiscard]] std::string words_of(const BeltEnd& end);
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/belts_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "grid/belts/belt_slips.hpp"
+#include "grid/belts/belts_fit.hpp"
+#include "grid/statistics.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using model::Belt;
+using model::kBelts;
+
+std::string lengths_in_words(const BeltPoint& point) {
+  const auto& l = point.lengths_mm;
+  return fmt::format("tl {}, tr {}, bl {}, br {}", l.tl, l.tr, l.bl, l.br);
+}
+
+void check_inches(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
+  // Frames are two metres and more across: 80 to 200 in inches.
+  constexpr double kLongestInInchesMm = 250.0;
+  std::vector<double> lengths;
+  for (const BeltPoint& point : belts.points) {
+    for (const Belt belt : kBelts) lengths.push_back(point.lengths_mm[belt]);
+  }
+  if (lengths.empty() || median(lengths) > kLongestInInchesMm) return;
+  problems.add(places.points,
+               fmt::format("lengths of about {:.3g}", median(lengths)),
+               "lengths in mm, as the machine prints them; these look like inches (multiply them "
+               "by 25.4)");
+}
+
+void check_orders(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
+  const auto with_order = static_cast<std::size_t>(
+      std::count_if(belts.points.begin(), belts.points.end(), [](const BeltPoint& point) {
+        return point.order.has_value();
+      }));
+  if (with_order == 0) return;
+  std::map<int, std::size_t> first_with;
+  for (std::size_t i = 0; i < belts.points.size(); ++i) {
+    const auto& order = belts.points[i].order;
+    if (!order) {
+      problems.add(
+          places.point(i, "order"),
+          "",
+          fmt::format("an order for every point or for none; {} points have one", with_order));
+      continue;
+    }
+    const auto [other, is_new] = first_with.emplace(*order, i);
+    if (!is_new) {
+      problems.add(places.point(i, "order"),
+                   fmt::format("{}", *order),
+                   fmt::format("another number than that of {}", places.point(other->second, "")));
+    }
+  }
+}
+
+void check_twice(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
+  std::map<std::array<double, 4>, std::size_t> first_with;
+  for (std::size_t i = 0; i < belts.points.size(); ++i) {
+    const auto& l = belts.points[i].lengths_mm;
+    const auto [other, is_new] = first_with.emplace(std::array{l.tl, l.tr, l.bl, l.br}, i);
+    if (is_new) continue;
+    problems.add(
+        places.point(i, ""),
+        lengths_in_words(belts.points[i]),
+        fmt::format("a reading of its own: {} has the same four lengths to the last digit; "
+                    "leave one of the two out",
+                    places.point(other->second, "")));
+  }
+}
+
+void check_pulled(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
+  if (belts.machine.orientation == model::Orientation::flat) return;
+  for (std::size_t i = 0; i < belts.points.size(); ++i) {
+    if (!belts.points[i].pulled) continue;
+    for (const Belt belt : *belts.points[i].pulled) {
+      if (!model::is_upper(belt)) continue;
+      problems.add(places.point(i, "pulled"),
+                   std::string(name(belt)),
+                   "bl and br alone: on an upright frame tl and tr hold the sled and are never "
+                   "pulled; if the frame lies flat, say \"orientation\": \"flat\"");
+    }
+  }
+}
+
+void check_swap(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
+  const auto swap = suspected_swap(belts);
+  if (!swap) return;
+  const auto pair = [](BeltPair p) {
+    return fmt::format("{} and {}", name(p.first), name(p.second));
+  };
+  std::string found = fmt::format("{} swapped", pair(swap->belts));
+  if (swap->or_else) found += fmt::format(", or {}", pair(*swap->or_else));
+  // Mirrored frames agree as well as true ones; others contradict themselves, up to any length.
+  constexpr double kMirroredMm = 15.0;
+  constexpr double kMostTold = 1000.0;
+  problems.add(
+      places.points,
+      found,
+      fmt::format(
+          "each belt's lengths under its own name: changed back they agree to {:.1f} mm, as "
+          "they stand they {}",
+          swap->swapped_mm,
+          swap->as_stated_mm < kMirroredMm
+              ? std::string("make a mirror image of the frame")
+              : fmt::format("contradict each other by {}{:.0f} mm",
+                            swap->as_stated_mm > kMostTold ? "more than " : "",
+                            std::min(swap->as_stated_mm, kMostTold))));
+}
+
+void check_nowhere(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
+  for (const NowherePoint& nowhere : points_nowhere(belts)) {
+    problems.add(places.point(nowhere.point, ""),
+                 lengths_in_words(belts.points[nowhere.point]),
+                 fmt::format("four lengths that end at one place; with the anchors that the other "
+                             "points make, the best place is off by {:.0f} mm: is a digit lost, or "
+                             "is it of another frame? Correct it or leave the point out",
+                             nowhere.off_mm));
+  }
+}
+
+}  // namespace
+
+void check_belt_points(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
+  check_inches(belts, places, problems);
+  check_orders(belts, places, problems);
+  check_twice(belts, places, problems);
+  check_pulled(belts, places, problems);
+}
+
+void check_belt_distances(const MeasuredBelts& belts,
+                          const std::string& distances,
+                          Problems& problems) {
+  for (std::size_t i = 0; i < belts.distances.size(); ++i) {
+    const BeltDistance& distance = belts.distances[i];
+    const auto place = [&](std::string_view end) {
+      return fmt::format("{}/{}/{}", distances, i, end);
+    };
+    const auto check = [&](const BeltEnd& end, std::string_view key) {
+      const auto* index = std::get_if<std::size_t>(&end);
+      if (index != nullptr && *index >= belts.points.size()) {
+        problems.add(place(key),
+                     fmt::format("{}", *index),
+                     fmt::format("a point of this file, 0 to {}", belts.points.size() - 1));
+      }
+      if (std::holds_alternative<CutHole>(end) && !belts.machine.anchors_known) {
+        problems.add(
+            place(key),
+            words_of(end),
+            "a point or an anchor; where a hole is follows from the anchors in force when it "
+            "was cut, and the machine states no x_mm and y_mm of them");
+      }
+    };
+    check(distance.from, "from");
+    check(distance.to, "to");
+    if (words_of(distance.from) == words_of(distance.to)) {
+      problems.add(place("to"), words_of(distance.to), "another end than the one it starts at");
+    }
+  }
+}
+
+void check_belts_together(const MeasuredBelts& belts,
+                          const BeltPlaces& places,
+                          BeltsUse use,
+                          Problems& problems) {
+  const bool is_enough = belts.points.size() >= kFewestBeltPoints;
+  if (is_enough) {
+    check_swap(belts, places, problems);
+    if (problems.any()) return;
+    check_nowhere(belts, places, problems);
+    if (problems.any()) return;
+  }
+  MeasuredBelts untaped = belts;
+  untaped.distances.clear();
+  const auto fit = fit_belts(untaped);
+  if (fit) return;
+  using Reason = BeltsFitFailure::Reason;
+  const Reason reason = fit.error().reason;
+  const bool only_said = use == BeltsUse::import && reason != Reason::no_frame;
+  if (only_said) {
+    problems.warn(places.points,
+                  fmt::format("not enough for a fit of the anchors yet: {}", fit.error().sentence));
+    return;
+  }
+  problems.add(
+      places.points,
+      fmt::format(
+          "{} places{}", belts.points.size(), reason == Reason::not_determined ? " on a line" : ""),
+      reason == Reason::too_few_points
+          ? fmt::format("at least {}: {}", kFewestBeltPoints, fit.error().sentence)
+          : fit.error().sentence);
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue_belts files: what a router on four belts measured by itself. Unknown keys are errors,
+/// except "comment". Same belts, same bytes.
+///
+///     { "file_type": "chaintrue_belts", "format_version": "1.0", "name": "...",
+///       "machine": {
+///         "name": "Maslow 4",
+///         "anchors": { "tl": {"x_mm": -27.6, "y_mm": 2064.9, "z_mm": 100}, "tr": {...},
+///                      "bl": {"x_mm": 0, "y_mm": 0, "z_mm": 34}, "br": {...} },
+///         "belt": {"turn_mm": 43.975}, "arm_mm": 123.4, "end_extension_mm": 30,
+///         "surface_mm": 0, "orientation": "upright", "lengths": "span",
+///         "scale_x": 1, "scale_y": 1 },
+///       "points": [ {"tl_mm": 998.65, "tr_mm": 2400.6, "bl_mm": 1631.15, "br_mm": 2729.87,
+///                    "commanded_x_mm": -600, "commanded_y_mm": 300, "order": 0,
+///                    "pulled": ["bl", "br"], "thrown_away": {"tl_mm": [998.1, 1003.4]}} ],
+///       "distances": [ {"from": "bl", "to": "br", "distance_mm": 3030, "sigma_mm": 1},
+///                      {"from": 3, "to": 17, "distance_mm": 702.5},
+///                      {"from": {"x_mm": -900, "y_mm": 300}, "to": {"x_mm": 900, "y_mm": 300},
+///                       "distance_mm": 1795} ],
+///       "firmware_fit": {"rms_mm": 1.02, "max_mm": 3.4} }
+///
+/// Only the points are required: what is left out of the machine is its firmware's default
+/// (model/belts/belt_machine.hpp), x_mm and y_mm of the anchors are not known where they are left
+/// out of all four. `lengths` says what a length counts: belt | belt_and_arm | span. `orientation` is
+/// upright | flat. A distance ends at a point of the file (its number, from 0), at an anchor (tl, tr,
+/// bl, br) or at a hole that was cut (where it was commanded).
+///
+/// \code
+///   const ReadBelts read = read_belts("belts.json");
+///   for (const Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
+///   const auto fit = fit_belts(read.belts);
+/// \endcode
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/belts/measured_belts.hpp"
+#include "grid/files/input_error.hpp"
+
+namespace chaintrue::grid::files {
+
+/// What is asked of the points beyond being sound one by one.
+enum class BeltsUse {
+  fit,     ///< enough of them, spread out, that make one frame
+  import,  ///< a log: few of them, or in one spot, are written and said
+};
+
+struct ReadBelts {
+  MeasuredBelts belts;
+  std::vector<Warning> warnings;
+};
+
+/// "-" reads standard input. Slips that can be recognised (inches, belts that were swapped, a reading
+/// that stands twice, lengths that no place fits) are said in words. \throws InputError with every
+/// problem.
+[[nodiscard]] ReadBelts read_belts(const std::filesystem::path& path);
+/// `file` is the name used in messages.
+[[nodiscard]] ReadBelts parse_belts(const std::string& text, const std::string& file);
+/// `comments` go under the key "comment", one line each; readers pass over them. \throws
+/// std::logic_error where a number is not finite.
+[[nodiscard]] std::string write_belts(const MeasuredBelts& belts,
+                                      const std::vector<std::string>& comments = {});
+/// True for the text of a chaintrue_belts file, whole or damaged.
+[[nodiscard]] bool looks_like_belts(std::string_view text);
+
+}  // namespace chaintrue::grid::files

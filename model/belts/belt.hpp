@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The four belts of a Maslow 4, and one value for each of them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace chaintrue::model {
+
+/// Named by the corner of the frame that they come from.
+enum class Belt { tl, tr, bl, br };
+
+inline constexpr std::array kBelts = {Belt::tl, Belt::tr, Belt::bl, Belt::br};
+
+/// One value for each belt, addressed by it: `lengths_mm[Belt::tl]`.
+template <class T>
+struct PerBelt {
+  T tl{};
+  T tr{};
+  T bl{};
+  T br{};
+  constexpr T& operator[](Belt belt) {
+    return belt == Belt::tl ? tl : belt == Belt::tr ? tr : belt == Belt::bl ? bl : br;
+  }
+  constexpr const T& operator[](Belt belt) const {
+    return belt == Belt::tl ? tl : belt == Belt::tr ? tr : belt == Belt::bl ? bl : br;
+  }
+  friend constexpr bool operator==(const PerBelt&, const PerBelt&) = default;
+};
+
+/// The word of files: tl, tr, bl, br.
+[[nodiscard]] std::string_view name(Belt belt);
+/// The words of sentences: top left, ...
+[[nodiscard]] std::string_view words(Belt belt);
+[[nodiscard]] std::optional<Belt> belt_of(std::string_view word);
+
+/// The upper two decide where the machine believes its tool to be.
+[[nodiscard]] constexpr bool is_upper(Belt belt) { return belt == Belt::tl || belt == Belt::tr; }
+
+}  // namespace chaintrue::model

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Belt lengths for a place of the tool, and the place for two belt lengths, as the controller of a
+/// Maslow 4 has it.
+///
+/// Notation, for a belt with its anchor at A
+///   m   level distance from A to the tool, |A - (x, y)|
+///   e   arm and end extension
+///   c   height of the anchor over the belt's end: z_mm + surface_mm
+///
+///   belt            L = sqrt((m - e)^2 + c^2)                                               (1)
+///   belt_and_arm    L = sqrt(m^2 + c^2)                                                     (2)
+///   span            L = m                                                                   (3)
+///
+/// Each is exact to rounding and inverted in closed form. A length depends on the place less the
+/// anchor: its derivative by the anchor's x and y is that by the place with the other sign.
+///
+/// The place of two lengths is where their two circles meet below the line of the upper anchors (or
+/// above that of the lower ones, if they are asked for).
+///
+/// Domain: tools farther than e from the anchor; lengths of at least the height c.
+///
+/// \code
+///   const auto lengths = lengths_at(machine, {1500.0, 900.0});
+///   const auto place = place_of_upper(machine, lengths->tl, lengths->tr);   // (1500, 900) again
+///   if (!place) say(explain(place.error()));
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+#include <tl/expected.hpp>
+
+#include "model/belts/belt_machine.hpp"
+
+namespace chaintrue::model {
+
+enum class BeltFailure {
+  inside_the_arm,       ///< the tool is nearer to the anchor than arm and extension are long
+  shorter_than_height,  ///< no belt of that length comes down from its anchor
+  circles_do_not_meet,  ///< the two lengths end nowhere together
+};
+[[nodiscard]] std::string_view explain(BeltFailure failure);
+
+/// A length as the machine prints it, mm, with d(length)/d(place).
+struct BeltReading {
+  double length_mm = 0.0;
+  Eigen::RowVector2d by_place = Eigen::RowVector2d::Zero();
+};
+
+/// What the machine would print of a belt with the tool at a place. \throws std::logic_error for
+/// anchors that are not known.
+[[nodiscard]] tl::expected<BeltReading, BeltFailure> reading_at(const BeltMachine& machine,
+                                                                Belt belt,
+                                                                FramePoint place);
+/// All four, without derivatives.
+[[nodiscard]] tl::expected<PerBelt<double>, BeltFailure> lengths_at(const BeltMachine& machine,
+                                                                    FramePoint place);
+
+/// m of a printed length; the anchors' places need not be known.
+[[nodiscard]] tl::expected<double, BeltFailure> span_of(const BeltMachine& machine,
+                                                        Belt belt,
+                                                        double length_mm);
+/// d(span)/d(length), there.
+[[nodiscard]] double span_slope(const BeltMachine& machine, Belt belt, double length_mm);
+
+/// Where two circles about these anchors meet: right of the way from `first` to `second`.
+[[nodiscard]] tl::expected<FramePoint, BeltFailure> crossing(FramePoint first,
+                                                             double first_mm,
+                                                             FramePoint second,
+                                                             double second_mm);
+
+/// Where the machine believes the tool to be: the upper two belts decide.
+[[nodiscard]] tl::expected<FramePoint, BeltFailure> place_of_upper(const BeltMachine& machine,
+                                                                   double tl_mm,
+                                                                   double tr_mm);
+
+}  // namespace chaintrue::model
