@@ -41,7 +41,9 @@ class NextStep : public testing_support::CommandFixture {
 TEST_F(NextStep, OfEveryVerbWorks) {
   ASSERT_EQ(run("gcode compensate part.nc --map map.json -o part.true.nc").code, 0);
   const std::vector<std::string> lines = {
-      "simulate --machine machine.json --grid 7x4 --seed 1 -o simulated.json",
+      "simulate --machine machine.json --grid 7x4 --effect ring_radius:-:offset_mm=2 -o bare.json",
+      "simulate --machine machine.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
+      "--effect ring_radius:-:offset_mm=2 --seed 1 -o simulated.json",
       "simulate --machine machine.json --holes 9 --seed 1 -o simulated.holes.json",
       "query map.json 100 200",
       "check map.json five.json",
@@ -54,6 +56,12 @@ TEST_F(NextStep, OfEveryVerbWorks) {
       "gcode verify part.nc part.true.nc --map map.json",
       "gcode verify part.nc part.nc --map map.json",
       "gcode explain part.nc:3 --map map.json",
+      "diagnose simulated.json -o d.json",
+      "diagnose simulated.json -o d.json --report d.html",
+      "diagnose simulated.json",
+      "export groundcontrol machine.json",
+      "export groundcontrol map.json",
+      "export groundcontrol d.json",
       "effects",
       "effects chain_stretch",
       "square --map map.json --size-mm 500",

@@ -228,6 +228,22 @@ std::string page_beside(const std::string& path) {
   return std::filesystem::path(path).replace_extension(".html").string();
 }
 
+/// The page, where there is none; what to measure next, where that tells more; else a map.
+void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
+  if (!command.output.empty() && command.report.empty())
+    return say_next({"report", command.output, "-o", page_beside(command.output)});
+  std::vector<std::string> words;
+  if (!command.output.empty() && !found.next_measurements.empty()) {
+    words = {"plan", command.input.grid, "--after", command.output};
+  } else {
+    words = {"fit", command.input.grid, "-o", "map.json"};
+    if (!command.input.machine.empty())
+      words.insert(words.end(), {"--machine", command.input.machine});
+  }
+  for (const std::string& other : command.with) words.insert(words.end(), {"--with", other});
+  say_next(words);
+}
+
 int run_diagnose(const DiagnoseCommand& command) {
   // A wrong file is told before the work.
   std::optional<Diagnosis> before;
@@ -261,8 +277,7 @@ int run_diagnose(const DiagnoseCommand& command) {
   }
   if (!command.report.empty() && command.report != "-")
     fmt::print(stderr, "The report is {}: open it in any browser.\n", command.report);
-  if (!command.output.empty() && command.report.empty())
-    say_next({"report", command.output, "-o", page_beside(command.output)});
+  say_next_of(command, *found);
   return kDone;
 }
 

@@ -6,8 +6,11 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/file_type.hpp"
@@ -34,19 +37,25 @@ struct ExportCommand {
 struct Exported {
   files::GroundcontrolText settings;
   std::string words;
-  bool is_of_map = false;
+  std::vector<std::string> next;
 };
 
 /// What the machine says otherwise than its controller.
-Exported of_machine(const model::Machine& machine) {
-  return {files::write_groundcontrol(machine), "", false};
+Exported of_machine(const model::Machine& machine, std::vector<std::string> next) {
+  return {files::write_groundcontrol(machine), "", std::move(next)};
+}
+
+std::vector<std::string> page_of(const std::string& path) {
+  return {"report", path, "-o", std::filesystem::path(path).replace_extension(".html").string()};
 }
 
 /// What the controller's formulas can make of the map.
-Exported of_map(const grid::CompensationMap& map, const std::string& file) {
+Exported of_map(const grid::CompensationMap& map,
+                const std::string& file,
+                const std::string& path) {
   const model::Machine* machine = map.machine();
   if (machine != nullptr && !machine->controller.settings.motor_spacing_mm) {
-    return of_machine(*machine);
+    return of_machine(*machine, page_of(path));
   }
   const auto typed = grid::settings_to_type(map);
   if (!typed) throw files::InputError({{file, "", "this map", typed.error().sentence}});
@@ -54,7 +63,8 @@ Exported of_map(const grid::CompensationMap& map, const std::string& file) {
       files::write_groundcontrol_settings(
           *machine, typed->settings, fmt::format("the {} points of {}", typed->points, file)),
       "",
-      typed->worth_typing};
+      typed->worth_typing ? std::vector<std::string>{"plan", "--check", path, "-o", "check.csv"}
+                          : page_of(path)};
   result.words =
       typed->worth_typing
           ? fmt::format(
@@ -78,16 +88,16 @@ Exported export_of(const std::string& path) {
   const std::string text = files::read_whole_file(path);
   const std::string file = files::name_in_messages(path);
   const std::string type = files::file_type_of(text, file);
-  if (type == "chaintrue_map") return of_map(parse_map_input(text, file), file);
+  if (type == "chaintrue_map") return of_map(parse_map_input(text, file), file, path);
   if (type == "chaintrue_diagnosis") {
     std::vector<files::Warning> warnings;
     const auto found = files::parse_diagnosis(text, file, &warnings);
     print_warnings(warnings);
-    return of_machine(found.extended_machine);
+    return of_machine(found.extended_machine, page_of(path));
   }
   const files::ReadMachine read = files::parse_machine_with_warnings(text, file);
   print_warnings(read.warnings);
-  return of_machine(read.machine);
+  return of_machine(read.machine, {"plan", "--machine", path, "-o", "marks.csv"});
 }
 
 int export_groundcontrol(const ExportCommand& command) {
@@ -97,8 +107,7 @@ int export_groundcontrol(const ExportCommand& command) {
   if (exported.settings.remarks.empty() && exported.words.empty())
     fmt::print(stderr, "No number changes.\n");
   fmt::print(stderr, "{}", exported.words);
-  // Numbers that change are worth a second look at the machine.
-  if (exported.is_of_map) say_next({"plan", "--check", command.input, "-o", "check.csv"});
+  say_next(exported.next);
   return kDone;
 }
 

@@ -30,9 +30,11 @@ namespace {
 namespace files = grid::files;
 namespace synthetic = grid::synthetic;
 
-/// What is hidden is there to be found.
+/// What is hidden is there to be found, where it is known how well the points were measured.
 void say_next_of(const SimulateOptions& options) {
-  if (options.effects.empty()) return say_next({"fit", options.output, "-o", "map.json"});
+  const bool has_noise = options.holes.plan.holes != 0 || options.noise.length_mm > 0.0;
+  if (options.effects.empty() || !has_noise)
+    return say_next({"fit", options.output, "-o", "map.json"});
   say_next({"diagnose", options.output, "-o", "diagnosis.json"});
 }
 

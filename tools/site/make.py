@@ -82,14 +82,21 @@ class Site:
             return f'href="#{goal}"'
         if not file.exists():
             self.problems.append(f"{path}: {target} leads nowhere")
-        # What is no document is in the repository only; beside the documents a schema is too.
-        return f'href="{html.escape(relative)}"'
+            return ""
+        if file.suffix == ".json":
+            return f'download="{file.name}" href="{self.data_of(file)}"'
+        # What else there is stands in the repository only.
+        return f'title="{html.escape(relative)}, in the repository"'
 
     def picture(self, path, file):
         if not file.exists():
             self.problems.append(f"{path}: the picture {file.name} is missing")
             return ""
-        kind = mimetypes.guess_type(file.name)[0] or "image/png"
+        return self.data_of(file)
+
+    @staticmethod
+    def data_of(file):
+        kind = mimetypes.guess_type(file.name)[0] or "application/octet-stream"
         return f"data:{kind};base64," + base64.b64encode(file.read_bytes()).decode()
 
     def contents(self):
