@@ -76,7 +76,7 @@ void fill_places(const MeasuredBelts& belts,
   model::PerBelt<int> counts;
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     FittedPlace place{frame.state.places[k], view.place_covariance_mm2(k), {}};
-    int agreeing = 0;
+    std::vector<BadBeltReading> bad;
     for (const Belt belt : kBelts) {
       BeltResidual& residual = place.belts[belt];
       residual = view.residual(k, belt);
@@ -84,12 +84,16 @@ void fill_places(const MeasuredBelts& belts,
       if (residual.counts) {
         squares[belt] += residual.off_mm * residual.off_mm;
         ++counts[belt];
-        ++agreeing;
       } else {
-        fit.bad.push_back({k, belt, residual.beside_mm});
+        bad.push_back({k, belt, residual.beside_mm});
       }
     }
-    if (agreeing < 3) fit.bad_points.push_back(k);
+    // Two readings fix a place and check nothing.
+    if (bad.size() > 1) {
+      fit.bad_points.push_back(k);
+    } else {
+      fit.bad.insert(fit.bad.end(), bad.begin(), bad.end());
+    }
     fit.places.push_back(std::move(place));
   }
   fit.rms_mm = std::sqrt(square / (4.0 * static_cast<double>(belts.points.size())));

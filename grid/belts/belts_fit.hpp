@@ -32,7 +32,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -48,7 +47,7 @@ inline constexpr double kMostBadReadings = 0.12;
 
 /// One of tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm, br_x_mm.
 struct AnchorCoordinate {
-  std::string_view name;
+  std::string name;
   std::optional<double> stated_mm;
   double fitted_mm = 0.0;
   double sigma_mm = 0.0;
@@ -94,7 +93,7 @@ struct BeltScale {
 struct BeltsFit {
   model::BeltMachine machine;  ///< with the anchors fitted, in the belts' own millimetres
   std::array<AnchorCoordinate, 5> coordinates;
-  Eigen::Matrix<double, 5, 5> covariance_mm2;
+  Eigen::Matrix<double, 5, 5> covariance_mm2 = Eigen::Matrix<double, 5, 5>::Zero();
   double spread_mm = 0.0;  ///< (1)
   int checks = 0;          ///< the denominator of (1)
   double rms_mm = 0.0;  ///< of all readings, those set aside too, as the machine's message has it

@@ -18,10 +18,6 @@ namespace {
 /// slips: other starts are tried as well.
 constexpr double kPlausibleSpreadMm = 10.0;
 
-/// Distances weigh against belts by the belts' own spread, which a few turns find: each changes the
-/// frame by a share of what one distance can pull it.
-constexpr int kSpreadTurns = 4;
-
 double spread_of(double square_mm2, Eigen::Index checks) {
   // Readings in whole hundredths leave no less.
   constexpr double kLeastSpreadMm = 1e-3;
@@ -34,22 +30,26 @@ bool is_upright_frame(const AnchorVector& a) {
   return a[4] > 0.0 && a[2] > a[0] && a[1] > 0.0 && a[3] > 0.0;
 }
 
+std::optional<SettledFrame> settled_once(const MeasuredBelts& belts, SettledFrame frame) {
+  const FrameSolver solver(belts, frame.counting, frame.spread_mm);
+  const bool at_bottom = solver.solve(frame.state);
+  const FrameEquations there = solver.equations(frame.state);
+  if (!std::isfinite(there.cost)) return std::nullopt;
+  frame.is_sound = at_bottom && is_upright_frame(frame.state.anchors);
+  frame.checks = solver.belt_degrees_of_freedom();
+  // A tape that bends the frame must not make the belts seem less sure: the spread is theirs alone.
+  if (!solver.fits_scale()) frame.spread_mm = spread_of(there.belts_square_mm2, frame.checks);
+  return frame;
+}
+
 std::optional<SettledFrame> settled(const MeasuredBelts& belts,
                                     FrameState state,
-                                    Counting counting,
-                                    double spread_mm) {
-  SettledFrame frame{std::move(state), std::move(counting), spread_mm, 0, false};
-  const int turns = belts.distances.empty() ? 1 : kSpreadTurns;
-  for (int turn = 0; turn < turns; ++turn) {
-    const FrameSolver solver(belts, frame.counting, frame.spread_mm);
-    const bool at_bottom = solver.solve(frame.state);
-    const FrameEquations there = solver.equations(frame.state);
-    if (!std::isfinite(there.cost)) return std::nullopt;
-    frame.is_sound = at_bottom && is_upright_frame(frame.state.anchors);
-    frame.checks = solver.belt_degrees_of_freedom();
-    frame.spread_mm = spread_of(there.belts_square_mm2, frame.checks);
-  }
-  return frame;
+                                    Counting counting) {
+  MeasuredBelts untaped = belts;
+  untaped.distances.clear();
+  auto frame = settled_once(untaped, {std::move(state), std::move(counting), 1.0, 0, false});
+  if (!frame || belts.distances.empty()) return frame;
+  return settled_once(belts, *std::move(frame));
 }
 
 /// The normal deviate of the same chance as Student's t.
@@ -97,7 +97,7 @@ SettledFrame without_gross_points(const MeasuredBelts& belts, SettledFrame frame
       if (!frame.counting[k].tl) continue;
       Counting fewer = frame.counting;
       fewer[k] = {false, false, false, false};
-      auto without = settled(untaped, frame.state, std::move(fewer), 1.0);
+      auto without = settled(untaped, frame.state, std::move(fewer));
       if (!without || without->checks < 1 || !without->is_sound) continue;
       if (!best || without->spread_mm < best->spread_mm) best = std::move(without);
     }
@@ -105,7 +105,33 @@ SettledFrame without_gross_points(const MeasuredBelts& belts, SettledFrame frame
     frame = *std::move(best);
   }
   if (belts.distances.empty()) return frame;
-  return settled(belts, frame.state, frame.counting, frame.spread_mm).value_or(frame);
+  return settled(belts, frame.state, frame.counting).value_or(frame);
+}
+
+/// The worst reading set aside, and again; at last those that fit after all are taken back.
+SettledFrame without_bad_readings(const MeasuredBelts& belts, SettledFrame frame) {
+  const auto most =
+      static_cast<std::size_t>(kMostBadReadings * 4.0 * static_cast<double>(belts.points.size()));
+  for (std::size_t aside = 0; frame.is_sound && aside < most && frame.checks > 1; ++aside) {
+    const Worst worst = worst_of(belts, frame, true);
+    if (worst.sigmas < kBadReadingSigmas) break;
+    Counting fewer = frame.counting;
+    fewer[worst.point][worst.belt] = false;
+    auto next = settled(belts, frame.state, std::move(fewer));
+    if (!next) break;
+    frame = *std::move(next);
+  }
+  // What was set aside while a worse one was still in may fit after all.
+  for (std::size_t back = 0; back < most; ++back) {
+    const Worst least = worst_of(belts, frame, false);
+    if (!(least.sigmas < kBadReadingSigmas)) break;
+    Counting more = frame.counting;
+    more[least.point][least.belt] = true;
+    auto next = settled(belts, frame.state, std::move(more));
+    if (!next || worst_of(belts, *next, true).sigmas >= kBadReadingSigmas) break;
+    frame = *std::move(next);
+  }
+  return frame;
 }
 
 void place_the_unplaced(const MeasuredBelts& belts, SettledFrame& frame) {
@@ -122,7 +148,7 @@ void place_the_unplaced(const MeasuredBelts& belts, SettledFrame& frame) {
 std::optional<SettledFrame> settle_from(const MeasuredBelts& belts,
                                         FrameState state,
                                         Counting counting) {
-  return settled(belts, std::move(state), std::move(counting), 1.0);
+  return settled(belts, std::move(state), std::move(counting));
 }
 
 std::optional<SettledFrame> settle(const MeasuredBelts& belts) {
@@ -132,7 +158,7 @@ std::optional<SettledFrame> settle(const MeasuredBelts& belts) {
   untaped.distances.clear();
   std::optional<SettledFrame> best;
   for (const FrameState& first : first_frames(untaped, all)) {
-    auto frame = settled(untaped, first, all, 1.0);
+    auto frame = settled(untaped, first, all);
     if (!frame) continue;
     if (!best || std::pair(!frame->is_sound, frame->spread_mm) <
                      std::pair(!best->is_sound, best->spread_mm)) {
@@ -141,35 +167,17 @@ std::optional<SettledFrame> settle(const MeasuredBelts& belts) {
     if (best->is_sound && best->spread_mm < kPlausibleSpreadMm) break;
   }
   if (!best || belts.distances.empty()) return best;
-  return settled(belts, best->state, best->counting, best->spread_mm);
+  return settled(belts, best->state, best->counting);
 }
 
 std::optional<SettledFrame> settle_robustly(const MeasuredBelts& belts) {
-  auto frame = settle(belts);
-  if (frame) frame = without_gross_points(belts, *std::move(frame));
-  const auto most =
-      static_cast<std::size_t>(kMostBadReadings * 4.0 * static_cast<double>(belts.points.size()));
-  for (std::size_t aside = 0; frame && frame->is_sound && aside < most && frame->checks > 1;
-       ++aside) {
-    const Worst worst = worst_of(belts, *frame, true);
-    if (worst.sigmas < kBadReadingSigmas) break;
-    Counting fewer = frame->counting;
-    fewer[worst.point][worst.belt] = false;
-    auto next = settled(belts, frame->state, std::move(fewer), frame->spread_mm);
-    if (!next) break;
-    frame = std::move(next);
+  const auto first = settle(belts);
+  if (!first) return std::nullopt;
+  SettledFrame frame = without_bad_readings(belts, *first);
+  if (!frame.is_sound || frame.spread_mm > kPlausibleSpreadMm) {
+    frame = without_bad_readings(belts, without_gross_points(belts, *first));
   }
-  // What was set aside while a worse one was still in may fit after all.
-  for (std::size_t back = 0; frame && back < most; ++back) {
-    const Worst least = worst_of(belts, *frame, false);
-    if (!(least.sigmas < kBadReadingSigmas)) break;
-    Counting more = frame->counting;
-    more[least.point][least.belt] = true;
-    auto next = settled(belts, frame->state, std::move(more), frame->spread_mm);
-    if (!next || worst_of(belts, *next, true).sigmas >= kBadReadingSigmas) break;
-    frame = std::move(next);
-  }
-  if (frame) place_the_unplaced(belts, *frame);
+  place_the_unplaced(belts, frame);
   return frame;
 }
 

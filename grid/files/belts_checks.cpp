@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "grid/belts/belt_slips.hpp"
@@ -61,18 +62,44 @@ void check_orders(const MeasuredBelts& belts, const BeltPlaces& places, Problems
   }
 }
 
+/// The machine was read several times at one place without moving it: then two readings may well be
+/// the same to the last digit.
+bool holds_repeats(const MeasuredBelts& belts) {
+  constexpr double kSamePlaceMm = 2.0;
+  for (std::size_t i = 1; i < belts.points.size(); ++i) {
+    double farthest_mm = 0.0;
+    for (const Belt belt : kBelts) {
+      farthest_mm = std::max(
+          farthest_mm,
+          std::abs(belts.points[i].lengths_mm[belt] - belts.points[i - 1].lengths_mm[belt]));
+    }
+    if (farthest_mm > 0.0 && farthest_mm < kSamePlaceMm) return true;
+  }
+  return false;
+}
+
 void check_twice(const MeasuredBelts& belts, const BeltPlaces& places, Problems& problems) {
+  const bool has_repeats = holds_repeats(belts);
   std::map<std::array<double, 4>, std::size_t> first_with;
   for (std::size_t i = 0; i < belts.points.size(); ++i) {
     const auto& l = belts.points[i].lengths_mm;
     const auto [other, is_new] = first_with.emplace(std::array{l.tl, l.tr, l.bl, l.br}, i);
     if (is_new) continue;
+    const std::string same = places.point(other->second, "");
+    if (has_repeats) {
+      problems.warn(
+          places.point(i, ""),
+          fmt::format("the same four lengths as {} to the last digit; taken for a repeat, as "
+                      "others here are. If it was copied, leave one of the two out",
+                      same));
+      continue;
+    }
     problems.add(
         places.point(i, ""),
         lengths_in_words(belts.points[i]),
         fmt::format("a reading of its own: {} has the same four lengths to the last digit; "
                     "leave one of the two out",
-                    places.point(other->second, "")));
+                    same));
   }
 }
 
@@ -189,13 +216,24 @@ void check_belts_together(const MeasuredBelts& belts,
                   fmt::format("not enough for a fit of the anchors yet: {}", fit.error().sentence));
     return;
   }
-  problems.add(
-      places.points,
-      fmt::format(
-          "{} places{}", belts.points.size(), reason == Reason::not_determined ? " on a line" : ""),
-      reason == Reason::too_few_points
-          ? fmt::format("at least {}: {}", kFewestBeltPoints, fit.error().sentence)
-          : fit.error().sentence);
+  const std::string found = fmt::format("{} places", belts.points.size());
+  if (reason == Reason::too_few_points) {
+    problems.add(places.points,
+                 found,
+                 fmt::format("at least {}, of which {} checks of the anchors are left over",
+                             kFewestBeltPoints,
+                             2 * kFewestBeltPoints - 5));
+  } else if (reason == Reason::not_determined) {
+    problems.add(
+        places.points,
+        found + " on a line",
+        "places spread over the sheet's width and height: on a line, or in one spot, they do "
+        "not tell where the anchors are");
+  } else {
+    problems.add(places.points,
+                 found + " of no frame",
+                 fmt::format("lengths of one frame; {}", fit.error().sentence));
+  }
 }
 
 }  // namespace chaintrue::grid::files

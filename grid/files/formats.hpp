@@ -46,6 +46,7 @@ inline constexpr Format kMachineFormat{"chaintrue_machine", "1.0"};
 inline constexpr Format kGridFormat{"chaintrue_grid", "1.0"};
 inline constexpr Format kHolesFormat{"chaintrue_holes", "1.0"};
 inline constexpr Format kBeltsFormat{"chaintrue_belts", "1.0"};
+inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.0"};
 inline constexpr Format kMapFormat{"chaintrue_map", "1.1", kOlderMaps};
 inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.1", kOlderDiagnoses};
 inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};
@@ -56,10 +57,11 @@ inline constexpr Format kFitFormat{"chaintrue_fit", "1.0", {}, false};
 inline constexpr Format kEffectsFormat{"chaintrue_effects", "1.0", {}, false};
 inline constexpr Format kEffectPictureFormat{"chaintrue_effect_picture", "1.0", {}, false};
 
-inline constexpr std::array<const Format*, 13> kFormats = {&kMachineFormat,
+inline constexpr std::array<const Format*, 14> kFormats = {&kMachineFormat,
                                                            &kGridFormat,
                                                            &kHolesFormat,
                                                            &kBeltsFormat,
+                                                           &kAnchorsFormat,
                                                            &kMapFormat,
                                                            &kDiagnosisFormat,
                                                            &kSweepFormat,

@@ -190,6 +190,8 @@ std::string what_takes(const Json& file_type) {
       {"chaintrue_machine", "a machine", "plan, simulate or export"},
       {"chaintrue_grid", "a grid of measured points", "fit, diagnose or check"},
       {"chaintrue_holes", "a set of holes", "fit, diagnose or check"},
+      {"chaintrue_belts", "a set of belt lengths", "fit"},
+      {"chaintrue_anchors", "a set of fitted anchors", "export maslow4"},
       {"chaintrue_map", "a map", "report, query, gcode or export"},
       {"chaintrue_diagnosis", "a diagnosis", "report or plan --after"},
       {"chaintrue_sweep", "a sweep", "sweep"},

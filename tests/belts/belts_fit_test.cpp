@@ -272,6 +272,32 @@ TEST(BeltsFit, ScalesOfTapedPointsAnchorsAndHolesAreOffByAsMuchAsIsSaid) {
   EXPECT_NEAR(anchors_square / kSets, 5.0, 4.0 * std::sqrt(10.0 / kSets));
 }
 
+TEST(BeltsFit, ATapeThatContradictsTheBeltsDoesNotMakeThemSeemLessSure) {
+  SimulatedBelts set = simulate({.seed = 32});
+  const auto alone = fit_belts(set.belts);
+  const auto& a = set.truth.anchors;
+  set.belts.distances.push_back({Belt::bl, Belt::br, a.br.x_mm, 1.0});
+  set.belts.distances.push_back({Belt::tl, Belt::tr, 1.01 * (a.tr.x_mm - a.tl.x_mm), 1.0});
+  const auto fit = fit_belts(set.belts);
+  ASSERT_TRUE(alone && fit && fit->scale);
+  // One sum of squares from two starts.
+  EXPECT_NEAR(fit->spread_mm, alone->spread_mm, 1e-6);
+  EXPECT_TRUE(fit->bad.empty() && fit->bad_points.empty());
+  // 15 mm apart in the two spans, of which neither is hidden.
+  EXPECT_GT(fit->scale->residuals_mm[1] - fit->scale->residuals_mm[0], 10.0);
+}
+
+TEST(BeltsFit, OneBadReadingOfFewPlacesIsNamedAndNotItsPlace) {
+  SimulatedBelts set = simulate({.seed = 33, .columns = 3, .rows = 3, .noise_mm = 0.2});
+  set.belts.points[4].lengths_mm.tl += 80.0;
+  const auto fit = fit_belts(set.belts);
+  ASSERT_TRUE(fit);
+  ASSERT_EQ(fit->bad.size(), 1U);
+  EXPECT_EQ(fit->bad[0].point, 4U);
+  EXPECT_EQ(fit->bad[0].belt, Belt::tl);
+  EXPECT_TRUE(fit->bad_points.empty());
+}
+
 TEST(BeltsFit, WhatCannotBeFittedHasAReasonAndASentence) {
   using Reason = BeltsFitFailure::Reason;
   SimulatedBelts set = simulate({.seed = 41, .columns = 4, .rows = 4});

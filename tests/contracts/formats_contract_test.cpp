@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 
+#include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/formats.hpp"
@@ -84,10 +85,10 @@ std::vector<Warning> read_sweep_text(const std::string& text) {
   const std::filesystem::path folder =
       std::filesystem::path(::testing::TempDir()) / ("formats_" + name);
   std::filesystem::create_directories(folder / "sweeps");
-  std::filesystem::copy(fixture("machines"),
-                        folder / "machines",
-                        std::filesystem::copy_options::overwrite_existing |
-                            std::filesystem::copy_options::recursive);
+  std::filesystem::copy(
+      fixture("machines"),
+      folder / "machines",
+      std::filesystem::copy_options::overwrite_existing | std::filesystem::copy_options::recursive);
   std::ofstream(folder / "sweeps" / "sweep.json") << text;
   return read_sweep(folder / "sweeps" / "sweep.json").warnings;
 }
@@ -108,6 +109,12 @@ const std::map<std::string_view, Sample>& samples() {
       {kBeltsFormat.file_type,
        {[](const std::string& text) { return parse_belts(text, "belts.json").warnings; },
         text_of("good/belts_every_key.json")}},
+      {kAnchorsFormat.file_type,
+       {[](const std::string& text) {
+          (void)parse_anchors(text, "anchors.json");
+          return std::vector<Warning>{};
+        },
+        text_of("good/anchors_every_key.json")}},
       {kMapFormat.file_type,
        {[](const std::string& text) {
           std::vector<Warning> warnings;

@@ -11,6 +11,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
@@ -76,6 +77,10 @@ Outcome belts_outcome(const std::string& text, const std::string& name) {
   return {write_belts(read.belts), messages_of(read.warnings), {}};
 }
 
+Outcome anchors_outcome(const std::string& text, const std::string& name) {
+  return {write_anchors(parse_anchors(text, name)), {}, {}};
+}
+
 Outcome maslow4_outcome(const std::string& text, const std::string& name) {
   const Maslow4Import read = parse_maslow4(text, name);
   return {write_belts(read.belts), messages_of(read.warnings), {}};
@@ -92,6 +97,7 @@ const std::map<std::string, Reader>& readers() {
                                                         {"diagnosis", diagnosis_outcome},
                                                         {"holes", holes_outcome},
                                                         {"belts", belts_outcome},
+                                                        {"anchors", anchors_outcome},
                                                         {"maslow4", maslow4_outcome}};
   return by_kind;
 }

@@ -44,7 +44,7 @@ TEST_P(GoodInput, IsReadAndWrittenTheSameEachTime) {
   // What is written is a chaintrue file, whatever was read.
   std::string kind = "points";
   // A diagnosis holds a machine, and holes or a grid may.
-  for (const char* known : {"diagnosis", "holes", "belts", "grid", "machine"}) {
+  for (const char* known : {"diagnosis", "holes", "belts", "anchors", "grid", "machine"}) {
     if (kind == "points" &&
         first.written.find(std::string("chaintrue_") + known) != std::string::npos)
       kind = known;

@@ -43,8 +43,8 @@ TEST(Maslow4Log, WhatItSaysIsKept) {
               ElementsAre(2120.242, 2119.96, 2122.868, 2120.203));
   EXPECT_THAT(read.belts.points[8].thrown_away_mm.br, IsEmpty());
   ASSERT_TRUE(read.belts.firmware_fit);
-  EXPECT_EQ(read.belts.firmware_fit->rms_mm, 0.83);
-  EXPECT_EQ(read.belts.firmware_fit->max_mm, 2.41);
+  EXPECT_EQ(read.belts.firmware_fit->rms_mm, 0.61);
+  EXPECT_EQ(read.belts.firmware_fit->max_mm, 1.53);
 }
 
 TEST(Maslow4Log, WhatNeitherItNorTheSettingsSayIsAssumedAndSaid) {

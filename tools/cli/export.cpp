@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/files/anchors_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/file_type.hpp"
 #include "grid/files/groundcontrol_file.hpp"
@@ -111,6 +112,37 @@ int export_groundcontrol(const ExportCommand& command) {
   return kDone;
 }
 
+int export_maslow4(const ExportCommand& command) {
+  const files::FittedAnchors found = files::parse_anchors(files::read_whole_file(command.input),
+                                                          files::name_in_messages(command.input));
+  const files::Maslow4Settings settings = files::write_maslow4_settings(found.fit);
+  write_output(command.output, settings.text);
+  for (const std::string& remark : settings.remarks) fmt::print(stderr, "{}\n", remark);
+  return kDone;
+}
+
+void add_maslow4(CLI::App& verb, Run& run) {
+  auto command = std::make_shared<ExportCommand>();
+  CLI::App* maslow4 =
+      verb.add_subcommand("maslow4", "The lines to paste into a Maslow 4's terminal");
+  add_input(*maslow4, "file", command->input, "A chaintrue_anchors file, as fit makes it")
+      ->required();
+  add_output(*maslow4,
+             "-o,--output",
+             command->output,
+             {Origin::list},
+             "Where they go; - is standard output")
+      ->capture_default_str();
+  maslow4->footer(
+      "The anchors as fitted, in the belts' own millimetres; with a taped distance the scales, "
+      "where "
+      "they change.\n\n"
+      "Example:\n"
+      "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json\n"
+      "  build/chaintrue export maslow4 anchors.json");
+  maslow4->callback([command, &run] { run = [command] { return export_maslow4(*command); }; });
+}
+
 }  // namespace
 
 void add_export(CLI::App& app, Run& run) {
@@ -141,6 +173,7 @@ void add_export(CLI::App& app, Run& run) {
       kExample));
   groundcontrol->callback(
       [command, &run] { run = [command] { return export_groundcontrol(*command); }; });
+  add_maslow4(*verb, run);
 }
 
 }  // namespace chaintrue::cli

@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "grid/files/belts_file.hpp"
 #include "grid/files/fit_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/holes/fit_together.hpp"
 #include "grid/map/fit.hpp"
+#include "tools/cli/fit_the_belts.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/map_words.hpp"
@@ -160,13 +162,32 @@ grid::Measured read_all(const FitCommand& command) {
   for (const std::string& name : names) {
     GridInput input = command.input;
     input.grid = name;
+    if (&name != &names.front()) input.text.reset();
     measured.add({grid::files::name_in_messages(name),
                   read_measured_input(input, command.tape, MeasuredUse::fit)});
   }
   return measured;
 }
 
-int run_fit(const FitCommand& command) {
+/// Four belts have anchors for an answer, and no map.
+int fit_belts_alone(const FitCommand& command) {
+  if (!command.with.empty() || !command.input.machine.empty() || command.surface != "residual") {
+    fmt::print(
+        stderr,
+        "chaintrue fit: belts are fitted by themselves, to the machine in their own file: leave "
+        "--with, --machine and --surface out\n");
+    return kUsage;
+  }
+  return fit_the_belts({*command.input.text,
+                        grid::files::name_in_messages(command.input.grid),
+                        command.output,
+                        command.verbose,
+                        command.json});
+}
+
+int run_fit(FitCommand command) {
+  command.input.text = grid::files::read_whole_file(command.input.grid);
+  if (grid::files::looks_like_belts(*command.input.text)) return fit_belts_alone(command);
   if (command.surface == "direct" && !command.with.empty()) {
     fmt::print(stderr,
                "chaintrue fit: a direct surface is of one grid alone: leave --surface or --with "
@@ -197,7 +218,8 @@ int run_fit(const FitCommand& command) {
 
 void add_fit(CLI::App& app, Run& run) {
   auto command = std::make_shared<FitCommand>();
-  CLI::App* verb = app.add_subcommand("fit", "Measured points become a compensation map");
+  CLI::App* verb =
+      app.add_subcommand("fit", "Measured points become a compensation map, belt lengths anchors");
   add_grid_options(*verb, command->input);
   add_tape_options(*verb, command->tape);
   add_input(*verb,
@@ -205,8 +227,11 @@ void add_fit(CLI::App& app, Run& run) {
             command->with,
             "More files of the same machine, grids or chaintrue_holes: all are fitted at once, "
             "in the frame of the first");
-  add_output(
-      *verb, "-o,--output", command->output, {Origin::map}, "The map file; - is standard output")
+  add_output(*verb,
+             "-o,--output",
+             command->output,
+             {Origin::map, Origin::anchors},
+             "The map file, of belts the anchors file; - is standard output")
       ->required();
   verb->add_option("--surface",
                    command->surface,
@@ -230,7 +255,8 @@ void add_fit(CLI::App& app, Run& run) {
       "  build/chaintrue fit fixtures/holes/nine_holes.json -o map.json\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json --with "
       "fixtures/holes/nine_holes.json "
-      "-o map.json");
+      "-o map.json\n"
+      "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json");
   verb->callback([command, &run] {
     if (command->json && command->output == "-") {
       throw CLI::ValidationError("fit", "--json and the map cannot both go to standard output");

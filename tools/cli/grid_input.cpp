@@ -113,7 +113,7 @@ std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(
     const TapeInput& tape,
     MeasuredUse use,
     const model::Machine* otherwise) {
-  const std::string text = files::read_whole_file(input.grid);
+  const std::string text = input.text ? *input.text : files::read_whole_file(input.grid);
   if (!files::looks_like_holes(text)) {
     files::GridOptions options;
     options.machine = machine_of(input);
@@ -145,6 +145,7 @@ grid::Measured read_measured(const GridInput& input,
   for (const std::string& path : with) {
     GridInput other = input;
     other.grid = path;
+    other.text.reset();
     // A few more readings are welcome beside enough of them.
     grid::MeasuredFile file{files::name_in_messages(path),
                             read_measured_input(other, tape, MeasuredUse::check)};

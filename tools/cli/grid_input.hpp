@@ -16,6 +16,8 @@ namespace chaintrue::cli {
 
 struct GridInput {
   std::string grid;
+  /// Of the file, where somebody has read it already.
+  std::optional<std::string> text = std::nullopt;
   std::string machine;
   std::optional<double> length_noise_mm;
   std::optional<double> position_noise_mm;

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/anchors_file.hpp"
+
+#include <fmt/format.h>
+
+#include "grid/files/belts_record.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using model::Belt;
+using model::PerBelt;
+
+constexpr Range kMillimetres{"mm", -1e6, 1e6};
+constexpr Range kSigma{"mm", 0.0, 1e6};
+constexpr Range kSquare{"mm^2", -1e12, 1e12};
+constexpr Range kAnyNumber{"", -1e12, 1e12};
+constexpr int kMostPoints = 100000;
+
+template <class V>
+const Record<PerBelt<V>>& per_belt_record(const Value<V>& value) {
+  static const auto record = Record<PerBelt<V>>("a value for each belt")
+                                 .required("tl", &PerBelt<V>::tl, value)
+                                 .required("tr", &PerBelt<V>::tr, value)
+                                 .required("bl", &PerBelt<V>::bl, value)
+                                 .required("br", &PerBelt<V>::br, value);
+  return record;
+}
+
+const Record<AnchorCoordinate>& coordinate_record() {
+  static const auto record =
+      Record<AnchorCoordinate>("a coordinate of an anchor")
+          .required("coordinate",
+                    &AnchorCoordinate::name,
+                    one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
+          .optional("stated_mm", &AnchorCoordinate::stated_mm, number(kMillimetres))
+          .required("fitted_mm", &AnchorCoordinate::fitted_mm, number(kMillimetres))
+          .required("sigma_mm", &AnchorCoordinate::sigma_mm, number(kSigma))
+          .required("rests_on",
+                    &AnchorCoordinate::rests_on,
+                    object(per_belt_record<double>(number(kAnyNumber))));
+  return record;
+}
+
+const Record<Foretold>& foretold_record() {
+  static const auto record =
+      Record<Foretold>("what was foretold")
+          .custom(
+              "readings",
+              true,
+              "a whole number",
+              [](const Cursor& at, Foretold& f) {
+                if (const auto count = at.integer(0, 4 * kMostPoints))
+                  f.readings = static_cast<std::size_t>(*count);
+              },
+              [](const Foretold& f) { return std::optional<Json>(f.readings); })
+          .required("rms_mm", &Foretold::rms_mm, number(kSigma))
+          .required("largest_mm", &Foretold::largest_mm, number(kSigma));
+  return record;
+}
+
+const Record<BeltScale>& scale_record() {
+  static const auto record =
+      Record<BeltScale>("a scale")
+          .required("factor", &BeltScale::factor, number({"", 0.1, 10.0}))
+          .required("sigma", &BeltScale::sigma, number({"", 0.0, 10.0}))
+          .required("residuals_mm", &BeltScale::residuals_mm, list(number(kMillimetres)));
+  return record;
+}
+
+Record<BadBeltReading>& add_point(Record<BadBeltReading>& record) {
+  return record.custom(
+      "point",
+      true,
+      "a point's number",
+      [](const Cursor& at, BadBeltReading& bad) {
+        if (const auto index = at.integer(0, kMostPoints))
+          bad.point = static_cast<std::size_t>(*index);
+      },
+      [](const BadBeltReading& bad) { return std::optional<Json>(bad.point); });
+}
+
+const Record<BadBeltReading>& bad_record() {
+  static const auto record = [] {
+    Record<BadBeltReading> bad("a bad reading");
+    add_point(bad)
+        .required(
+            "belt",
+            &BadBeltReading::belt,
+            choice<Belt>({{"tl", Belt::tl}, {"tr", Belt::tr}, {"bl", Belt::bl}, {"br", Belt::br}}))
+        .required("off_mm", &BadBeltReading::off_mm, number(kMillimetres));
+    return bad;
+  }();
+  return record;
+}
+
+const Record<BeltResidual>& residual_record() {
+  static const auto record =
+      Record<BeltResidual>("a reading's residual")
+          .required("off_mm", &BeltResidual::off_mm, number(kMillimetres))
+          .required("counts", &BeltResidual::counts, boolean())
+          .required("sigmas", &BeltResidual::sigmas, number(kAnyNumber))
+          .required("beside_mm", &BeltResidual::beside_mm, number(kMillimetres));
+  return record;
+}
+
+/// A list of exactly so many numbers; what is wrong is reported.
+std::optional<std::vector<double>> numbers(const Cursor& at,
+                                           std::size_t count,
+                                           const Range& range) {
+  auto found = list(number(range)).read(at);
+  if (found && found->size() != count) {
+    at.problems().add(
+        at.pointer(), fmt::format("{} of them", found->size()), fmt::format("{} numbers", count));
+    return std::nullopt;
+  }
+  return found;
+}
+
+const Record<FittedPlace>& place_record() {
+  static const auto record = [] {
+    Record<FittedPlace> place("a place");
+    const auto coordinate = [&](const char* key, double model::FramePoint::*member) {
+      place.custom(
+          key,
+          true,
+          kMillimetres.expected(),
+          [member](const Cursor& at, FittedPlace& p) {
+            if (const auto value = at.number(kMillimetres)) p.at.*member = *value;
+          },
+          [member](const FittedPlace& p) { return std::optional<Json>(p.at.*member); });
+    };
+    coordinate("x_mm", &model::FramePoint::x_mm);
+    coordinate("y_mm", &model::FramePoint::y_mm);
+    place.custom(
+        "covariance_mm2",
+        true,
+        "its covariance: xx, xy, yy",
+        [](const Cursor& at, FittedPlace& p) {
+          if (const auto c = numbers(at, 3, kSquare))
+            p.covariance_mm2 << (*c)[0], (*c)[1], (*c)[1], (*c)[2];
+        },
+        [](const FittedPlace& p) {
+          const auto& c = p.covariance_mm2;
+          return std::optional<Json>(Json::array({c(0, 0), c(0, 1), c(1, 1)}));
+        });
+    for (const Belt belt : model::kBelts) {
+      place.custom(
+          std::string(name(belt)),
+          true,
+          residual_record().expected(),
+          [belt](const Cursor& at, FittedPlace& p) {
+            if (const auto found = residual_record().read(at)) p.belts[belt] = *found;
+          },
+          [belt](const FittedPlace& p) {
+            return std::optional<Json>(residual_record().write(p.belts[belt]));
+          });
+    }
+    return place;
+  }();
+  return record;
+}
+
+void read_coordinates(const Cursor& at, BeltsFit& fit) {
+  const auto found = list(object(coordinate_record())).read(at);
+  if (!found) return;
+  if (found->size() != fit.coordinates.size()) {
+    at.problems().add(at.pointer(), fmt::format("{} of them", found->size()), "five coordinates");
+    return;
+  }
+  std::copy(found->begin(), found->end(), fit.coordinates.begin());
+}
+
+void read_covariance(const Cursor& at, BeltsFit& fit) {
+  constexpr Eigen::Index kSize = 5;
+  if (!at.json().is_array() || at.json().size() != kSize)
+    return at.expect("five rows of five numbers");
+  for (Eigen::Index i = 0; i < kSize; ++i) {
+    const auto row = numbers(at.element(static_cast<std::size_t>(i)), kSize, kSquare);
+    for (Eigen::Index j = 0; row && j < kSize; ++j)
+      fit.covariance_mm2(i, j) = (*row)[static_cast<std::size_t>(j)];
+  }
+}
+
+std::optional<Json> written_covariance(const BeltsFit& fit) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < fit.covariance_mm2.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < fit.covariance_mm2.cols(); ++j)
+      row.push_back(fit.covariance_mm2(i, j));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+struct StatedForetold {
+  Foretold one_left_out;
+  std::optional<Foretold> half_left_out;
+};
+
+const Record<StatedForetold>& both_foretold_record() {
+  static const auto record =
+      Record<StatedForetold>("what was foretold")
+          .required("one_left_out", &StatedForetold::one_left_out, object(foretold_record()))
+          .optional("half_left_out", &StatedForetold::half_left_out, object(foretold_record()));
+  return record;
+}
+
+/// All but the name, which stands before.
+void add_fit(Record<BeltsFit>& record) {
+  record.required("machine", &BeltsFit::machine, object(belt_machine_record()))
+      .custom("coordinates",
+              true,
+              "five coordinates",
+              read_coordinates,
+              [](const BeltsFit& fit) {
+                Json all = Json::array();
+                for (const AnchorCoordinate& c : fit.coordinates)
+                  all.push_back(coordinate_record().write(c));
+                return std::optional<Json>(std::move(all));
+              })
+      .custom(
+          "covariance_mm2", true, "five rows of five numbers", read_covariance, written_covariance)
+      .required("spread_mm", &BeltsFit::spread_mm, number(kSigma))
+      .required("checks", &BeltsFit::checks, integer(0, 4 * kMostPoints))
+      .required("rms_mm", &BeltsFit::rms_mm, number(kSigma))
+      .required(
+          "rms_of_mm", &BeltsFit::rms_of_mm, object(per_belt_record<double>(number(kAnyNumber))))
+      .custom(
+          "foretold",
+          true,
+          both_foretold_record().expected(),
+          [](const Cursor& at, BeltsFit& fit) {
+            const auto found = both_foretold_record().read(at);
+            if (!found) return;
+            fit.one_left_out = found->one_left_out;
+            fit.half_left_out = found->half_left_out;
+          },
+          [](const BeltsFit& fit) {
+            return std::optional<Json>(
+                both_foretold_record().write({fit.one_left_out, fit.half_left_out}));
+          })
+      .optional("scale", &BeltsFit::scale, object(scale_record()))
+      .sparse("bad", &BeltsFit::bad, list(object(bad_record())))
+      .custom(
+          "bad_points",
+          false,
+          "a list of points",
+          [](const Cursor& at, BeltsFit& fit) {
+            const auto found = list(integer(0, kMostPoints)).read(at);
+            if (found) fit.bad_points.assign(found->begin(), found->end());
+          },
+          [](const BeltsFit& fit) {
+            return fit.bad_points.empty() ? std::nullopt : std::optional<Json>(fit.bad_points);
+          })
+      .required("places", &BeltsFit::places, list(object(place_record())));
+}
+
+const Record<BeltsFit>& fit_record() {
+  static const auto record = [] {
+    Record<BeltsFit> fit("a fit of four belts");
+    add_fit(fit);
+    return fit;
+  }();
+  return record;
+}
+
+const Record<FittedAnchors>& anchors_record() {
+  static const auto record = Record<FittedAnchors>("a chaintrue_anchors file", kAnchorsFormat)
+                                 .sparse("name", &FittedAnchors::name, text())
+                                 .required("fit", &FittedAnchors::fit, object(fit_record()));
+  return record;
+}
+
+}  // namespace
+
+FittedAnchors parse_anchors(const std::string& text, const std::string& file) {
+  return read_document(anchors_record(), text, file);
+}
+
+std::string write_anchors(const FittedAnchors& anchors) {
+  return write_document(anchors_record(), anchors);
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue_anchors files: what a fit of four belts found. Unknown keys are errors, except
+/// "comment". Same fit, same bytes.
+///
+///     { "file_type": "chaintrue_anchors", "format_version": "1.0", "name": "...",
+///       "fit": {
+///       "machine": { as in a chaintrue_belts file, with the anchors fitted },
+///       "coordinates": [ {"coordinate": "tl_x_mm", "stated_mm": -27.6, "fitted_mm": -31.2,
+///                         "sigma_mm": 0.4, "rests_on": {"tl": 0.5, "tr": 0.1, "bl": 0.3, "br": 0.1}} ],
+///       "covariance_mm2": [[...], ...],
+///       "spread_mm": 0.52, "checks": 157, "rms_mm": 0.36, "rms_of_mm": {"tl": 0.3, ...},
+///       "foretold": { "one_left_out": {"readings": 162, "rms_mm": 0.8, "largest_mm": 2.1},
+///                     "half_left_out": {...} },
+///       "scale": {"factor": 0.9991, "sigma": 0.0003, "residuals_mm": [0.2]},
+///       "bad": [ {"point": 17, "belt": "tl", "off_mm": 80.2} ], "bad_points": [],
+///       "places": [ {"x_mm": .., "y_mm": .., "covariance_mm2": [xx, xy, yy],
+///                    "tl": {"off_mm": .., "counts": true, "sigmas": .., "beside_mm": ..}, ...} ] } }
+///
+/// `scale` is not there where it is not known. Lengths are in the belts' own millimetres.
+///
+/// \code
+///   const FittedAnchors found = parse_anchors(read_whole_file("anchors.json"), "anchors.json");
+///   fmt::print("{}", write_maslow4_settings(found.fit).text);
+/// \endcode
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/belts/belts_fit.hpp"
+#include "grid/files/input_error.hpp"
+
+namespace chaintrue::grid::files {
+
+struct FittedAnchors {
+  std::string name;
+  BeltsFit fit;
+};
+
+/// `file` is the name used in messages. \throws InputError with every problem.
+[[nodiscard]] FittedAnchors parse_anchors(const std::string& text, const std::string& file);
+/// \throws std::logic_error where a number is not finite.
+[[nodiscard]] std::string write_anchors(const FittedAnchors& anchors);
+
+/// Lines to paste into the machine's terminal, and what is to be said beside them.
+struct Maslow4Settings {
+  std::string text;
+  std::vector<std::string> remarks;
+};
+[[nodiscard]] Maslow4Settings write_maslow4_settings(const BeltsFit& fit);
+
+}  // namespace chaintrue::grid::files

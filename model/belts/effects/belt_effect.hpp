@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What may be wrong with a router on four belts, or with what it reads: words, parameters and one
+/// pure function, all in one constant. A new one is one file that defines it and one line in
+/// belt_effects.def; the contract suite tests whatever the table lists.
+///
+/// A reading passes three stations, and each effect stands at one of them:
+///
+///   machine   where an anchor really is                                  `alter`
+///   belt      what the encoder counts, beside the belt's length          `add`
+///   print     the counted length in the controller's convention, with the arm, the extension and the
+///             heights that it believes                                   (belt_readings.hpp)
+///
+/// Symbols: L the belt's own length, slanting, mm; n the number of the visit.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "model/belts/belt_machine.hpp"
+#include "model/effects/effect.hpp"
+
+namespace chaintrue::model::belts {
+
+/// What an effect may act on: nothing in particular, one belt, or all with one shared value.
+enum class BeltSide { none, tl, tr, bl, br, all };
+/// The word of files and of the command line; "" for none.
+[[nodiscard]] std::string_view name(BeltSide side);
+[[nodiscard]] bool acts_on(BeltSide side, Belt belt);
+
+/// A belt at a visit.
+struct BeltVisit {
+  Belt belt = Belt::tl;
+  bool pulled = false;  ///< by its motor, at the reading; otherwise it holds
+  int order = 0;        ///< n
+};
+
+using effects::Values;
+
+struct BeltEffect {
+  std::string_view id;
+  std::span<const BeltSide> sides;
+  std::span<const effects::EffectParameter> parameters;
+
+  std::string_view cause;
+  std::string_view signature;  ///< what is seen of it in the lengths, or on the sheet
+  std::string_view equation;
+  std::string_view source;
+  std::string_view not_modelled;
+  std::string_view typical;
+  effects::DataNeed needs = effects::DataNeed::positions;
+  effects::RemedyKind remedy_kind = effects::RemedyKind::repair;
+  std::string_view remedy;
+
+  /// The anchor of the visit's belt.
+  void (*alter)(Anchor&, const BeltVisit&, Values) = nullptr;
+  /// Counted less true, mm, of a belt `length_mm` long whose encoder turns once in `turn_mm`.
+  double (*add)(double length_mm, double turn_mm, const BeltVisit&, Values) = nullptr;
+};
+
+inline constexpr BeltSide kNoBelt[] = {BeltSide::none};
+inline constexpr BeltSide kOneBelt[] = {BeltSide::tl, BeltSide::tr, BeltSide::bl, BeltSide::br};
+inline constexpr BeltSide kOneBeltOrAll[] = {
+    BeltSide::tl, BeltSide::tr, BeltSide::bl, BeltSide::br, BeltSide::all};
+
+#define CHAINTRUE_BELT_EFFECT(id) extern const BeltEffect id;
+#include "model/belts/effects/belt_effects.def"
+#undef CHAINTRUE_BELT_EFFECT
+
+/// In the order of the table.
+[[nodiscard]] std::span<const BeltEffect* const> belt_effects();
+/// Null where there is none of that name.
+[[nodiscard]] const BeltEffect* find_belt_effect(std::string_view id);
+
+/// A place or a size of an effect that sets in at a visit.
+inline constexpr effects::EffectParameter kFirstVisit = {
+    .name = "first_visit",
+    .symbol = "m",
+    .meaning = "number of the first visit at which it acts",
+    .role = effects::ParameterRole::place,
+    .null = 10.0,
+    .nominal = 10.0,
+    .lower = 0.0,
+    .upper = 1e6,
+    .prior_sigma = 10.0,
+    .integer = true,
+};
+
+}  // namespace chaintrue::model::belts

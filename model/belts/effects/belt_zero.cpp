@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// belt_zero: a belt, or all four, are counted from elsewhere than is believed.
+///   z  offset, mm
+///
+///   added = z                                                                               (1)
+#include "model/belts/effects/belt_effect.hpp"
+
+namespace chaintrue::model::belts {
+namespace {
+
+using effects::EffectParameter;
+
+constexpr EffectParameter kParameters[] = {{
+    .name = "offset_mm",
+    .symbol = "z",
+    .meaning = "what every reading is too long by",
+    .nominal = 2.0,
+    .lower = -500.0,
+    .upper = 500.0,
+    .prior_sigma = 3.0,
+}};
+
+// (1)
+double add(double /*length_mm*/, double /*turn_mm*/, const BeltVisit& /*visit*/, Values values) {
+  return values[0];
+}
+
+}  // namespace
+
+extern constinit const BeltEffect belt_zero{
+    .id = "belt_zero",
+    .sides = kOneBeltOrAll,
+    .parameters = kParameters,
+    .cause =
+        "a belt was not retracted to its end before it was counted; of all four, arm or extension "
+        "are not what is stated",
+    .signature =
+        "one belt is off by as much everywhere; all four: a frame that is too large or small, and "
+        "no four lengths that quite meet",
+    .equation = "+ z",
+    .source = "kinematics: arm and extension are added to every belt",
+    .not_modelled = "an arm that turns aside under load",
+    .typical = "1 to 5 mm; 153.4 mm where lengths leave arm and extension out",
+    .remedy =
+        "retract all belts and extend them again; measure arm and extension and state them; say "
+        "with lengths what a length counts",
+    .add = add,
+};
+
+}  // namespace chaintrue::model::belts

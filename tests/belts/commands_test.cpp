@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The verbs that know belts, as a person runs them: from a pasted log to the lines to paste back.
+#include <gmock/gmock.h>
+
+#include "grid/files/anchors_file.hpp"
+#include "grid/files/belts_file.hpp"
+#include "tests/belts/simulated_belts.hpp"
+#include "tests/cli/command_fixture.hpp"
+
+namespace chaintrue {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+using testing_support::content_of;
+using testing_support::Outcome;
+
+class BeltCommands : public testing_support::CommandFixture {
+ protected:
+  const std::string fixtures_ = CHAINTRUE_FIXTURES;
+  const std::string log_ = fixtures_ + "/good/maslow4_log.txt";
+  const std::string settings_ = " --settings " + fixtures_ + "/machines/maslow.yaml";
+  const std::string belts_ = fixtures_ + "/belts/thirty_one_places.json";
+};
+
+TEST_F(BeltCommands, FromTheLogToTheLinesToPaste) {
+  const Outcome import = run("import maslow4 " + log_ + settings_ + " -o belts.json");
+  ASSERT_EQ(import.code, 0) << import.err;
+  EXPECT_THAT(import.err,
+              AllOf(HasSubstr("31 points read."),
+                    HasSubstr("Assumed: lengths that are level"),
+                    HasSubstr("Next: chaintrue fit belts.json -o anchors.json")));
+  const Outcome fit = run("fit belts.json -v -o anchors.json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.err,
+              AllOf(HasSubstr("31 places, 124 readings: one belt's reading is off by 0.90 mm"),
+                    HasSubstr("(Find Anchors fit: rms) that is 0.61 mm"),
+                    HasSubstr("Its own message said rms 0.61 mm and max 1.53 mm."),
+                    HasSubstr("Scale: not known."),
+                    HasSubstr("Lower belts as the upper two foretell them"),
+                    HasSubstr("Next: chaintrue export maslow4 anchors.json")));
+  const Outcome lines = run("export maslow4 anchors.json");
+  ASSERT_EQ(lines.code, 0) << lines.err;
+  EXPECT_THAT(lines.out, StartsWith("$/kinematics/MaslowKinematics/tlX=-39."));
+  EXPECT_THAT(
+      lines.out,
+      AllOf(HasSubstr("\n$/kinematics/MaslowKinematics/brY=0.00\n"), Not(HasSubstr("Scale"))));
+  EXPECT_THAT(lines.err, HasSubstr("Maslow_Scale_X and Maslow_Scale_Y stay as they are"));
+}
+
+TEST_F(BeltCommands, TheFixtureIsWhatImportMakes) {
+  ASSERT_EQ(run("import maslow4 " + log_ + settings_ + " -o belts.json").code, 0);
+  EXPECT_EQ(content_of(folder_ / "belts.json"), content_of(belts_));
+}
+
+TEST_F(BeltCommands, ATapedDistanceChangesTheScalesToPaste) {
+  grid::SimulatedBelts set = grid::simulate({.seed = 3});
+  const auto& a = set.truth.anchors;
+  set.belts.distances.push_back({model::Belt::bl, model::Belt::br, 1.004 * a.br.x_mm, 0.5});
+  write("belts.json", grid::files::write_belts(set.belts));
+  const Outcome fit = run("fit belts.json -o anchors.json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.err,
+              AllOf(HasSubstr("Scale: by the tape everything is 1.00"),
+                    HasSubstr("the bottom left anchor to the bottom right anchor: taped")));
+  const Outcome lines = run("export maslow4 anchors.json");
+  EXPECT_THAT(lines.out,
+              AllOf(HasSubstr("\n$/Maslow_Scale_X=0.99"), HasSubstr("\n$/Maslow_Scale_Y=0.99")));
+  // The scale in force is left alone.
+  const auto found =
+      grid::files::parse_anchors(content_of(folder_ / "anchors.json"), "anchors.json");
+  set.belts.machine.scale_x = set.belts.machine.scale_y = 1.0 / found.fit.scale->factor;
+  write("scaled.json", grid::files::write_belts(set.belts));
+  ASSERT_EQ(run("fit scaled.json -o scaled_anchors.json").code, 0);
+  const Outcome same = run("export maslow4 scaled_anchors.json");
+  EXPECT_THAT(same.out, Not(HasSubstr("Scale")));
+  EXPECT_THAT(same.err, HasSubstr("that is in force"));
+}
+
+TEST_F(BeltCommands, ABadReadingIsNamedInTurnsOfTheEncoder) {
+  grid::SimulatedBelts set = grid::simulate({.seed = 8});
+  set.belts.points[17].lengths_mm.tr += 2.0 * 43.975;
+  write("belts.json", grid::files::write_belts(set.belts));
+  EXPECT_THAT(run("fit belts.json -o anchors.json").err,
+              AllOf(HasSubstr("Set aside: the top right belt at point 17"),
+                    HasSubstr("2 whole turns of the encoder")));
+}
+
+TEST_F(BeltCommands, StandardInputAndOutputAndJson) {
+  const Outcome piped = run_line("cat " + belts_ + " | " CHAINTRUE_COMMAND " fit - -o -");
+  ASSERT_EQ(piped.code, 0) << piped.err;
+  EXPECT_THAT(piped.out, HasSubstr("\"chaintrue_anchors\""));
+  EXPECT_THAT(piped.err, Not(HasSubstr("Next:")));
+  const Outcome json = run("fit " + belts_ + " -o anchors.json --json");
+  EXPECT_EQ(json.out, content_of(folder_ / "anchors.json"));
+}
+
+TEST_F(BeltCommands, BadInputWritesNothing) {
+  const Outcome bad = run("fit " + fixtures_ + "/bad/belts_swapped.json -o anchors.json");
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_THAT(bad.err, HasSubstr("tl and tr swapped, or bl and br"));
+  EXPECT_FALSE(exists("anchors.json"));
+  EXPECT_EQ(run("import maslow4 " + fixtures_ + "/bad/maslow4_cut.txt -o belts.json").code, 3);
+  EXPECT_EQ(run("import maslow4 " + log_ + " --points 9 -o belts.json").code, 3);
+  EXPECT_EQ(run("import maslow4 " + log_ + " --lengths cubits -o belts.json").code, 2);
+  EXPECT_FALSE(exists("belts.json"));
+  EXPECT_EQ(run("fit " + belts_ + " --surface direct -o anchors.json").code, 2);
+  EXPECT_EQ(run("fit " + belts_ + " --with " + belts_ + " -o anchors.json").code, 2);
+  EXPECT_FALSE(exists("anchors.json"));
+  const Outcome wrong = run("export maslow4 " + fixtures_ + "/machines/classic.json");
+  EXPECT_EQ(wrong.code, 3);
+  EXPECT_THAT(wrong.err, HasSubstr("chaintrue_anchors"));
+}
+
+TEST_F(BeltCommands, SeveralRunsAreListedAndTheLastTaken) {
+  const Outcome runs = run("import maslow4 " + fixtures_ + "/good/maslow4_notes.txt -o belts.json");
+  ASSERT_EQ(runs.code, 0) << runs.err;
+  EXPECT_THAT(runs.err,
+              AllOf(HasSubstr("The log holds 2 runs:"),
+                    HasSubstr("points 0:5  line 5  Run 1:"),
+                    HasSubstr("--run N or --points A:B takes another")));
+}
+
+}  // namespace
+}  // namespace chaintrue

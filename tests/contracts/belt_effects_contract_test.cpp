@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laws of everything that may be wrong with four belts: nothing at null, seen where it acts and
+// nowhere else, finite at its bounds, words whole; and what each equation says, by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/belts/belt_readings.hpp"
+
+namespace chaintrue::model::belts {
+
+void PrintTo(const BeltEffect* effect, std::ostream* out) { *out << effect->id; }
+
+namespace {
+
+BeltMachine frame(BeltLengths lengths = BeltLengths::span) {
+  BeltMachine machine;
+  machine.anchors_known = true;
+  machine.lengths = lengths;
+  machine.anchors = {
+      {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
+  return machine;
+}
+
+constexpr FramePoint kPlaces[] = {{900.0, 600.0}, {2100.0, 1500.0}, {1500.0, 1000.0}};
+constexpr int kVisits[] = {0, 9, 10, 40};
+
+double read(const BeltMachine& machine,
+            const std::vector<ResolvedBeltEffect>& effects,
+            const BeltVisit& visit,
+            FramePoint place) {
+  return read_belt(machine, effects, visit, place).value();
+}
+
+std::vector<double> nominal(const BeltEffect& effect) {
+  std::vector<double> values;
+  for (const auto& parameter : effect.parameters) values.push_back(parameter.nominal);
+  return values;
+}
+
+class BeltEffectLaws : public testing::TestWithParam<const BeltEffect*> {
+ protected:
+  [[nodiscard]] const BeltEffect& effect() const { return *GetParam(); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Every,
+                         BeltEffectLaws,
+                         testing::ValuesIn(belt_effects().begin(), belt_effects().end()),
+                         [](const auto& tested) { return std::string(tested.param->id); });
+
+TEST_P(BeltEffectLaws, ItStandsAtOneStationAndHasItsWords) {
+  EXPECT_NE(effect().alter != nullptr, effect().add != nullptr);
+  EXPECT_EQ(find_belt_effect(effect().id), &effect());
+  for (const std::string_view words : {effect().cause,
+                                       effect().signature,
+                                       effect().equation,
+                                       effect().source,
+                                       effect().not_modelled,
+                                       effect().typical,
+                                       effect().remedy}) {
+    EXPECT_FALSE(words.empty());
+  }
+  ASSERT_FALSE(effect().parameters.empty());
+  EXPECT_EQ(effect().parameters[0].role, effects::ParameterRole::size);
+  for (const auto& parameter : effect().parameters) {
+    EXPECT_LT(parameter.lower, parameter.upper);
+    EXPECT_GE(parameter.nominal, parameter.lower);
+    EXPECT_LE(parameter.nominal, parameter.upper);
+    EXPECT_GT(parameter.prior_sigma, 0.0);
+  }
+}
+
+TEST_P(BeltEffectLaws, NothingHappensAtNullAndWhereItDoesNotAct) {
+  for (const BeltLengths lengths :
+       {BeltLengths::belt, BeltLengths::belt_and_arm, BeltLengths::span}) {
+    const BeltMachine machine = frame(lengths);
+    std::vector<double> null = nominal(effect());
+    null[0] = effect().parameters[0].null;
+    for (const BeltSide side : effect().sides) {
+      for (const FramePoint place : kPlaces) {
+        for (const Belt belt : kBelts) {
+          for (const int order : kVisits) {
+            const BeltVisit visit{belt, !is_upper(belt), order};
+            const double plain = reading_at(machine, belt, place)->length_mm;
+            // Rounding of 3 m, there and back.
+            EXPECT_NEAR(read(machine, {{&effect(), side, null}}, visit, place), plain, 1e-11);
+            if (acts_on(side, belt)) continue;
+            EXPECT_NEAR(
+                read(machine, {{&effect(), side, nominal(effect())}}, visit, place), plain, 1e-11);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_P(BeltEffectLaws, ItIsSeenWhereItActsAndFiniteAtItsBounds) {
+  const BeltMachine machine = frame();
+  for (const BeltSide side : effect().sides) {
+    double most = 0.0;
+    for (const FramePoint place : kPlaces) {
+      for (const Belt belt : kBelts) {
+        const BeltVisit visit{belt, !is_upper(belt), 40};
+        const double plain = reading_at(machine, belt, place)->length_mm;
+        most = std::max(
+            most,
+            std::abs(read(machine, {{&effect(), side, nominal(effect())}}, visit, place) - plain));
+        for (std::size_t i = 0; i < effect().parameters.size(); ++i) {
+          for (const double bound : {effect().parameters[i].lower, effect().parameters[i].upper}) {
+            std::vector<double> values = nominal(effect());
+            values[i] = bound;
+            EXPECT_TRUE(std::isfinite(read(machine, {{&effect(), side, values}}, visit, place)));
+          }
+        }
+      }
+    }
+    // A micrometre: anything that is there at all.
+    EXPECT_GT(most, 1e-3) << name(side);
+  }
+}
+
+TEST(BeltEffects, EachEquationByHand) {
+  const BeltMachine machine = frame(BeltLengths::belt);
+  const FramePoint place{900.0, 600.0};
+  const double bl = reading_at(machine, Belt::bl, place)->length_mm;
+  const auto added =
+      [&](const BeltEffect& effect, BeltSide side, std::vector<double> values, BeltVisit visit) {
+        return read(machine, {{&effect, side, std::move(values)}}, visit, place) -
+               reading_at(machine, visit.belt, place)->length_mm;
+      };
+  const BeltVisit pulled{Belt::bl, true, 12};
+  const BeltVisit held{Belt::bl, false, 12};
+  // Rounding of 3 m.
+  EXPECT_NEAR(added(belt_stretch, BeltSide::none, {0.004}, pulled), -0.004 * bl, 1e-11);
+  EXPECT_EQ(added(belt_stretch, BeltSide::none, {0.004}, held), 0.0);
+  EXPECT_NEAR(added(anchor_flex, BeltSide::none, {1.5}, pulled), -1.5, 1e-11);
+  EXPECT_EQ(added(anchor_flex, BeltSide::none, {1.5}, held), 0.0);
+  EXPECT_NEAR(added(belt_scale, BeltSide::bl, {0.01}, held), bl / 1.01 - bl, 1e-11);
+  EXPECT_NEAR(added(belt_zero, BeltSide::all, {-153.4}, held), -153.4, 1e-11);
+  EXPECT_NEAR(added(tooth_skip, BeltSide::bl, {22.0, 12.0}, held), 43.975, 1e-11);
+  EXPECT_EQ(added(tooth_skip, BeltSide::bl, {22.0, 13.0}, held), 0.0);
+  EXPECT_NEAR(added(drift, BeltSide::all, {0.05}, held), 0.6, 1e-11);
+  const double level = std::hypot(900.0, 600.0) - 153.4;
+  EXPECT_NEAR(
+      added(anchor_height, BeltSide::bl, {40.0}, held), std::hypot(level, 74.0) - bl, 1e-11);
+  const double moved = std::hypot(900.0 - 3.0, 600.0) - 153.4;
+  EXPECT_NEAR(added(anchor_moved, BeltSide::bl, {3.0, 0.0, 12.0}, held),
+              std::hypot(moved, 34.0) - bl,
+              1e-11);
+  EXPECT_EQ(added(anchor_moved, BeltSide::bl, {3.0, 0.0, 13.0}, held), 0.0);
+}
+
+TEST(BeltEffects, ALevelPrintTakesOutTheHeightsThatTheMachineBelieves) {
+  const BeltMachine machine = frame(BeltLengths::span);
+  const FramePoint place{900.0, 600.0};
+  const BeltVisit visit{Belt::bl, true, 0};
+  const double count = std::hypot(std::hypot(900.0, 600.0) - 153.4, 34.0 + 40.0);
+  // Rounding of 1 m.
+  EXPECT_NEAR(read(machine, {{&anchor_height, BeltSide::bl, {40.0}}}, visit, place),
+              std::sqrt(count * count - 34.0 * 34.0) + 153.4,
+              1e-11);
+}
+
+TEST(BeltEffects, WhatCannotBeIsReported) {
+  EXPECT_TRUE(problems_of({{"belt_zero", "all", {{"offset_mm", 2.0}}}}).empty());
+  const auto problems = problems_of({{"belt_shrink", "", {}},
+                                     {"belt_scale", "all", {{"scale", 0.2}}},
+                                     {"tooth_skip", "tl", {{"teeth", 1.5}, {"links", 1.0}}}});
+  ASSERT_EQ(problems.size(), 5U);
+  EXPECT_EQ(problems[0].parameter, "/0/effect");
+  EXPECT_EQ(problems[1].parameter, "/1/side");
+  EXPECT_EQ(problems[2].value, "scale=0.2");
+  EXPECT_EQ(problems[3].value, "links");
+  EXPECT_EQ(problems[4].value, "teeth=1.5");
+  EXPECT_THROW((void)resolve_belt_effects({{"belt_shrink", "", {}}}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace chaintrue::model::belts
