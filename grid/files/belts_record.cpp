@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "grid/files/ranges.hpp"
+#include "grid/files/schemas.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -133,7 +134,7 @@ void add_lengths(Record<BeltPoint>& record) {
     record.custom(
         key_of(belt, "_mm"),
         true,
-        kBeltLengthMm.expected(),
+        {kBeltLengthMm.expected(), [] { return number_schema(kBeltLengthMm); }},
         [belt](const Cursor& at, BeltPoint& point) {
           if (const auto value = at.number(kBeltLengthMm)) point.lengths_mm[belt] = *value;
         },
@@ -148,7 +149,7 @@ void add_command(Record<BeltPoint>& record) {
     record.custom(
         key,
         false,
-        kCommand.expected(),
+        {kCommand.expected(), [] { return number_schema(kCommand); }},
         [member](const Cursor& at, BeltPoint& point) {
           const auto value = at.number(kCommand);
           if (!value) return;
@@ -170,14 +171,15 @@ void add_command(Record<BeltPoint>& record) {
 
 const Record<BeltPoint>& point_record() {
   static const auto record = [] {
-    Record<BeltPoint> point("a point");
+    Record<BeltPoint> point("a place");
     add_lengths(point);
     add_command(point);
     point.optional("order", &BeltPoint::order, integer(0, 1000000));
     point.custom(
         "pulled",
         false,
-        "a list of belts that were pulled, of tl, tr, bl, br",
+        {"a list of belts that were pulled, of tl, tr, bl, br",
+         [] { return list(one_of({"tl", "tr", "bl", "br"})).expected.schema(); }},
         [](const Cursor& at, BeltPoint& p) { p.pulled = read_pulled(at); },
         [](const BeltPoint& p) {
           return p.pulled ? std::optional<Json>(written_pulled(*p.pulled)) : std::nullopt;
@@ -213,7 +215,14 @@ void add_end(Record<BeltDistance>& record, const std::string& key, BeltEnd BeltD
   record.custom(
       key,
       true,
-      expected,
+      {expected,
+       [] {
+         const auto anchor = one_of({"tl", "tr", "bl", "br"});
+         return Json{{"oneOf",
+                      {{{"type", "integer"}, {"minimum", 0}},
+                       anchor.expected.schema(),
+                       hole_record().schema()}}};
+       }},
       [member, expected](const Cursor& at, BeltDistance& distance) {
         constexpr int kMostPoints = 100000;
         if (at.json().is_number()) {
@@ -239,7 +248,7 @@ void add_end(Record<BeltDistance>& record, const std::string& key, BeltEnd BeltD
 
 const Record<BeltDistance>& distance_record() {
   static const auto record = [] {
-    Record<BeltDistance> distance("a distance");
+    Record<BeltDistance> distance("a taped distance");
     add_end(distance, "from", &BeltDistance::from);
     add_end(distance, "to", &BeltDistance::to);
     distance.required("distance_mm", &BeltDistance::distance_mm, number(kBeltDistanceMm))
@@ -263,7 +272,8 @@ const Record<BeltMachine>& belt_machine_record() {
   static const auto record = [] {
     Record<BeltMachine> machine("a machine with four belts");
     machine.optional("name", &BeltMachine::name, text())
-        .custom("anchors", false, "four anchors", read_anchors, written_anchors)
+        .custom(
+            "anchors", false, anchors_record().expected(), read_anchors, written_anchors)
         .custom(
             "belt",
             false,
@@ -304,5 +314,7 @@ const Record<MeasuredBelts>& belts_record() {
           .optional("firmware_fit", &MeasuredBelts::firmware_fit, object(firmware_fit_record()));
   return record;
 }
+
+Json belts_schema() { return belts_record().schema(); }
 
 }  // namespace chaintrue::grid::files

@@ -78,6 +78,12 @@ constexpr std::array kDescribed = {
               "Which combinations `chaintrue sweep` tries against the simulator. Every list is a "
               "factor: all "
               "combinations of their entries are done. See [sweeps](../sweeps.md)."},
+    Described{&kBeltsFormat,
+              belts_schema,
+              "Belt lengths of a router on four belts",
+              "What such a router read of its four belts at places of which nobody measured where "
+              "they are. `chaintrue import maslow4` writes one from what the machine printed; "
+              "`fit` makes anchors of it."},
 };
 
 const Described& described(std::string_view name) {

@@ -14,5 +14,6 @@ namespace chaintrue::grid::files {
 [[nodiscard]] Json map_schema();
 [[nodiscard]] Json diagnosis_schema();
 [[nodiscard]] Json sweep_schema();
+[[nodiscard]] Json belts_schema();
 
 }  // namespace chaintrue::grid::files
