@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "grid/files/belts_record.hpp"
+#include "grid/files/schemas.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -48,7 +49,7 @@ const Record<Foretold>& foretold_record() {
           .custom(
               "readings",
               true,
-              "a whole number",
+              {"a whole number", integer(0, 4 * kMostPoints).expected.schema},
               [](const Cursor& at, Foretold& f) {
                 if (const auto count = at.integer(0, 4 * kMostPoints))
                   f.readings = static_cast<std::size_t>(*count);
@@ -72,7 +73,7 @@ Record<BadBeltReading>& add_point(Record<BadBeltReading>& record) {
   return record.custom(
       "point",
       true,
-      "a point's number",
+      {"a point's number", integer(0, kMostPoints).expected.schema},
       [](const Cursor& at, BadBeltReading& bad) {
         if (const auto index = at.integer(0, kMostPoints))
           bad.point = static_cast<std::size_t>(*index);
@@ -119,12 +120,12 @@ std::optional<std::vector<double>> numbers(const Cursor& at,
 
 const Record<FittedPlace>& place_record() {
   static const auto record = [] {
-    Record<FittedPlace> place("a place");
+    Record<FittedPlace> place("a fitted place");
     const auto coordinate = [&](const char* key, double model::FramePoint::*member) {
       place.custom(
           key,
           true,
-          kMillimetres.expected(),
+          {kMillimetres.expected(), [] { return number_schema(kMillimetres); }},
           [member](const Cursor& at, FittedPlace& p) {
             if (const auto value = at.number(kMillimetres)) p.at.*member = *value;
           },
@@ -135,7 +136,7 @@ const Record<FittedPlace>& place_record() {
     place.custom(
         "covariance_mm2",
         true,
-        "its covariance: xx, xy, yy",
+        {"its covariance: xx, xy, yy", list(number(kSquare), 3).expected.schema},
         [](const Cursor& at, FittedPlace& p) {
           if (const auto c = numbers(at, 3, kSquare))
             p.covariance_mm2 << (*c)[0], (*c)[1], (*c)[1], (*c)[2];
@@ -211,7 +212,7 @@ void add_fit(Record<BeltsFit>& record) {
   record.required("machine", &BeltsFit::machine, object(belt_machine_record()))
       .custom("coordinates",
               true,
-              "five coordinates",
+              {"five coordinates", list(object(coordinate_record()), 5).expected.schema},
               read_coordinates,
               [](const BeltsFit& fit) {
                 Json all = Json::array();
@@ -220,7 +221,11 @@ void add_fit(Record<BeltsFit>& record) {
                 return std::optional<Json>(std::move(all));
               })
       .custom(
-          "covariance_mm2", true, "five rows of five numbers", read_covariance, written_covariance)
+          "covariance_mm2",
+          true,
+          {"five rows of five numbers", list(list(number(kSquare), 5), 5).expected.schema},
+          read_covariance,
+          written_covariance)
       .required("spread_mm", &BeltsFit::spread_mm, number(kSigma))
       .required("checks", &BeltsFit::checks, integer(0, 4 * kMostPoints))
       .required("rms_mm", &BeltsFit::rms_mm, number(kSigma))
@@ -245,7 +250,7 @@ void add_fit(Record<BeltsFit>& record) {
       .custom(
           "bad_points",
           false,
-          "a list of points",
+          {"a list of points", list(integer(0, kMostPoints)).expected.schema},
           [](const Cursor& at, BeltsFit& fit) {
             const auto found = list(integer(0, kMostPoints)).read(at);
             if (found) fit.bad_points.assign(found->begin(), found->end());
@@ -273,6 +278,8 @@ const Record<FittedAnchors>& anchors_record() {
 }
 
 }  // namespace
+
+Json anchors_schema() { return anchors_record().schema(); }
 
 FittedAnchors parse_anchors(const std::string& text, const std::string& file) {
   return read_document(anchors_record(), text, file);

@@ -84,6 +84,12 @@ constexpr std::array kDescribed = {
               "What such a router read of its four belts at places of which nobody measured where "
               "they are. `chaintrue import maslow4` writes one from what the machine printed; "
               "`fit` makes anchors of it."},
+    Described{&kAnchorsFormat,
+              anchors_schema,
+              "Anchors of a router on four belts",
+              "Where the belts leave the frame, how well that is known and what it rests on. "
+              "`chaintrue fit` writes one from belt lengths; `export maslow4` prints the lines to "
+              "paste."},
 };
 
 const Described& described(std::string_view name) {

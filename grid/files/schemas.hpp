@@ -15,5 +15,6 @@ namespace chaintrue::grid::files {
 [[nodiscard]] Json diagnosis_schema();
 [[nodiscard]] Json sweep_schema();
 [[nodiscard]] Json belts_schema();
+[[nodiscard]] Json anchors_schema();
 
 }  // namespace chaintrue::grid::files
