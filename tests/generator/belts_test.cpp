@@ -54,7 +54,7 @@ grid::MeasuredBelts measured(const BeltSession& session) {
 
 TEST(HiddenBelts, StiffBeltsAreAsLongAsTheKinematicsHasThem) {
   BeltFrame stiff = frame();
-  stiff.stiffness_n = 1e10;
+  stiff.stiffness_n = 1e8;
   for (const auto& [x, y] : places()) {
     FourLengths held{};
     const auto lengths = model::lengths_at(machine_of(stiff), {x, y}).value();
@@ -62,11 +62,11 @@ TEST(HiddenBelts, StiffBeltsAreAsLongAsTheKinematicsHasThem) {
     held[1] = lengths.tr;
     const SledAtRest rest = rest_on_belts(
         stiff, {false, false, true, true}, held, {0.0, 0.0, 150.0, 150.0}, x, y - 1.0);
-    // 600 N at most over 1e10 N, of 3 m: 2e-4 mm.
-    EXPECT_NEAR(rest.x_mm, x, 1e-3);
-    EXPECT_NEAR(rest.y_mm, y, 1e-3);
-    EXPECT_NEAR(rest.length_mm[2], lengths.bl, 1e-3);
-    EXPECT_NEAR(rest.length_mm[3], lengths.br, 1e-3);
+    // 600 N at most over 1e8 N, of 3 m: 0.02 mm of belt, and twice that of place.
+    EXPECT_NEAR(rest.x_mm, x, 0.05);
+    EXPECT_NEAR(rest.y_mm, y, 0.05);
+    EXPECT_NEAR(rest.length_mm[2], lengths.bl, 0.05);
+    EXPECT_NEAR(rest.length_mm[3], lengths.br, 0.05);
   }
 }
 
@@ -91,9 +91,9 @@ TEST(HiddenBelts, ForcesBalanceAndSlackBeltsCarryNothing) {
   EXPECT_NEAR(fx, 0.0, 1e-4);
   EXPECT_NEAR(fy, 0.0, 1e-4);
   EXPECT_EQ(rest.tension_n[2], 150.0);
-  // A lower belt that holds with ten millimetres too much is slack.
+  // A lower belt that holds with a hand's breadth too much is slack.
   FourLengths loose = rest.length_mm;
-  loose[2] += 10.0;
+  loose[2] += 100.0;
   const SledAtRest slack = rest_on_belts(
       elastic, {false, false, false, true}, loose, {0.0, 0.0, 0.0, 150.0}, rest.x_mm, rest.y_mm);
   EXPECT_EQ(slack.tension_n[2], 0.0);
