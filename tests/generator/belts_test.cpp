@@ -2,7 +2,7 @@
 // The hidden belts against themselves and against the product: forces that balance, slack belts that
 // carry nothing, stiff belts that are as long as the product's kinematics has them, and anchors that
 // the product finds from hidden readings.
-#include "tests/generator/hidden/belts.hpp"
+#include "generator/hidden/belts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -89,6 +89,8 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
     std::size_t index = 0;
     std::from_chars(
         problem.parameter.data() + 1, problem.parameter.data() + problem.parameter.size(), index);
+    // What has not the form of an effect is reported already.
+    if (spec.hidden[index].effect.empty()) continue;
     problems.add("--effect", problem.value + " in " + options.effects[index], problem.expected);
   }
   if (spec.bad_readings > spec.columns * spec.rows) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/generator/hidden/belts.hpp"
+#include "generator/hidden/belts.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/generator/hidden/random.hpp"
+#include "generator/hidden/random.hpp"
 
 namespace chaintrue::generator {
 namespace {
