@@ -7,6 +7,24 @@
 
 namespace chaintrue::grid {
 
+std::vector<model::Belt> pulled_after(model::Orientation orientation,
+                                      model::BedPoint from,
+                                      model::BedPoint to,
+                                      std::size_t visit) {
+  using model::Belt;
+  constexpr std::size_t kFirstRound = 6;
+  // The firmware's own threshold.
+  constexpr double kMovedMm = 1.0;
+  const double right = to.x_mm - from.x_mm;
+  const double up = to.y_mm - from.y_mm;
+  if (orientation == model::Orientation::upright || visit < kFirstRound)
+    return {Belt::bl, Belt::br};
+  if (right > kMovedMm) return {Belt::tl, Belt::bl};
+  if (right < -kMovedMm) return {Belt::tr, Belt::br};
+  if (up < -kMovedMm) return {Belt::tl, Belt::tr};
+  return {Belt::bl, Belt::br};
+}
+
 bool is_pulled(const BeltPoint& point, model::Belt belt) {
   if (!point.pulled) return !model::is_upper(belt);
   return std::find(point.pulled->begin(), point.pulled->end(), belt) != point.pulled->end();

@@ -65,6 +65,12 @@ struct MeasuredBelts {
 /// 2 N - 5 checks of N places: fewer than these leave none to judge by.
 inline constexpr std::size_t kFewestBeltPoints = 5;
 
+/// Belts that the firmware pulls at a place: of an upright frame the lower two; of a flat one those
+/// behind the last move, at the first six places the lower two. `visit` counts from 0.
+[[nodiscard]] std::vector<model::Belt> pulled_after(model::Orientation orientation,
+                                                    model::BedPoint from,
+                                                    model::BedPoint to,
+                                                    std::size_t visit);
 /// Whether a motor pulled this belt at the reading.
 [[nodiscard]] bool is_pulled(const BeltPoint& point, model::Belt belt);
 /// "point 3", "the top left anchor", "the hole at (-900, 300)".

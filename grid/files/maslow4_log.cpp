@@ -120,21 +120,6 @@ BeltMachine machine_of(const Maslow4Options& options,
   return machine;
 }
 
-/// Belts that the firmware pulls after a move: those behind it; the lower two of the first six
-/// places.
-std::vector<Belt> pulled_after(model::BedPoint from, model::BedPoint to, std::size_t waypoint) {
-  constexpr std::size_t kFirstRound = 6;
-  // The firmware's own threshold.
-  constexpr double kMovedMm = 1.0;
-  const double right = to.x_mm - from.x_mm;
-  const double up = to.y_mm - from.y_mm;
-  if (waypoint < kFirstRound) return {Belt::bl, Belt::br};
-  if (right > kMovedMm) return {Belt::tl, Belt::bl};
-  if (right < -kMovedMm) return {Belt::tr, Belt::br};
-  if (up < -kMovedMm) return {Belt::tl, Belt::tr};
-  return {Belt::bl, Belt::br};
-}
-
 void take_run(const ScannedRun& run,
               PointRange range,
               Orientation orientation,
@@ -157,7 +142,7 @@ void take_run(const ScannedRun& run,
     if (thrown_away != run.thrown_away_mm.end()) point.thrown_away_mm = thrown_away->second;
     if (orientation == Orientation::flat && commands_known) {
       const model::BedPoint before = run.commanded.at(std::max(waypoint - 1, 0));
-      point.pulled = pulled_after(before, *point.commanded, i);
+      point.pulled = pulled_after(orientation, before, *point.commanded, i);
     }
     belts.points.push_back(std::move(point));
     lines.push_back(run.points[i].line);

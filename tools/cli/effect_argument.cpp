@@ -72,6 +72,15 @@ void OptionProblems::throw_if_any() const {
   if (!problems_.empty()) throw grid::files::InputError(problems_);
 }
 
+std::vector<model::AppliedEffect> parse_effect_words(const std::vector<std::string>& arguments,
+                                                     OptionProblems& problems) {
+  std::vector<model::AppliedEffect> effects;
+  for (const std::string& argument : arguments) {
+    effects.push_back(parse_form(argument, problems).value_or(model::AppliedEffect{}));
+  }
+  return effects;
+}
+
 std::vector<model::AppliedEffect> parse_effects(const std::vector<std::string>& arguments,
                                                 const model::Machine& machine,
                                                 OptionProblems& problems) {

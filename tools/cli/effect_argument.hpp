@@ -27,6 +27,11 @@ class OptionProblems {
   std::vector<grid::files::InputProblem> problems_;
 };
 
+/// The effects that `--effect` named, one for each argument, not checked against any catalogue. An
+/// argument that has not that form is a problem, and an effect without a name.
+[[nodiscard]] std::vector<model::AppliedEffect> parse_effect_words(
+    const std::vector<std::string>& arguments, OptionProblems& problems);
+
 /// The effects that `--effect` named, checked against the catalogue as effects of `machine` beside
 /// its own.
 [[nodiscard]] std::vector<model::AppliedEffect> parse_effects(

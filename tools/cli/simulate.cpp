@@ -20,6 +20,7 @@
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/simulate_belts.hpp"
 #include "tools/cli/simulate_options.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
@@ -85,6 +86,7 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
 }
 
 int run_simulate(const SimulateOptions& options) {
+  if (!options.belts.empty()) return simulate_the_belts(options);
   const model::Machine machine = read_machine_input(options.machine);
   if (options.holes.plan.holes != 0) {
     synthetic::HolesSpec spec;
@@ -227,9 +229,11 @@ void add_holes_options(CLI::App& verb, HolesOptions& o) {
 }
 
 void add_truth_options(CLI::App& verb, SimulateOptions& o) {
-  verb.add_option("--effect",
-                  o.effects,
-                  "Hidden effect id:side:key=value,... (- for no side; `chaintrue effects`)");
+  verb.add_option(
+      "--effect",
+      o.effects,
+      "Hidden effect id:side:key=value,... (- for no side; `chaintrue effects`; of --belts "
+      "docs/maslow4.md)");
   verb.add_option(
       "--offset", o.offsets, "Hidden offset of a setting, truth less stated: motor_left_x_mm=1.5");
   verb.add_flag(
@@ -257,8 +261,15 @@ void add_simulate(CLI::App& app, Run& run) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App* verb = app.add_subcommand(
       "simulate", "Make a grid as a person would measure it on a machine with hidden effects");
-  add_input(*verb, "--machine", options->machine, "chaintrue_machine file, as its owner states it")
-      ->required();
+  auto* machine = verb->add_option_group("machine");
+  add_input(
+      *machine, "--machine", options->machine, "chaintrue_machine file, as its owner states it");
+  add_input(*machine,
+            "--belts",
+            options->belts,
+            "A router on four belts instead, which finds its anchors: a "
+            "chaintrue_belts or chaintrue_anchors file with its settings");
+  machine->require_option(1);
   add_design_options(*verb, *options);
   add_noise_options(*verb, *options);
   add_holes_options(*verb, options->holes);
@@ -268,7 +279,8 @@ void add_simulate(CLI::App& app, Run& run) {
              "-o,--output",
              options->output,
              {Origin::measured},
-             "chaintrue_grid (of --holes: chaintrue_holes) file; - is standard output")
+             "chaintrue_grid (of --holes: chaintrue_holes, of --belts: chaintrue_belts) file; - is "
+             "standard output")
       ->capture_default_str();
   add_output(
       *verb, "--answer", options->answer, {Origin::answer}, "Write what was hidden to this file");
@@ -284,9 +296,16 @@ void add_simulate(CLI::App& app, Run& run) {
       "--points -\n"
       "  build/chaintrue simulate --machine fixtures/machines/classic.json --holes 9 --distances "
       "20 "
-      "--tape-sigma-mm 0.5 --draw-settings --seed 1 -o holes.json");
+      "--tape-sigma-mm 0.5 --draw-settings --seed 1 -o holes.json\n"
+      "  build/chaintrue simulate --belts fixtures/belts/thirty_one_places.json --grid 9x9 "
+      "--effect belt_stretch:-:elongation=0.004 --offset tl_x_mm=12 --seed 1 -o belts.json");
   add_option_check(*verb, [options](OptionProblems& problems) { check_words(*options, problems); });
-  verb->callback([options, &run] { run = [options] { return run_simulate(*options); }; });
+  verb->callback([options, &run] {
+    if (!options->belts.empty() && options->grid.empty()) {
+      throw CLI::ValidationError("simulate", "--belts goes with --grid, columns x rows of places");
+    }
+    run = [options] { return run_simulate(*options); };
+  });
 }
 
 }  // namespace chaintrue::cli

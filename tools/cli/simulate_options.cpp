@@ -168,6 +168,8 @@ std::vector<synthetic::SettingOffset> parse_offsets(const std::vector<std::strin
 }
 
 void check_words(const SimulateOptions& options, OptionProblems& problems) {
+  // Belts have effects and offsets of their own, which simulate_belts.cpp checks.
+  if (!options.belts.empty()) return;
   synthetic::Design design;
   if (!options.grid.empty()) parse_lattice(options, design, problems);
   (void)parse_region(options, problems);

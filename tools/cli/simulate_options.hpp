@@ -16,6 +16,8 @@ namespace chaintrue::cli {
 
 struct SimulateOptions {
   std::string machine;
+  /// In place of a machine: a chaintrue_belts or chaintrue_anchors file.
+  std::string belts;
   std::string grid;
   std::string spacing = "regular";
   int random_points = 0;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/synthetic/simulated_belts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "grid/synthetic/random.hpp"
+#include "model/belts/belt_readings.hpp"
+
+namespace chaintrue::grid::synthetic {
+
+using model::Belt;
+using model::kBelts;
+
+namespace {
+
+/// Streams of the seed: what one draws does not depend on the others.
+enum Stream : std::uint64_t { kNoiseStream = 1, kBadStream = 2 };
+
+std::vector<model::BedPoint> commands_of(const model::BeltMachine& stated, const BeltsSpec& spec) {
+  const auto& a = stated.anchors;
+  const double width = spec.width_share * 0.5 * (a.br.x_mm + a.tr.x_mm - a.tl.x_mm);
+  const double height = spec.height_share * 0.5 * (a.tl.y_mm + a.tr.y_mm);
+  std::vector<model::BedPoint> commands;
+  for (int row = 0; row < spec.rows; ++row) {
+    for (int i = 0; i < spec.columns; ++i) {
+      const int column = row % 2 == 0 ? i : spec.columns - 1 - i;
+      commands.push_back({width * (static_cast<double>(column) / (spec.columns - 1) - 0.5),
+                          height * (static_cast<double>(row) / (spec.rows - 1) - 0.5)});
+    }
+  }
+  return commands;
+}
+
+/// Where the upper belts put the tool that are paid out for a command.
+tl::expected<model::FramePoint, model::BeltFailure> place_of(const model::BeltMachine& stated,
+                                                             const model::BeltMachine& truth,
+                                                             model::BedPoint command) {
+  const auto paid_out = model::lengths_at(stated, model::to_frame(stated, command));
+  if (!paid_out) return tl::unexpected(paid_out.error());
+  return model::place_of_upper(truth, paid_out->tl, paid_out->tr);
+}
+
+void spoil(const BeltsSpec& spec, MeasuredBelts& belts) {
+  Random random(spec.seed, kBadStream);
+  std::vector<std::size_t> points(belts.points.size());
+  std::iota(points.begin(), points.end(), std::size_t{0});
+  random.shuffle(points);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(spec.bad_readings); ++i) {
+    const Belt belt = kBelts[random.below(kBelts.size())];
+    const double sign = random.below(2) == 0 ? 1.0 : -1.0;
+    belts.points[points[i]].lengths_mm[belt] += sign * spec.bad_size_mm;
+  }
+}
+
+void check(const BeltsSpec& spec) {
+  if (spec.columns >= 2 && spec.rows >= 2 && spec.bad_readings >= 0 &&
+      spec.bad_readings <= spec.columns * spec.rows)
+    return;
+  throw std::logic_error(fmt::format(
+      "{} x {} places with {} bad readings", spec.columns, spec.rows, spec.bad_readings));
+}
+
+}  // namespace
+
+tl::expected<MeasuredBelts, BeltsUnreachable> simulate_belts(const model::BeltMachine& stated,
+                                                             const model::BeltMachine& truth,
+                                                             const BeltsSpec& spec) {
+  check(spec);
+  const auto effects = model::belts::resolve_belt_effects(spec.hidden);
+  const std::vector<model::BedPoint> commands = commands_of(stated, spec);
+  Random noise(spec.seed, kNoiseStream);
+  MeasuredBelts belts;
+  belts.machine = stated;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const auto place = place_of(stated, truth, commands[i]);
+    if (!place) return tl::unexpected(BeltsUnreachable{commands[i], place.error()});
+    BeltPoint point;
+    point.commanded = commands[i];
+    point.order = static_cast<int>(i);
+    const auto pulled =
+        pulled_after(stated.orientation, commands[i == 0 ? 0 : i - 1], commands[i], i);
+    // Of an upright frame it goes without saying.
+    if (stated.orientation == model::Orientation::flat) point.pulled = pulled;
+    for (const Belt belt : kBelts) {
+      const auto length = model::belts::read_belt(
+          truth, effects, {belt, is_pulled(point, belt), static_cast<int>(i)}, *place);
+      if (!length) return tl::unexpected(BeltsUnreachable{commands[i], length.error()});
+      const double off = spec.heavy_tails ? noise.heavy_tailed() : noise.normal();
+      double& read = point.lengths_mm[belt];
+      read = *length + spec.noise_mm * off;
+      if (spec.rounding_mm > 0.0) read = spec.rounding_mm * std::round(read / spec.rounding_mm);
+    }
+    belts.points.push_back(std::move(point));
+  }
+  spoil(spec, belts);
+  return belts;
+}
+
+}  // namespace chaintrue::grid::synthetic

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A router on four belts that finds its anchors, with something wrong with it: it goes where it is
+/// told by the anchors that it believes, its upper belts put the tool where the true ones do, and all
+/// four are read.
+///
+/// \code
+///   BeltsSpec spec;
+///   spec.hidden = {{"belt_stretch", "", {{"elongation", 0.004}}}};
+///   const auto made = simulate_belts(stated, truth, spec);   // made->points, with commands and order
+/// \endcode
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/belts/measured_belts.hpp"
+#include "model/belts/belt_kinematics.hpp"
+
+namespace chaintrue::grid::synthetic {
+
+struct BeltsSpec {
+  int columns = 9;
+  int rows = 9;
+  /// Of the frame's width and height, about its centre.
+  double width_share = 0.5;
+  double height_share = 0.4;
+  double noise_mm = 0.5;  ///< one sigma of a belt's reading
+  bool heavy_tails = false;
+  double rounding_mm = 0.0;   ///< readings are whole multiples; 0: not rounded
+  int bad_readings = 0;       ///< readings of one belt that are off
+  double bad_size_mm = 44.0;  ///< by so much, either way
+  std::vector<model::AppliedEffect> hidden;
+  std::uint64_t seed = 1;
+};
+
+struct BeltsUnreachable {
+  model::BedPoint commanded;
+  model::BeltFailure reason = model::BeltFailure::circles_do_not_meet;
+};
+
+/// Rows from below, there and back. \throws std::logic_error for anchors that are not known, effects
+/// with problems (model::belts::problems_of), fewer than two columns or rows, or more bad readings
+/// than there are points.
+[[nodiscard]] tl::expected<MeasuredBelts, BeltsUnreachable> simulate_belts(
+    const model::BeltMachine& stated, const model::BeltMachine& truth, const BeltsSpec& spec);
+
+}  // namespace chaintrue::grid::synthetic

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Simulated sessions of four belts: commands and lengths that belong together, each cause where it
+// acts, and anchors that are found again.
+#include <gmock/gmock.h>
+
+#include "grid/belts/belts_fit.hpp"
+#include "grid/files/belts_file.hpp"
+#include "grid/synthetic/simulated_belts.hpp"
+#include "model/belts/effects/belt_effect.hpp"
+#include "tests/cli/command_fixture.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::Belt;
+using testing::AllOf;
+using testing::HasSubstr;
+
+model::BeltMachine stated() {
+  model::BeltMachine machine;
+  machine.anchors_known = true;
+  machine.anchors = {
+      {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
+  return machine;
+}
+
+model::BeltMachine truth() {
+  model::BeltMachine machine = stated();
+  machine.anchors.tl.x_mm += 12.0;
+  machine.anchors.br.x_mm -= 9.0;
+  return machine;
+}
+
+TEST(SimulatedBelts, WithoutNoiseTheTrueAnchorsAreFound) {
+  synthetic::BeltsSpec spec;
+  spec.noise_mm = 0.0;
+  const auto made = synthetic::simulate_belts(stated(), truth(), spec);
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->points.size(), 81U);
+  EXPECT_EQ(made->machine.anchors.tl.x_mm, -27.6);
+  const auto fit = fit_belts(*made);
+  ASSERT_TRUE(fit);
+  // As without noise in belts_fit_test.cpp.
+  EXPECT_NEAR(fit->coordinates[0].fitted_mm, truth().anchors.tl.x_mm, 1e-4);
+  EXPECT_NEAR(fit->coordinates[4].fitted_mm, truth().anchors.br.x_mm, 1e-4);
+}
+
+TEST(SimulatedBelts, EveryCauseShowsInWhatFiveAnchorsLeave) {
+  for (const model::belts::BeltEffect* effect : model::belts::belt_effects()) {
+    synthetic::BeltsSpec spec;
+    spec.noise_mm = 0.05;
+    std::map<std::string, double> parameters;
+    // Three times the usual size, within the bounds: heights are seen faintly.
+    const auto& size = effect->parameters[0];
+    parameters[std::string(size.name)] = std::min(3.0 * size.nominal, size.upper);
+    spec.hidden = {{std::string(effect->id), std::string(name(effect->sides[0])), parameters}};
+    const auto made = synthetic::simulate_belts(stated(), truth(), spec);
+    ASSERT_TRUE(made) << effect->id;
+    const auto fit = fit_belts(*made);
+    ASSERT_TRUE(fit) << effect->id;
+    // 157 checks: the spread of noise alone is within 6 % of 0.05 mm; four sigmas of that.
+    EXPECT_TRUE(fit->spread_mm > 1.24 * 0.05 || !fit->bad.empty()) << effect->id;
+  }
+}
+
+TEST(SimulatedBelts, SameSeedSameBytesAndBadReadingsAreFound) {
+  synthetic::BeltsSpec spec;
+  spec.bad_readings = 3;
+  spec.seed = 5;
+  const auto made = synthetic::simulate_belts(stated(), truth(), spec);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(files::write_belts(*made),
+            files::write_belts(*synthetic::simulate_belts(stated(), truth(), spec)));
+  EXPECT_EQ(fit_belts(*made)->bad.size(), 3U);
+  spec.columns = 1;
+  EXPECT_THROW((void)synthetic::simulate_belts(stated(), truth(), spec), std::logic_error);
+}
+
+TEST(SimulatedBelts, AFlatFramePullsTheBeltsBehindItsMoves) {
+  model::BeltMachine flat = stated();
+  flat.orientation = model::Orientation::flat;
+  const auto made = synthetic::simulate_belts(flat, flat, {});
+  ASSERT_TRUE(made);
+  EXPECT_THAT(*made->points[7].pulled, testing::ElementsAre(Belt::tl, Belt::bl));   // to the right
+  EXPECT_THAT(*made->points[9].pulled, testing::ElementsAre(Belt::bl, Belt::br));   // up
+  EXPECT_THAT(*made->points[10].pulled, testing::ElementsAre(Belt::tr, Belt::br));  // to the left
+}
+
+class SimulateBeltsCommand : public testing_support::CommandFixture {};
+
+TEST_F(SimulateBeltsCommand, ReadsBeltsOrAnchorsAndReportsEverySlip) {
+  const std::string belts =
+      "simulate --belts " + std::string(CHAINTRUE_FIXTURES) + "/belts/thirty_one_places.json ";
+  const auto made =
+      run(belts +
+          "--grid 9x9 --length-noise-mm 0.5 --effect "
+          "belt_stretch:-:elongation=0.004 --offset tl_x_mm=12 --seed 1 -o belts.json");
+  ASSERT_EQ(made.code, 0) << made.err;
+  ASSERT_EQ(run("fit belts.json -o anchors.json").code, 0);
+  EXPECT_EQ(run("simulate --belts anchors.json --grid 5x5 -o again.json").code, 0);
+  const auto bad = run(belts +
+                       "--grid 5 --effect nothing:-:a=1 --effect belt_scale:all:scale=3 --effect x "
+                       "--offset bl_x_mm=3");
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_THAT(bad.err,
+              AllOf(HasSubstr("--grid: found 5"),
+                    HasSubstr("found nothing in nothing:-:a=1"),
+                    HasSubstr("found all in belt_scale:all:scale=3"),
+                    HasSubstr("found scale=3 in belt_scale:all:scale=3"),
+                    HasSubstr("id:side:key=value"),
+                    HasSubstr("--offset: found bl_x_mm=3")));
+  EXPECT_EQ(run(belts + "--random 5").code, 2);
+  EXPECT_EQ(run("simulate --grid 5x5").code, 2);
+}
+
+}  // namespace
+}  // namespace chaintrue::grid

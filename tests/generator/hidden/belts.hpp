@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A router on four elastic belts, by forces: no line of it is shared with the product.
+///
+/// Each belt is a spring that only pulls. Two of them hold: their unstretched lengths are set, and
+/// they stretch by what they carry. Two are pulled by their motors to a tension; their unstretched
+/// lengths follow from where the sled comes to rest. On an upright frame the sled's weight pulls down.
+///
+///   F(x, y) = sum_i T_i b_i / d_i u_i + W = 0                                               (1)
+///
+///   u_i  level way from the sled to anchor i      d_i  slanting length, b_i its level part
+///   T_i  of a belt that holds: EA max(0, d_i / l_i - 1), l_i set; of one that is pulled: given
+///
+/// Read are the unstretched lengths l_i.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace chaintrue::generator {
+
+/// tl, tr, bl, br.
+using FourLengths = std::array<double, 4>;
+
+struct BeltFrame {
+  std::array<std::array<double, 3>, 4> anchors{};  ///< x, y, z in mm
+  double reach_mm = 153.4;                         ///< arm and the belt's end
+  double stiffness_n = 40000.0;                    ///< EA; infinity: belts that do not stretch
+  double pull_n = 150.0;                           ///< of a motor
+  double weight_n = 110.0;                         ///< along the sheet; 0: the frame lies flat
+};
+
+struct SledAtRest {
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+  FourLengths tension_n{};
+  FourLengths length_mm{};   ///< unstretched
+  double left_over_n = 0.0;  ///< of (1)
+};
+
+/// `held_mm` are unstretched lengths of the two that hold (the others are not looked at), `pulls_n` of
+/// the two that are pulled. From a place near by. \throws std::runtime_error where it does not settle.
+[[nodiscard]] SledAtRest rest_on_belts(const BeltFrame& frame,
+                                       const std::array<bool, 4>& is_pulled,
+                                       const FourLengths& held_mm,
+                                       const FourLengths& pulls_n,
+                                       double near_x_mm,
+                                       double near_y_mm);
+
+/// A session: the upper two hold, the lower two are pulled, one pull differing from the next by
+/// `pull_noise` of itself and each reading by `noise_mm`.
+struct BeltSession {
+  BeltFrame frame;
+  std::vector<std::array<double, 2>> commands;  ///< where rigid belts would put the sled
+  double pull_noise = 0.03;
+  double noise_mm = 0.2;
+  std::uint64_t seed = 1;
+};
+[[nodiscard]] std::vector<FourLengths> read_session(const BeltSession& session);
+
+}  // namespace chaintrue::generator

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/simulate_belts.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+
+#include "grid/files/anchors_file.hpp"
+#include "grid/files/belts_file.hpp"
+#include "grid/files/file_type.hpp"
+#include "grid/files/whole_file.hpp"
+#include "grid/synthetic/simulated_belts.hpp"
+#include "model/belts/belt_readings.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+namespace synthetic = grid::synthetic;
+
+model::BeltMachine machine_of(const std::string& path) {
+  const std::string text = files::read_whole_file(path);
+  const std::string file = files::name_in_messages(path);
+  const bool is_fitted = files::file_type_of(text, file) == "chaintrue_anchors";
+  const model::BeltMachine machine = is_fitted ? files::parse_anchors(text, file).fit.machine
+                                               : files::parse_belts(text, file).belts.machine;
+  if (!machine.anchors_known) {
+    throw files::InputError({{file,
+                              is_fitted ? "/fit/machine/anchors" : "/machine/anchors",
+                              "",
+                              "x_mm and y_mm of all four anchors: what is simulated goes by them; "
+                              "chaintrue fit finds them"}});
+  }
+  return machine;
+}
+
+/// "9x7".
+void take_grid(const std::string& text, synthetic::BeltsSpec& spec, OptionProblems& problems) {
+  constexpr double kMost = 100.0;
+  const std::size_t cross = text.find('x');
+  double columns = 0.0;
+  double rows = 0.0;
+  const bool is_grid = cross != std::string::npos && parse_number(text.substr(0, cross), columns) &&
+                       parse_number(text.substr(cross + 1), rows) && columns >= 2.0 &&
+                       rows >= 2.0 && columns <= kMost && rows <= kMost &&
+                       columns == static_cast<int>(columns) && rows == static_cast<int>(rows);
+  if (!is_grid) {
+    problems.add("--grid", text, "columns x rows of places, 2 to 100 of each, as in 9x7");
+    return;
+  }
+  spec.columns = static_cast<int>(columns);
+  spec.rows = static_cast<int>(rows);
+}
+
+/// `tl_x_mm=5`: truth less stated.
+void take_offset(const std::string& text, model::BeltMachine& truth, OptionProblems& problems) {
+  const std::size_t equals = text.find('=');
+  const std::string what = text.substr(0, equals);
+  double value = 0.0;
+  const auto belt = model::belt_of(what.substr(0, 2));
+  const bool is_x = what.size() > 2 && what.substr(2) == "_x_mm";
+  const bool is_y = what.size() > 2 && what.substr(2) == "_y_mm";
+  const bool is_free =
+      belt && *belt != model::Belt::bl && (is_x || (is_y && model::is_upper(*belt)));
+  if (!is_free || equals == std::string::npos || !parse_number(text.substr(equals + 1), value)) {
+    problems.add(
+        "--offset",
+        text,
+        "tl_x_mm, tl_y_mm, tr_x_mm, tr_y_mm or br_x_mm, truth less stated, as in tl_x_mm=5");
+    return;
+  }
+  (is_x ? truth.anchors[*belt].x_mm : truth.anchors[*belt].y_mm) += value;
+}
+
+synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& problems) {
+  synthetic::BeltsSpec spec;
+  take_grid(options.grid, spec, problems);
+  spec.noise_mm = options.noise.length_mm;
+  spec.heavy_tails = options.noise.heavy_tails;
+  spec.rounding_mm = options.noise.length_rounding_mm;
+  spec.bad_readings = options.bad.count;
+  spec.bad_size_mm = options.bad.size_mm;
+  spec.seed = options.seed;
+  spec.hidden = parse_effect_words(options.effects, problems);
+  for (const model::MachineProblem& problem : model::belts::problems_of(spec.hidden)) {
+    std::size_t index = 0;
+    std::from_chars(
+        problem.parameter.data() + 1, problem.parameter.data() + problem.parameter.size(), index);
+    // What has not the form of an effect is reported already.
+    if (spec.hidden[index].effect.empty()) continue;
+    problems.add("--effect", problem.value + " in " + options.effects[index], problem.expected);
+  }
+  if (spec.bad_readings > spec.columns * spec.rows) {
+    problems.add("--bad-points",
+                 fmt::format("{}", spec.bad_readings),
+                 fmt::format("at most one for each of the {} places", spec.columns * spec.rows));
+  }
+  return spec;
+}
+
+}  // namespace
+
+int simulate_the_belts(const SimulateOptions& options) {
+  const model::BeltMachine stated = machine_of(options.belts);
+  OptionProblems problems;
+  const synthetic::BeltsSpec spec = spec_of(options, problems);
+  model::BeltMachine truth = stated;
+  for (const std::string& offset : options.offsets) take_offset(offset, truth, problems);
+  problems.throw_if_any();
+  auto made = synthetic::simulate_belts(stated, truth, spec);
+  if (!made) {
+    fmt::print(stderr,
+               "chaintrue simulate: the command ({:.1f}, {:.1f}) mm cannot be reached: {}\n",
+               made.error().commanded.x_mm,
+               made.error().commanded.y_mm,
+               model::explain(made.error().reason));
+    return kNotSupportedOrOutside;
+  }
+  made->name = options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;
+  write_output(options.output, files::write_belts(*made));
+  return kDone;
+}
+
+}  // namespace chaintrue::cli
