@@ -70,8 +70,9 @@ class Folds {
     return estimate(a_.system, marginalised, regressors, discrepancy);
   }
 
-  /// The discrepancy that the readings prefer beside these causes; none where they would rather
-  /// have none.
+  /// The discrepancy that the readings prefer beside these causes, none where they would rather
+  /// have none. Causes that the comparison does not hold at all are far from the best: what is left
+  /// beside them is taken as beside the best.
   static int preferred_discrepancy(const ModelComparison& comparison,
                                    std::size_t marginalised,
                                    const std::vector<int>& regressors) {
@@ -79,7 +80,7 @@ class Folds {
       if (model.regressors == regressors && model.marginalised == marginalised)
         return model.discrepancy;
     }
-    return -1;
+    return comparison.best().discrepancy;
   }
 
   /// What the model leaves, the discrepancy that it may have taken out.
