@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "grid/belts/foretelling.hpp"
+#include "grid/belts/repeated_pulls.hpp"
 #include "grid/belts/settled_frame.hpp"
 
 namespace chaintrue::grid {
@@ -164,10 +165,13 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
   if (!view.covariance().allFinite() || variance.minCoeff() <= 0.0 ||
       variance.maxCoeff() > kLostAnchorMm * kLostAnchorMm ||
       across_mm(frame->state.places) < kLineMm) {
+    const std::string pulls = repeated_pulls_in_words(belts);
     return failure(
         Reason::not_determined,
-        "the places do not tell where the anchors are: they lie on a line, or all in one "
-        "spot; measure at places spread over the sheet's width and height");
+        fmt::format("the places do not tell where the anchors are: they lie on a line, or all in one "
+                    "spot; measure at places spread over the sheet's width and height{}{}",
+                    pulls.empty() ? "" : ". ",
+                    pulls));
   }
   if (!frame->is_sound) return failure(Reason::no_frame, kNoFrame);
   BeltsFit fit;

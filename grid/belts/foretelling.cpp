@@ -12,9 +12,6 @@ namespace chaintrue::grid::belts {
 
 using model::Belt;
 
-namespace {
-
-/// Adds what the lower belts of a point are off by from what the upper ones foretell.
 void foretell(const MeasuredBelts& belts,
               std::size_t point,
               const AnchorVector& anchors,
@@ -37,7 +34,6 @@ Foretold summed(const std::vector<double>& off_mm) {
   return result;
 }
 
-/// Points in the order of their visits, of the file where that is not known.
 std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
   std::vector<std::size_t> order(belts.points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -47,8 +43,6 @@ std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
   });
   return order;
 }
-
-}  // namespace
 
 Foretold foretell_one_by_one(const MeasuredBelts& belts, const FrameView& view) {
   std::vector<double> off_mm;

@@ -4,12 +4,25 @@
 /// Private to grid/belts.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/settled_frame.hpp"
 
 namespace chaintrue::grid::belts {
+
+/// What the lower belts of a point are off by from what the upper ones foretell; nothing where a belt
+/// that it takes does not count.
+void foretell(const MeasuredBelts& belts,
+              std::size_t point,
+              const AnchorVector& anchors,
+              const model::PerBelt<bool>& counting,
+              std::vector<double>& off_mm);
+[[nodiscard]] Foretold summed(const std::vector<double>& off_mm);
+/// Points in the order of their visits, of the file where that is not known.
+[[nodiscard]] std::vector<std::size_t> in_order(const MeasuredBelts& belts);
 
 /// Each place by the anchors without it. Readings that are set aside neither foretell nor are
 /// foretold.

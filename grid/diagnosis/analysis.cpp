@@ -79,23 +79,14 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
 
 /// Takes effects out that could not show at any size that they may have.
 void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
-  const auto reach = [&](const CauseId& cause) {
-    double most = 0.0;
-    for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
-      const Regressor& d = a.system.regressors[k];
-      if (!(d.cause == cause)) continue;
-      const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
-      most = std::max(most, size * marginalised.g.col(static_cast<Eigen::Index>(k)).norm());
-    }
-    return most;
-  };
   std::vector<CauseId> visible;
   for (const CauseId& cause : a.candidates.testable) {
-    if (reach(cause) >= kLeastReach) {
+    if (can_be_seen(a.system, marginalised, cause)) {
       visible.push_back(cause);
     } else {
-      a.candidates.not_testable.push_back(
-          {cause, "at any size that it may have, calibrating the settings would hide it"});
+      NotTestable& hidden = a.candidates.not_testable.emplace_back();
+      hidden.cause = cause;
+      hidden.reason = "at any size that it may have, calibrating the settings would hide it";
     }
   }
   const auto is_visible = [&](const Regressor& d) {
@@ -138,6 +129,19 @@ void speak_of_leaders(const LinearisedSystem& system,
 
 }  // namespace
 
+bool can_be_seen(const LinearisedSystem& system,
+                 const MarginalisedSystem& marginalised,
+                 const CauseId& cause) {
+  double most = 0.0;
+  for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+    const Regressor& d = system.regressors[k];
+    if (!(d.cause == cause)) continue;
+    const double size = std::max(std::abs(d.lowest), std::abs(d.highest));
+    most = std::max(most, size * marginalised.g.col(static_cast<Eigen::Index>(k)).norm());
+  }
+  return most >= kLeastReach;
+}
+
 Decision decide_for_leaders(const LinearisedSystem& system,
                                    const ModelComparison& comparison,
                                    const std::vector<bool>& excluded,
@@ -156,8 +160,6 @@ void decide_for(bool seen, Analysis& a) {
                         a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
 }
 
-namespace {
-
 void test_significance(Analysis& a) {
   const MarginalisedSystem& marginalised =
       a.comparison.marginalised_systems[a.comparison.best().marginalised];
@@ -169,6 +171,8 @@ void test_significance(Analysis& a) {
   a.score = score.by_cause(marginalised.e).maxCoeff();
   a.family_wise_p = a.null.p_value(a.score);
 }
+
+namespace {
 
 /// Linear about the state as it is, with every regressor that may act.
 tl::expected<void, DiagnosisFailure> linearise_anew(const std::vector<Refinement>& known,

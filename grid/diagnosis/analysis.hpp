@@ -39,6 +39,14 @@ struct Analysis {
 /// noise does.
 void decide_for(bool seen, Analysis& analysis);
 
+/// Whether a cause could show at some size that it may have, the settings free.
+[[nodiscard]] bool can_be_seen(const LinearisedSystem& system,
+                               const MarginalisedSystem& marginalised,
+                               const CauseId& cause);
+
+/// Sets `null`, `score` and `family_wise_p` from the comparison.
+void test_significance(Analysis& analysis);
+
 /// Fails in words where the machine cannot be where it was measured.
 [[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(Session session,
                                                                const DiagnosisOptions& options);

@@ -39,6 +39,8 @@ std::string_view name(Observations observations) {
       return "points";
     case Observations::distances:
       return "distances";
+    case Observations::belts:
+      return "belts";
     case Observations::both:
       break;
   }

@@ -27,6 +27,11 @@ namespace chaintrue::grid::diagnosis {
 [[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
     const Measured& measured, const DiagnosisOptions& options = {});
 
+/// A router on four belts, from the lengths that it measured by itself. Gain, follow-ups and what else
+/// is of chains stay empty: `belts` holds what belts tell. Fails in words where fit_belts() does.
+[[nodiscard]] tl::expected<Diagnosis, DiagnosisFailure> diagnose(
+    const MeasuredBelts& belts, const DiagnosisOptions& options = {});
+
 /// How well what was found on one grid predicts another of the same machine. Fails in words where
 /// either has no machine or the machine found cannot reach the other's points.
 [[nodiscard]] tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,

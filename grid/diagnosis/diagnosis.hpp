@@ -9,7 +9,7 @@
 ///                    share: its strength in units of noise; "delta" in files
 ///   collinearity     |cosine| of two such signatures; "rho" in files
 ///
-/// What was measured may be points, distances between holes, or both (diagnose.hpp makes the
+/// What was measured may be points, distances between holes, both, or belts (diagnose.hpp makes the
 /// answer; pictures.hpp what is drawn of it). Indices count the points, the holes and the distances
 /// of all files in their order.
 #pragma once
@@ -22,6 +22,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grid/diagnosis/belts_findings.hpp"
 #include "grid/diagnosis/cause_id.hpp"
 #include "grid/diagnosis/pictures.hpp"
 #include "grid/measured_grid.hpp"
@@ -40,9 +41,9 @@ enum class Verdict {
 };
 [[nodiscard]] std::string_view name(Verdict verdict);
 
-/// What was read: chains at points, a tape between holes, or both.
-enum class Observations { points, distances, both };
-/// "points", "distances", "readings".
+/// What was read: chains at points, a tape between holes, both, or four belts.
+enum class Observations { points, distances, both, belts };
+/// "points", "distances", "readings", "belts".
 [[nodiscard]] std::string_view name(Observations observations);
 
 struct ParameterEstimate {
@@ -147,12 +148,13 @@ struct Trend {
 };
 
 struct Outlier {
-  Observations of = Observations::points;  ///< points or distances
-  std::size_t index = 0;
+  Observations of = Observations::points;  ///< points, distances or belts
+  std::size_t index = 0;                   ///< of a belt's reading that of its place
+  std::optional<model::Belt> belt{};       ///< empty of belts: all that was read at the place
   /// Where the tool would have to have been, less where the mark is.
   Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
   double distance = 0.0;  ///< in sigmas
-  /// Of a distance: read less what all the others make of it.
+  /// Of a distance or a belt: read less what all the others make of it.
   double off_mm = 0.0;
 };
 
@@ -323,7 +325,7 @@ struct Diagnosis {
   std::optional<Gain> gain;
   std::vector<NextMeasurement> next_measurements;
   /// The machine with its settings calibrated and every named cause that belongs into it; never an
-  /// effect of the paper or of the visit.
+  /// effect of the paper or of the visit. Of belts it says nothing: `belts` has theirs.
   model::Machine extended_machine;
   /// Named causes that do not belong into the machine: what the data are corrected by.
   std::vector<model::AppliedEffect> data_corrections;
@@ -336,6 +338,7 @@ struct Diagnosis {
   Observations observations = Observations::points;
   std::vector<HolePicture> holes;          ///< of distances
   std::vector<DistancePicture> distances;  ///< in the order of the set
+  std::optional<BeltsFindings> belts;      ///< of belts alone
   std::uint64_t seed = 1;
   std::string grid_name;
   std::optional<StatedNoise> stated_noise;

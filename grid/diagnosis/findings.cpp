@@ -29,10 +29,10 @@ double circular(double difference, const EffectParameter& p) {
   return turns ? std::remainder(difference, 2.0 * std::numbers::pi) : difference;
 }
 
-/// How well the data say where a cause sets in.
-double place_sigma(const Analysis& a, int column) {
+/// How well the data say where a cause sets in: the scatter of that parameter over the models.
+double place_sigma(const Analysis& a, int column, std::size_t which) {
   const Regressor& own = regressor(a, column);
-  const EffectParameter& place = own.cause.effect->parameters.back();
+  const EffectParameter& place = own.cause.effect->parameters[which];
   double weight = 0.0;
   double square = 0.0;
   for (const CandidateModel& model : a.comparison.models) {
@@ -40,7 +40,7 @@ double place_sigma(const Analysis& a, int column) {
       const Regressor& other = regressor(a, k);
       if (!(other.cause == own.cause)) continue;
       const double p = a.comparison.probability(model);
-      const double off = circular(other.values.back() - own.values.back(), place);
+      const double off = circular(other.values[which] - own.values[which], place);
       weight += p;
       square += p * off * off;
     }
@@ -58,8 +58,8 @@ std::vector<ParameterEstimate> parameters(const Analysis& a,
   result.push_back({std::string(described.front().name),
                     size_at(d, coefficient),
                     std::abs(size_slope(d, coefficient)) * sigma});
-  if (described.size() > 1) {
-    result.push_back({std::string(described.back().name), d.values.back(), place_sigma(a, column)});
+  for (std::size_t k = 1; k < described.size(); ++k) {
+    result.push_back({std::string(described[k].name), d.values[k], place_sigma(a, column, k)});
   }
   return result;
 }

@@ -11,7 +11,9 @@ namespace chaintrue::grid::diagnosis {
 bool compatible(const Regressor& a, const Regressor& b) {
   if (a.cause.effect != b.cause.effect) return true;
   using model::effects::EffectSide;
-  const auto joint = [](EffectSide s) { return s == EffectSide::both || s == EffectSide::none; };
+  const auto joint = [](EffectSide s) {
+    return s == EffectSide::both || s == EffectSide::all || s == EffectSide::none;
+  };
   return a.cause.side != b.cause.side && !joint(a.cause.side) && !joint(b.cause.side);
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "grid/chain_rows.hpp"
+#include "grid/diagnosis/secants.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -125,36 +126,8 @@ std::vector<double> places(const LinearisedSystem& system, CauseId cause) {
   return result;
 }
 
-/// The coefficient's power: how the signature grows from half the size to the whole one.
-double power_of(const Eigen::VectorXd& whole, const Eigen::VectorXd& half) {
-  const double ratio = whole.norm() / std::max(half.norm(), 1e-300);
-  return std::max(1.0, std::round(std::log2(ratio)));
-}
-
-constexpr double kNearby = 0.95;  // of a size: far enough for differences, near enough for a slope
-
-/// The same about a size that was found. A signature that hardly grows any more leaves its size
-/// open; one that shrinks again has no power.
-double power_about(const Eigen::VectorXd& whole, const Eigen::VectorXd& nearby) {
-  const double ratio = whole.dot(nearby) / whole.squaredNorm();
-  return std::clamp(std::log(std::max(ratio, 1e-3)) / std::log(kNearby), 0.2, 4.0);
-}
-
 /// Goes on through zero as a straight line, where an odd effect changes its sign.
 bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
-
-void limit(Regressor& regressor) {
-  const EffectParameter& size = size_parameter(*regressor.cause.effect);
-  const double at = regressor.values.front();
-  const auto coefficient = [&](double bound) {
-    const double ratio = bound / at;
-    return ratio < 0.0 ? -std::pow(-ratio, regressor.power) : std::pow(ratio, regressor.power);
-  };
-  const double a = coefficient(size.lower);
-  const double b = coefficient(size.upper);
-  regressor.lowest = std::min(a, b);
-  regressor.highest = std::max(a, b);
-}
 
 struct Column {
   Regressor regressor;

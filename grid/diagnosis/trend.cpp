@@ -66,8 +66,8 @@ Trend trend(const Diagnosis& before, const Diagnosis& now, std::string since) {
 std::string change_in_words(const Change& change) {
   const double difference = std::abs(change.after.value) - std::abs(change.before.value);
   const std::string sizes = fmt::format("{}, before {}",
-                                        in_workshop_units(change.after),
-                                        in_workshop_units(change.before));
+                                        in_workshop_units(change.cause, change.after),
+                                        in_workshop_units(change.cause, change.before));
   const std::string what =
       fmt::format("{}{}", change.cause.effect->cause, side_words(change.cause));
   if (change.probability < kSaid) {

@@ -17,8 +17,8 @@ namespace {
 std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {
   std::string text = fmt::format("{}{}", cause.effect->cause, side_words(cause));
   if (parameters.empty()) return text;
-  text += fmt::format(" ({}", in_workshop_units(parameters.front()));
-  if (parameters.size() > 1) text += fmt::format(", {}", in_workshop_units(parameters[1]));
+  text += fmt::format(" ({}", in_workshop_units(cause, parameters.front()));
+  if (parameters.size() > 1) text += fmt::format(", {}", in_workshop_units(cause, parameters[1]));
   return text + ")";
 }
 

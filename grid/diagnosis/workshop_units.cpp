@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/belts/effects/belt_effect.hpp"
+
 namespace chaintrue::grid::diagnosis {
 namespace {
 
@@ -40,6 +42,22 @@ constexpr std::array kUnits = {
     Unit{"distance_mm", 1.0, "{} mm"},
 };
 
+/// What belts have words of their own for; `effect` empty: of any.
+struct BeltUnit {
+  std::string_view effect;
+  Unit unit;
+};
+
+constexpr std::array kBeltUnits = {
+    BeltUnit{"belt_stretch", {"elongation", 100.0, "{} % longer when pulled"}},
+    BeltUnit{"belt_scale", {"scale", 100.0, "{} % more belt a turn"}},
+    BeltUnit{"belt_zero", {"offset_mm", 1.0, "{} mm too much read"}},
+    BeltUnit{"anchor_height", {"offset_mm", 1.0, "{} mm higher"}},
+    BeltUnit{"", {"give_mm", 1.0, "{} mm when pulled"}},
+    BeltUnit{"", {"teeth", 1.0, "{} teeth"}},
+    BeltUnit{"", {"direction_rad", kDegrees, "{} degrees from x towards y"}},
+};
+
 /// To its first two digits.
 double two_digits(double value) {
   if (value == 0.0) return 0.0;
@@ -56,17 +74,34 @@ std::string with_sigma(double value, double sigma) {
 
 }  // namespace
 
+namespace {
+
+std::string worded(const Unit& unit, const ParameterEstimate& estimate) {
+  const bool whole = unit.parameter == "links" || unit.parameter == "teeth" ||
+                     (unit.parameter.ends_with("visit") && !unit.parameter.starts_with("rate"));
+  const std::string number =
+      whole ? fmt::format("{:g}", estimate.value)
+            : with_sigma(unit.factor * estimate.value, unit.factor * estimate.sigma);
+  return fmt::format(fmt::runtime(unit.words), number);
+}
+
+}  // namespace
+
 std::string in_workshop_units(const ParameterEstimate& estimate) {
   for (const Unit& unit : kUnits) {
-    if (unit.parameter != estimate.parameter) continue;
-    const bool whole = unit.parameter == "links" || unit.parameter.ends_with("visit");
-    const std::string number =
-        whole && !estimate.parameter.starts_with("rate")
-            ? fmt::format("{:g}", estimate.value)
-            : with_sigma(unit.factor * estimate.value, unit.factor * estimate.sigma);
-    return fmt::format(fmt::runtime(unit.words), number);
+    if (unit.parameter == estimate.parameter) return worded(unit, estimate);
   }
   return fmt::format("{} = {}", estimate.parameter, with_sigma(estimate.value, estimate.sigma));
+}
+
+std::string in_workshop_units(const CauseId& cause, const ParameterEstimate& estimate) {
+  if (model::belts::belt_effect_of(*cause.effect) != nullptr) {
+    for (const BeltUnit& own : kBeltUnits) {
+      const bool fits = own.effect.empty() || own.effect == cause.effect->id;
+      if (fits && own.unit.parameter == estimate.parameter) return worded(own.unit, estimate);
+    }
+  }
+  return in_workshop_units(estimate);
 }
 
 std::string coordinate_words(std::string_view coordinate) {
@@ -105,6 +140,16 @@ std::string side_words(const CauseId& cause) {
       return " along x";
     case EffectSide::y:
       return " along y";
+    case EffectSide::tl:
+      return " at the top left";
+    case EffectSide::tr:
+      return " at the top right";
+    case EffectSide::bl:
+      return " at the bottom left";
+    case EffectSide::br:
+      return " at the bottom right";
+    case EffectSide::all:
+      return ", all four alike";
     case EffectSide::none:
       break;
   }

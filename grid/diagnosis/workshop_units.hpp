@@ -12,6 +12,9 @@ namespace chaintrue::grid::diagnosis {
 
 /// "0.120 +- 0.010 %", "1 link", "sets in at 52.0 degrees": from the parameter's name and its unit.
 [[nodiscard]] std::string in_workshop_units(const ParameterEstimate& estimate);
+/// The same of an effect: an elongation of links, or of a belt.
+[[nodiscard]] std::string in_workshop_units(const CauseId& cause,
+                                            const ParameterEstimate& estimate);
 
 /// "the angle of the left chain" for angle_left.
 [[nodiscard]] std::string coordinate_words(std::string_view coordinate);

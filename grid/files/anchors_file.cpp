@@ -18,16 +18,6 @@ constexpr Range kSquare{"mm^2", -1e12, 1e12};
 constexpr Range kAnyNumber{"", -1e12, 1e12};
 constexpr int kMostPoints = 100000;
 
-template <class V>
-const Record<PerBelt<V>>& per_belt_record(const Value<V>& value) {
-  static const auto record = Record<PerBelt<V>>("a value for each belt")
-                                 .required("tl", &PerBelt<V>::tl, value)
-                                 .required("tr", &PerBelt<V>::tr, value)
-                                 .required("bl", &PerBelt<V>::bl, value)
-                                 .required("br", &PerBelt<V>::br, value);
-  return record;
-}
-
 const Record<AnchorCoordinate>& coordinate_record() {
   static const auto record =
       Record<AnchorCoordinate>("a coordinate of an anchor")
@@ -40,32 +30,6 @@ const Record<AnchorCoordinate>& coordinate_record() {
           .required("rests_on",
                     &AnchorCoordinate::rests_on,
                     object(per_belt_record<double>(number(kAnyNumber))));
-  return record;
-}
-
-const Record<Foretold>& foretold_record() {
-  static const auto record =
-      Record<Foretold>("what was foretold")
-          .custom(
-              "readings",
-              true,
-              {"a whole number", integer(0, 4 * kMostPoints).expected.schema},
-              [](const Cursor& at, Foretold& f) {
-                if (const auto count = at.integer(0, 4 * kMostPoints))
-                  f.readings = static_cast<std::size_t>(*count);
-              },
-              [](const Foretold& f) { return std::optional<Json>(f.readings); })
-          .required("rms_mm", &Foretold::rms_mm, number(kSigma))
-          .required("largest_mm", &Foretold::largest_mm, number(kSigma));
-  return record;
-}
-
-const Record<BeltScale>& scale_record() {
-  static const auto record =
-      Record<BeltScale>("a scale")
-          .required("factor", &BeltScale::factor, number({"", 0.1, 10.0}))
-          .required("sigma", &BeltScale::sigma, number({"", 0.0, 10.0}))
-          .required("residuals_mm", &BeltScale::residuals_mm, list(number(kMillimetres)));
   return record;
 }
 
@@ -85,10 +49,7 @@ const Record<BadBeltReading>& bad_record() {
   static const auto record = [] {
     Record<BadBeltReading> bad("a bad reading");
     add_point(bad)
-        .required(
-            "belt",
-            &BadBeltReading::belt,
-            choice<Belt>({{"tl", Belt::tl}, {"tr", Belt::tr}, {"bl", Belt::bl}, {"br", Belt::br}}))
+        .required("belt", &BadBeltReading::belt, belt_word())
         .required("off_mm", &BadBeltReading::off_mm, number(kMillimetres));
     return bad;
   }();

@@ -142,6 +142,9 @@ void add_lengths(Record<BeltPoint>& record) {
   }
 }
 
+constexpr Range kSpreadMm{"mm", 0.0, 1e6};
+constexpr Range kMisfitMm{"mm", -1e6, 1e6};
+constexpr int kMostReadings = 400000;
 constexpr Range kCommand{"mm", -20000.0, 20000.0};
 
 void add_command(Record<BeltPoint>& record) {
@@ -258,6 +261,8 @@ const Record<BeltDistance>& distance_record() {
   return record;
 }
 
+}  // namespace
+
 const Record<FirmwareFit>& firmware_fit_record() {
   constexpr Range kMisfit{"mm", 0.0, 10000.0};
   static const auto record = Record<FirmwareFit>("the machine's own words of its fit")
@@ -266,7 +271,31 @@ const Record<FirmwareFit>& firmware_fit_record() {
   return record;
 }
 
-}  // namespace
+const Record<Foretold>& foretold_record() {
+  static const auto record =
+      Record<Foretold>("what was foretold")
+          .custom(
+              "readings",
+              true,
+              {"a whole number", integer(0, kMostReadings).expected.schema},
+              [](const Cursor& at, Foretold& f) {
+                if (const auto count = at.integer(0, kMostReadings))
+                  f.readings = static_cast<std::size_t>(*count);
+              },
+              [](const Foretold& f) { return std::optional<Json>(f.readings); })
+          .required("rms_mm", &Foretold::rms_mm, number(kSpreadMm))
+          .required("largest_mm", &Foretold::largest_mm, number(kSpreadMm));
+  return record;
+}
+
+const Record<BeltScale>& scale_record() {
+  static const auto record =
+      Record<BeltScale>("a scale")
+          .required("factor", &BeltScale::factor, number({"", 0.1, 10.0}))
+          .required("sigma", &BeltScale::sigma, number({"", 0.0, 10.0}))
+          .required("residuals_mm", &BeltScale::residuals_mm, list(number(kMisfitMm)));
+  return record;
+}
 
 const Record<BeltMachine>& belt_machine_record() {
   static const auto record = [] {

@@ -4,6 +4,7 @@
 /// grid/files.
 #pragma once
 
+#include "grid/belts/belts_fit.hpp"
 #include "grid/belts/measured_belts.hpp"
 #include "grid/files/json_reader.hpp"
 
@@ -16,5 +17,25 @@ inline constexpr Range kBeltDistanceMm{"mm", 1.0, 20000.0};
 [[nodiscard]] const Record<model::BeltMachine>& belt_machine_record();
 
 [[nodiscard]] const Record<MeasuredBelts>& belts_record();
+
+template <class V>
+const Record<model::PerBelt<V>>& per_belt_record(const Value<V>& value) {
+  static const auto record = Record<model::PerBelt<V>>("a value for each belt")
+                                 .required("tl", &model::PerBelt<V>::tl, value)
+                                 .required("tr", &model::PerBelt<V>::tr, value)
+                                 .required("bl", &model::PerBelt<V>::bl, value)
+                                 .required("br", &model::PerBelt<V>::br, value);
+  return record;
+}
+
+/// tl, tr, bl, br.
+[[nodiscard]] inline Value<model::Belt> belt_word() {
+  using model::Belt;
+  return choice<Belt>({{"tl", Belt::tl}, {"tr", Belt::tr}, {"bl", Belt::bl}, {"br", Belt::br}});
+}
+
+[[nodiscard]] const Record<Foretold>& foretold_record();
+[[nodiscard]] const Record<BeltScale>& scale_record();
+[[nodiscard]] const Record<FirmwareFit>& firmware_fit_record();
 
 }  // namespace chaintrue::grid::files

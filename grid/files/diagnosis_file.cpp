@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/machine_record.hpp"
@@ -56,12 +57,13 @@ const Record<StatedTape>& tape_record() {
   return record;
 }
 
-/// Where a bad point's tool would have to have been; or by how much a bad distance is off.
+/// Where a bad point's tool would have to have been; or by how much a bad distance, or a belt, is off.
 struct Shift {
   std::optional<double> x_mm;
   std::optional<double> y_mm;
   std::optional<double> off_mm;
   double sigmas = 0.0;
+  std::optional<model::Belt> belt{};
 };
 
 const Record<Shift>& shift_record() {
@@ -70,10 +72,11 @@ const Record<Shift>& shift_record() {
                                  .optional("y_mm", &Shift::y_mm, number(kMm))
                                  .optional("off_mm", &Shift::off_mm, number(kMm))
                                  .required("sigmas", &Shift::sigmas, number(kPositive))
+                                 .optional("belt", &Shift::belt, belt_word())
                                  .check([](const Cursor& at, Shift& shift) {
                                    const bool of_point = shift.x_mm && shift.y_mm;
                                    if (at.clean() && of_point == shift.off_mm.has_value())
-                                     at.expect("x_mm and y_mm of a point, or off_mm of a distance");
+                                     at.expect("x_mm and y_mm of a point, or off_mm of a distance or of a belt");
                                  });
   return record;
 }
@@ -133,15 +136,16 @@ void outlier_keys(Record<Diagnosis>& record) {
           const Shift& shift = (*read)[i];
           object.outliers[i].shift_mm = {shift.x_mm.value_or(0.0), shift.y_mm.value_or(0.0)};
           object.outliers[i].off_mm = shift.off_mm.value_or(0.0);
-          object.outliers[i].distance = (*read)[i].sigmas;
+          object.outliers[i].distance = shift.sigmas;
+          object.outliers[i].belt = shift.belt;
         }
       },
       [](const Diagnosis& object) {
         Json json = Json::array();
         for (const Outlier& bad : object.outliers) {
           json.push_back(shift_record().write(
-              bad.of == Observations::distances
-                  ? Shift{{}, {}, bad.off_mm, bad.distance}
+              bad.of != Observations::points
+                  ? Shift{{}, {}, bad.off_mm, bad.distance, bad.belt}
                   : Shift{bad.shift_mm.x() + 0.0, bad.shift_mm.y() + 0.0, {}, bad.distance}));
         }
         return std::optional<Json>(std::move(json));
@@ -153,7 +157,8 @@ void distance_keys(Record<Diagnosis>& record) {
   static const Value<Observations> word =
       choice<Observations>({{"points", Observations::points},
                             {"distances", Observations::distances},
-                            {"points_and_distances", Observations::both}});
+                            {"points_and_distances", Observations::both},
+                            {"belts", Observations::belts}});
   record
       .custom(
           "observations",
@@ -169,13 +174,19 @@ void distance_keys(Record<Diagnosis>& record) {
           })
       .sparse("holes", &Diagnosis::holes, list(object(hole_picture_record())))
       .sparse("distances", &Diagnosis::distances, list(object(distance_picture_record())))
-      .optional("stated_tape", &Diagnosis::stated_tape, object(tape_record()));
+      .optional("stated_tape", &Diagnosis::stated_tape, object(tape_record()))
+      .optional("belts", &Diagnosis::belts, object(belts_findings_record()));
 }
 
 void check_diagnosis(const Cursor& at, Diagnosis& object) {
-  if (object.observations == Observations::distances) {
-    for (Outlier& bad : object.outliers) bad.of = Observations::distances;
+  if (object.observations == Observations::distances ||
+      object.observations == Observations::belts) {
+    for (Outlier& bad : object.outliers) bad.of = object.observations;
   }
+  const bool of_belts = object.observations == Observations::belts;
+  if (!of_belts && !at.has("extended_machine"))
+    at.child("extended_machine").missing("a chaintrue_machine");
+  if (of_belts && !object.belts) at.child("belts").missing("what belts tell");
   if (!at.child("verdict").clean() || !at.child("causes").clean()) return;
   const bool names_one = object.verdict == Verdict::named || object.verdict == Verdict::named_set ||
                          object.verdict == Verdict::several_causes;
@@ -207,7 +218,19 @@ Record<Diagnosis> make_diagnosis_record() {
       .required("next_measurements",
                 &Diagnosis::next_measurements,
                 list(object(next_measurement_record())))
-      .required("extended_machine", &Diagnosis::extended_machine, object(machine_record()))
+      .custom(
+          "extended_machine",
+          false,
+          machine_record().expected(),
+          [](const Cursor& at, Diagnosis& object) {
+            if (auto machine = machine_record().read(at))
+              object.extended_machine = *std::move(machine);
+          },
+          [](const Diagnosis& object) {
+            return object.observations == Observations::belts
+                       ? std::nullopt
+                       : std::optional<Json>(machine_record().write(object.extended_machine));
+          })
       .required("data_corrections", &Diagnosis::data_corrections, list(object(effect_record())))
       .required("noise_factor", &Diagnosis::noise_factor, number(kPositive))
       .required("family_wise_p", &Diagnosis::family_wise_p, number(kShare))

@@ -12,7 +12,7 @@ namespace chaintrue::grid::files {
 
 /// A side on which an effect acts, as files have it.
 [[nodiscard]] inline Value<std::string> side_word() {
-  return one_of({"left", "right", "both", "x", "y"});
+  return one_of({"left", "right", "both", "x", "y", "tl", "tr", "bl", "br", "all"});
 }
 
 [[nodiscard]] Value<diagnosis::Verdict> verdict_word();

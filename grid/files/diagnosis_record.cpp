@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "grid/files/diagnosis_keys.hpp"
+#include "model/belts/effects/belt_effect.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -32,13 +33,30 @@ constexpr Range kAny{"", -1e12, 1e12};
 constexpr Range kPositive{"", 0.0, 1e12};
 constexpr Range kShare{"", 0.0, 1.0};
 
-constexpr EffectSide kSides[] = {
-    EffectSide::left, EffectSide::right, EffectSide::both, EffectSide::x, EffectSide::y};
+constexpr EffectSide kSides[] = {EffectSide::left,
+                                 EffectSide::right,
+                                 EffectSide::both,
+                                 EffectSide::x,
+                                 EffectSide::y,
+                                 EffectSide::tl,
+                                 EffectSide::tr,
+                                 EffectSide::bl,
+                                 EffectSide::br,
+                                 EffectSide::all};
 
+/// Of chains, and of belts where chains have none of that name.
 Value<const Effect*> effect_word() {
   std::vector<std::pair<std::string, const Effect*>> names;
   for (const Effect* effect : model::effects::catalogue()) names.emplace_back(effect->id, effect);
+  for (const model::belts::BeltEffect* effect : model::belts::belt_effects()) {
+    if (model::effects::find_effect(effect->id) == nullptr)
+      names.emplace_back(effect->id, &model::belts::described(*effect));
+  }
   return choice<const Effect*>(std::move(names));
+}
+
+bool acts_at(const Effect& effect, EffectSide side) {
+  return std::find(effect.sides.begin(), effect.sides.end(), side) != effect.sides.end();
 }
 
 /// The keys of an effect and its side; `id` takes the object to its CauseId.
@@ -70,10 +88,13 @@ void cause_keys(Record<T>& record, const Access& id) {
       });
   record.check([id](const Cursor& at, T& object) {
     if (!at.child("effect").clean() || !at.child("side").clean()) return;
-    const CauseId& found = id(object);
-    if (found.effect == nullptr) return;
-    const auto& sides = found.effect->sides;
-    if (std::find(sides.begin(), sides.end(), found.side) == sides.end()) {
+    CauseId& found = id(object);
+    if (found.effect == nullptr || acts_at(*found.effect, found.side)) return;
+    // Chains and belts both drift and skip: the side says whose it is.
+    const model::belts::BeltEffect* of_belts = model::belts::find_belt_effect(found.effect->id);
+    if (of_belts != nullptr && acts_at(model::belts::described(*of_belts), found.side)) {
+      found.effect = &model::belts::described(*of_belts);
+    } else {
       at.child("side").expect(fmt::format("a side on which {} acts", found.effect->id));
     }
   });

@@ -23,6 +23,8 @@ namespace chaintrue::grid::files {
 [[nodiscard]] const Record<diagnosis::DistancePicture>& distance_picture_record();
 [[nodiscard]] const Record<diagnosis::Term>& term_record();
 [[nodiscard]] const Record<diagnosis::Separation>& separation_record();
+/// diagnosis_belts_record.cpp.
+[[nodiscard]] const Record<diagnosis::BeltsFindings>& belts_findings_record();
 /// diagnosis_stability_record.cpp.
 [[nodiscard]] const Record<diagnosis::Stability>& stability_record();
 [[nodiscard]] const Record<diagnosis::NormalPlot>& normal_plot_record();

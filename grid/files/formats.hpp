@@ -40,7 +40,8 @@ inline constexpr std::array kOlderDiagnoses = {
     OlderVersion{"1.0",
                  "written before a diagnosis said what remains besides its causes and what the "
                  "error is made of; "
-                 "taken to leave nothing unexplained"}};
+                 "taken to leave nothing unexplained"},
+    OlderVersion{"1.1", "written before belts were diagnosed; taken to be of chains"}};
 
 inline constexpr Format kMachineFormat{"chaintrue_machine", "1.0"};
 inline constexpr Format kGridFormat{"chaintrue_grid", "1.0"};
@@ -48,7 +49,7 @@ inline constexpr Format kHolesFormat{"chaintrue_holes", "1.0"};
 inline constexpr Format kBeltsFormat{"chaintrue_belts", "1.0"};
 inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.0"};
 inline constexpr Format kMapFormat{"chaintrue_map", "1.1", kOlderMaps};
-inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.1", kOlderDiagnoses};
+inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.2", kOlderDiagnoses};
 inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};
 inline constexpr Format kSweepSummaryFormat{"chaintrue_sweep_summary", "1.0", {}, false};
 inline constexpr Format kAnswerFormat{"chaintrue_answer", "1.0", {}, false};

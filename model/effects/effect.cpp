@@ -19,7 +19,9 @@ std::string_view name(Station station) {
 }
 
 std::string_view name(EffectSide side) {
-  return word(side, std::array<std::string_view, 6>{"", "left", "right", "both", "x", "y"});
+  return word(side,
+              std::array<std::string_view, 11>{
+                  "", "left", "right", "both", "x", "y", "tl", "tr", "bl", "br", "all"});
 }
 
 std::string_view name(RemedyKind kind) {

@@ -35,8 +35,8 @@ namespace chaintrue::model::effects {
 enum class Station { paper, machine, chain, reading };
 
 /// What an effect may be said to act on: nothing in particular, a chain (or both, with one shared
-/// value), or an axis of the paper.
-enum class EffectSide { none, left, right, both, x, y };
+/// value), an axis of the paper, or a belt of four (or all).
+enum class EffectSide { none, left, right, both, x, y, tl, tr, bl, br, all };
 
 enum class RemedyKind { change_the_machine, correct_the_data, repair, compensate_on_its_own };
 

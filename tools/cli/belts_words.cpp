@@ -165,4 +165,55 @@ std::string places_in_a_table(const BeltsFit& fit) {
   return text;
 }
 
+std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad) {
+  if (!bad.belt)
+    return fmt::format("point {} as a whole: more than one of its belts disagrees", bad.index);
+  return fmt::format("the {} belt at point {}: read {:.1f} mm too {} ({:.1f} sigmas)",
+                     model::words(*bad.belt),
+                     bad.index,
+                     std::abs(bad.off_mm),
+                     bad.off_mm > 0.0 ? "long" : "short",
+                     bad.distance);
+}
+
+std::string diagnosed_belts_in_words(const grid::diagnosis::BeltsFindings& found) {
+  std::string text = "Anchor         alone  with the causes   sigma    stated\n";
+  for (const auto& c : found.coordinates) {
+    fmt::format_to(std::back_inserter(text),
+                   "  {:<6}{:>12.2f}{:>17.2f}{:>8.2f}{}\n",
+                   fmt::format("{} {}", c.name.substr(0, 2), c.name.substr(3, 1)),
+                   c.before_mm,
+                   c.fitted_mm,
+                   c.sigma_mm,
+                   c.stated_mm ? fmt::format("{:>10.1f}", *c.stated_mm) : "");
+  }
+  fmt::format_to(std::back_inserter(text),
+                 "\nmm                                       anchors alone   with the causes\n"
+                 "  {:<38}{:>14.2f}{:>18.2f}\n  {:<38}{:>14.2f}{:>18.2f}\n",
+                 "one belt's reading is off by",
+                 found.spread_before_mm,
+                 found.spread_mm,
+                 "rms over all readings",
+                 found.rms_before_mm,
+                 found.rms_mm);
+  if (found.foretold_before && found.foretold) {
+    fmt::format_to(std::back_inserter(text),
+                   "  {:<38}{:>14.2f}{:>18.2f}\n",
+                   "lower belts foretold at places left out",
+                   found.foretold_before->rms_mm,
+                   found.foretold->rms_mm);
+  }
+  fmt::format_to(std::back_inserter(text),
+                 "  {:<38}{:>14.2f}{:>18.2f}\n",
+                 "the tool, over the measured places",
+                 found.tool.before_mm,
+                 found.tool.after_mm);
+  text += "The tool's error is against the causes named, the frame's place and turn left free";
+  text += found.tool.scale_mm_per_m
+              ? fmt::format("; what the tape leaves of the scale is {:.2f} mm in a metre.",
+                            *found.tool.scale_mm_per_m)
+              : ", in the belts' own millimetres: how long these are no belt knows.";
+  return text;
+}
+
 }  // namespace chaintrue::cli

@@ -16,6 +16,7 @@
 
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/trend.hpp"
+#include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/machine_file.hpp"
@@ -31,6 +32,7 @@
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -233,7 +235,9 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   if (!command.output.empty() && command.report.empty())
     return say_next({"report", command.output, "-o", page_beside(command.output)});
   std::vector<std::string> words;
-  if (!command.output.empty() && !found.next_measurements.empty()) {
+  if (found.belts) {
+    words = {"fit", command.input.grid, "-o", "anchors.json"};
+  } else if (!command.output.empty() && !found.next_measurements.empty()) {
     words = {"plan", command.input.grid, "--after", command.output};
   } else {
     words = {"fit", command.input.grid, "-o", "map.json"};
@@ -244,12 +248,56 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   say_next(words);
 }
 
-int run_diagnose(const DiagnoseCommand& command) {
+/// Belts are diagnosed by themselves, on the machine in their own file.
+Outcome diagnosed_belts(const DiagnoseCommand& command) {
+  OptionProblems problems;
+  const auto refuse = [&](const char* option, const std::string& value) {
+    if (!value.empty()) {
+      problems.add(option,
+                   value,
+                   "to be left out of belts: they are diagnosed by themselves, on the machine in "
+                   "their own file");
+    }
+  };
+  refuse("--machine", command.input.machine);
+  refuse("--with", command.with.empty() ? "" : command.with.front());
+  refuse("--extended-machine", command.extended_machine);
+  refuse("--corrected-grid", command.corrected_grid);
+  refuse("--held-out", command.held_out);
+  refuse("--assume-order", command.assume_order);
+  problems.throw_if_any();
+  const std::string file = files::name_in_messages(command.input.grid);
+  const files::ReadBelts read = files::parse_belts(*command.input.text, file);
+  print_warnings(read.warnings);
+  // Twice as many take four times as long (docs/maslow4.md).
+  constexpr std::size_t kMostPlaces = 2000;
+  if (read.belts.points.size() > kMostPlaces) {
+    return tl::unexpected(fmt::format(
+        "{}: {} places are more than a diagnosis takes ({}): leave some out, evenly over the sheet; "
+        "chaintrue fit takes them all",
+        file,
+        read.belts.points.size(),
+        kMostPlaces));
+  }
+  grid::diagnosis::DiagnosisOptions options;
+  options.seed = command.seed;
+  options.progress = shown_progress();
+  auto found = grid::diagnosis::diagnose(read.belts, options);
+  if (!found) return tl::unexpected(sentence_of(command.input.grid, found.error()));
+  if (found->grid_name.empty()) found->grid_name = file_name(command.input.grid);
+  return *std::move(found);
+}
+
+int run_diagnose(DiagnoseCommand command) {
   // A wrong file is told before the work.
   std::optional<Diagnosis> before;
   if (!command.before.empty()) before = files::read_diagnosis(command.before, nullptr);
-  grid::Measured input = read_measured(command.input, command.tape, command.with, MeasuredUse::fit);
-  auto found = diagnosed(command, input);
+  command.input.text = files::read_whole_file(command.input.grid);
+  const bool of_belts = files::looks_like_belts(*command.input.text);
+  grid::Measured input;
+  if (!of_belts)
+    input = read_measured(command.input, command.tape, command.with, MeasuredUse::fit);
+  auto found = of_belts ? diagnosed_belts(command) : diagnosed(command, input);
   if (!found) {
     fmt::print(stderr, "{}\n", found.error());
     return kBadInput;
@@ -353,6 +401,7 @@ void add_diagnose(CLI::App& app, Run& run) {
       "--extended-machine worn_machine.json\n"
       "  build/chaintrue fit worn.json --machine worn_machine.json -o map.json\n"
       "  build/chaintrue diagnose fixtures/holes/nine_holes.json --report holes.html\n"
+      "  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o belts_diagnosis.json\n"
       "  build/chaintrue diagnose worn.json --before diagnosis.json");
   verb->callback([command, &run] { run = [command] { return run_diagnose(*command); }; });
 }

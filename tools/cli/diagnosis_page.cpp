@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/cli/belts_page.hpp"
 #include "tools/cli/diagnosis_budget.hpp"
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_checks.hpp"
@@ -244,6 +245,8 @@ std::string_view where_it_goes(const Diagnosis& found) {
       return "Points go into the grid's file, readings into its \"readings\"";
     case grid::diagnosis::Observations::distances:
       return "Holes and distances go into the holes' file, readings into its \"readings\"";
+    case grid::diagnosis::Observations::belts:
+      return "Points and distances go into the belts' file";
     case grid::diagnosis::Observations::both:
       break;
   }
@@ -283,6 +286,7 @@ Section next_section(const Diagnosis& found) {
 }  // namespace
 
 report::Page diagnosis_page(const Diagnosis& found, std::string_view source) {
+  if (found.belts) return belts_page(found, source);
   const VerdictLights& lights = lights_of(found.verdict);
   report::Page page;
   page.title = fmt::format("Diagnosis: {}", found.grid_name);

@@ -39,13 +39,13 @@ Section causes_section(const Diagnosis& found) {
   for (const Cause& cause : found.causes) {
     table.rows.push_back(
         {{cause_title(cause.cause) + (cause.order_assumed ? " (order assumed)" : ""),
-          typeset(sizes_in_words(cause.parameters)),
+          typeset(sizes_in_words(cause.cause, cause.parameters)),
           percent(cause.probability),
           cause_and_remedy(*cause.cause.effect)},
          false});
     for (const auto& same : cause.same_as) {
       table.rows.push_back({{"or " + cause_title(same.cause),
-                             typeset(sizes_in_words(same.parameters)),
+                             typeset(sizes_in_words(same.cause, same.parameters)),
                              "the same",
                              cause_and_remedy(*same.cause.effect)},
                             false});
@@ -74,7 +74,7 @@ Section terms_section(const Diagnosis& found) {
   for (const auto& term : found.terms) {
     const std::string fate = fate_of(found, term);
     table.rows.push_back({{cause_title(term.cause),
-                           typeset(size_in_words(term.parameter, term.value, term.sigma)),
+                           typeset(size_in_words(term.cause, term.parameter, term.value, term.sigma)),
                            fixed(term.signal_to_noise, 1),
                            share_percent(term.share_left),
                            share_percent(term.p_value),

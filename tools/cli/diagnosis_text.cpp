@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "tools/cli/belts_words.hpp"
 #include "tools/cli/diagnosis_budget.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/map_words.hpp"
@@ -41,7 +42,7 @@ void write_causes(Text& text, const Diagnosis& found) {
   for (const Cause& cause : found.causes) {
     text.line("  {}: {}  (probability {}{})",
               cause_title(cause.cause),
-              sizes_in_words(cause.parameters),
+              sizes_in_words(cause.cause, cause.parameters),
               percent(cause.probability),
               cause.order_assumed ? ", the visiting order being assumed" : "");
     text.line("    {}", cause.cause.effect->cause);
@@ -50,7 +51,7 @@ void write_causes(Text& text, const Diagnosis& found) {
       text.line("    no {} can tell it from {}: {}",
                 name(found.observations),
                 cause_title(same.cause),
-                sizes_in_words(same.parameters));
+                sizes_in_words(same.cause, same.parameters));
       text.line("      remedy: {}", same.cause.effect->remedy);
     }
   }
@@ -89,7 +90,7 @@ void write_hypotheses(Text& text, const Diagnosis& found) {
     if (hypothesis.probability < kWorthALine) continue;
     text.line("  {:>13}  {}", percent(hypothesis.probability), hypothesis_title(hypothesis));
   }
-  text.line("  {}", left_over_sentence(found.left_over));
+  if (!found.belts) text.line("  {}", left_over_sentence(found.left_over));
 }
 
 void write_errors(Text& text, const std::vector<GainRow>& rows, double floor_mm) {
@@ -163,8 +164,13 @@ void write_settings(Text& text, const Diagnosis& found) {
 
 void write_rest(Text& text, const Diagnosis& found) {
   if (!found.outliers.empty()) {
-    text.heading(fmt::format("Bad {}, to be measured again", name(found.observations)));
+    text.heading(fmt::format("Bad {}, to be measured again",
+                             found.belts ? "readings" : name(found.observations)));
     for (const auto& bad : found.outliers) {
+      if (bad.of == grid::diagnosis::Observations::belts) {
+        text.line("  {}", capitalised(bad_belt_in_words(bad)));
+        continue;
+      }
       if (is_distance(found, bad)) {
         text.line("  {}: read {} ({:.1f} sigmas)",
                   distance_name(found, bad.index),
@@ -208,6 +214,7 @@ std::string diagnosis_in_words(const Diagnosis& found) {
   write_budget(text, found);
   write_trend(text, found);
   write_causes(text, found);
+  if (found.belts) text.line("\n{}", diagnosed_belts_in_words(*found.belts));
   write_gain(text, found);
   write_follow_up(text, found);
   write_hypotheses(text, found);

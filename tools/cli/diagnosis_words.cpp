@@ -112,6 +112,8 @@ std::string_view files_in_words(const grid::diagnosis::Diagnosis& found) {
       return "GRID";
     case grid::diagnosis::Observations::distances:
       return "HOLES";
+    case grid::diagnosis::Observations::belts:
+      return "BELTS";
     case grid::diagnosis::Observations::both:
       break;
   }
@@ -126,6 +128,8 @@ std::string readings_counted(const grid::diagnosis::Diagnosis& found) {
       return points;
     case grid::diagnosis::Observations::distances:
       return distances;
+    case grid::diagnosis::Observations::belts:
+      return fmt::format("{} places", found.belts ? found.belts->places.size() : 0);
     case grid::diagnosis::Observations::both:
       break;
   }
@@ -160,20 +164,25 @@ std::string off_in_words(double off_mm) {
   return fmt::format("{:.1f} mm too {}", std::abs(off_mm), off_mm > 0.0 ? "long" : "short");
 }
 
-std::string size_in_words(std::string_view parameter, double value, double sigma) {
-  return grid::diagnosis::in_workshop_units({std::string(parameter), value, sigma});
+std::string size_in_words(const grid::diagnosis::CauseId& cause,
+                          std::string_view parameter,
+                          double value,
+                          double sigma) {
+  return grid::diagnosis::in_workshop_units(cause, {std::string(parameter), value, sigma});
 }
 
 std::string bound_in_words(const grid::diagnosis::Bound& bound) {
   if (bound.parameter == "links" && bound.upper_95 == 0.0) return "not one link";
-  return size_in_words(bound.parameter, bound.upper_95, 0.0);
+  if (bound.parameter == "teeth" && bound.upper_95 == 0.0) return "not one tooth";
+  return size_in_words(bound.cause, bound.parameter, bound.upper_95, 0.0);
 }
 
-std::string sizes_in_words(const std::vector<ParameterEstimate>& parameters) {
+std::string sizes_in_words(const grid::diagnosis::CauseId& cause,
+                           const std::vector<ParameterEstimate>& parameters) {
   std::string text;
   for (const ParameterEstimate& estimate : parameters) {
     if (!text.empty()) text += ", ";
-    text += grid::diagnosis::in_workshop_units(estimate);
+    text += grid::diagnosis::in_workshop_units(cause, estimate);
   }
   return text;
 }

@@ -30,21 +30,25 @@ namespace chaintrue::cli {
 
 /// A parameter in a workshop unit: `elongation` 0.0012 is "0.12 % longer links"; without a sigma
 /// where it is 0.
-[[nodiscard]] std::string size_in_words(std::string_view parameter, double value, double sigma);
+[[nodiscard]] std::string size_in_words(const grid::diagnosis::CauseId& cause,
+                                        std::string_view parameter,
+                                        double value,
+                                        double sigma);
 /// A bound in the same unit.
 [[nodiscard]] std::string bound_in_words(const grid::diagnosis::Bound& bound);
 /// All parameters, parted by commas.
 [[nodiscard]] std::string sizes_in_words(
+    const grid::diagnosis::CauseId& cause,
     const std::vector<grid::diagnosis::ParameterEstimate>& parameters);
 
 /// Noise alone leaves as much in less than one of a hundred cases.
 [[nodiscard]] bool is_surprising(const grid::diagnosis::LeftOver& left_over);
 /// What is left over once the causes named are in the model, in a sentence.
 [[nodiscard]] std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over);
-/// The files of a diagnosis as a command names them: GRID, HOLES or both.
+/// The files of a diagnosis as a command names them: GRID, HOLES, both, or BELTS.
 [[nodiscard]] std::string_view files_in_words(const grid::diagnosis::Diagnosis& found);
 
-/// What was weighed: "34 points", "20 distances", "34 points and 20 distances".
+/// What was weighed: "34 points", "20 distances", "34 points and 20 distances", "99 places".
 [[nodiscard]] std::string readings_counted(const grid::diagnosis::Diagnosis& found);
 /// A bad one is a distance, and no point.
 [[nodiscard]] bool is_distance(const grid::diagnosis::Diagnosis& found,

@@ -23,9 +23,7 @@
 namespace chaintrue::model::belts {
 
 /// What an effect may act on: nothing in particular, one belt, or all with one shared value.
-enum class BeltSide { none, tl, tr, bl, br, all };
-/// The word of files and of the command line; "" for none.
-[[nodiscard]] std::string_view name(BeltSide side);
+using BeltSide = effects::EffectSide;
 [[nodiscard]] bool acts_on(BeltSide side, Belt belt);
 
 /// A belt at a visit.
@@ -71,6 +69,11 @@ inline constexpr BeltSide kOneBeltOrAll[] = {
 [[nodiscard]] std::span<const BeltEffect* const> belt_effects();
 /// Null where there is none of that name.
 [[nodiscard]] const BeltEffect* find_belt_effect(std::string_view id);
+/// Its words, sides and parameters as those of the chains' catalogue have them, for whoever speaks of
+/// either; the function stays here.
+[[nodiscard]] const effects::Effect& described(const BeltEffect& effect);
+/// The effect that is so described; null for one of the chains' catalogue.
+[[nodiscard]] const BeltEffect* belt_effect_of(const effects::Effect& described);
 
 /// A place or a size of an effect that sets in at a visit.
 inline constexpr effects::EffectParameter kFirstVisit = {

@@ -31,10 +31,12 @@ double add(double length_mm, double /*turn_mm*/, const BeltVisit& /*visit*/, Val
 
 extern constinit const BeltEffect belt_scale{
     .id = "belt_scale",
-    .sides = kOneBelt,
+    .sides = kOneBeltOrAll,
     .parameters = kParameters,
     .cause = "one belt is worn, of another make, or runs on another pulley than the other three",
-    .signature = "one belt reads short or long in proportion to its length",
+    .signature =
+        "one belt reads short or long in proportion to its length; of all four: a frame, and all that "
+        "is cut in it, of another size, and nothing in the readings",
     .equation = "L / (1 + s)",
     .source = "an encoder turn is 43.975 mm of belt in the firmware, the same for all four",
     .not_modelled = "a scale that all four share: no belts tell it, a taped distance does",

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/belts/repeated_pulls.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace chaintrue::grid {
+
+using model::Belt;
+using model::kBelts;
+
+namespace {
+
+/// The firmware repeats a reading until it agrees to as much; places of a start are 100 mm apart.
+constexpr double kSamePlaceMm = 1.0;
+/// No belt is read better twice in a row, whatever the belts that hold say.
+constexpr double kLeastSigmaMm = 0.1;
+
+bool same_roles(const BeltPoint& a, const BeltPoint& b) {
+  for (const Belt belt : kBelts) {
+    if (is_pulled(a, belt) != is_pulled(b, belt)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<RepeatedPull> repeated_pulls(const MeasuredBelts& belts) {
+  std::vector<RepeatedPull> found;
+  for (std::size_t k = 0; k + 1 < belts.points.size(); ++k) {
+    const BeltPoint& first = belts.points[k];
+    const BeltPoint& second = belts.points[k + 1];
+    if (!same_roles(first, second)) continue;
+    RepeatedPull pull{k, k + 1, 0.0, 0.0};
+    double held_square = 0.0, length_mm = 0.0;
+    int held = 0, pulled = 0;
+    bool stays = true;
+    for (const Belt belt : kBelts) {
+      const double shorter = first.lengths_mm[belt] - second.lengths_mm[belt];
+      if (is_pulled(first, belt)) {
+        pull.share += shorter / first.lengths_mm[belt];
+        length_mm += first.lengths_mm[belt];
+        ++pulled;
+      } else {
+        stays = stays && std::abs(shorter) < kSamePlaceMm;
+        held_square += shorter * shorter;
+        ++held;
+      }
+    }
+    if (!stays || held == 0 || pulled == 0) continue;
+    pull.share /= pulled;
+    // A difference of two readings, as those of the belts that hold are.
+    const double one_mm = std::max(std::sqrt(held_square / held), std::sqrt(2.0) * kLeastSigmaMm);
+    pull.sigma = one_mm * std::sqrt(static_cast<double>(pulled)) / length_mm;
+    found.push_back(pull);
+    ++k;
+  }
+  return found;
+}
+
+std::string repeated_pulls_in_words(const MeasuredBelts& belts) {
+  const std::vector<RepeatedPull> found = repeated_pulls(belts);
+  if (found.empty()) return "";
+  std::string text =
+      "Places that were read twice, the held belts as they were, tell what the pulled ones stretch by "
+      "between the two pulls:";
+  for (const RepeatedPull& pull : found) {
+    fmt::format_to(std::back_inserter(text),
+                   "{} points {} and {} {:.3f} +- {:.3f} %",
+                   &pull == &found.front() ? "" : ",",
+                   pull.first,
+                   pull.second,
+                   100.0 * pull.share,
+                   100.0 * pull.sigma);
+  }
+  return text + ".";
+}
+
+}  // namespace chaintrue::grid

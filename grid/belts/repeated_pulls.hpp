@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Places that were read twice in a row, the upper belts as they were and the lower ones pulled
+/// otherwise: what the pulled belts gave. It needs no anchors.
+///
+///   share = mean over the pulled belts of (L_first - L_second) / L_first                    (1)
+///
+/// in the lengths as printed; arm and heights make a few per cent of it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "grid/belts/measured_belts.hpp"
+
+namespace chaintrue::grid {
+
+struct RepeatedPull {
+  std::size_t first = 0;   ///< points
+  std::size_t second = 0;  ///< the next one
+  double share = 0.0;      ///< (1): positive where the second reading is shorter
+  double sigma = 0.0;      ///< of that, from what the belts that hold changed by
+};
+
+/// Consecutive points, each taken once, whose belts that hold agree to a millimetre.
+[[nodiscard]] std::vector<RepeatedPull> repeated_pulls(const MeasuredBelts& belts);
+
+/// What they tell, in a sentence; empty where there are none.
+[[nodiscard]] std::string repeated_pulls_in_words(const MeasuredBelts& belts);
+
+}  // namespace chaintrue::grid

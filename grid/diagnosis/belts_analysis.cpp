@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/belts_analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/diagnosis/belts_comparison.hpp"
+#include "grid/diagnosis/regressors.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+using model::Belt;
+using model::kBelts;
+
+namespace {
+
+/// What one belt's reading is off by before any is read: four owners' frames, 0.5 to 1 mm.
+constexpr double kUsualSpreadMm = 0.6;
+/// Linearised about nothing, about what was found, and about what that leaves.
+constexpr int kPasses = 3;
+
+/// Nothing, each cause alone at its best place, and what was found before.
+std::vector<std::vector<int>> hypotheses_of(const BeltsAnalysis& a) {
+  const LinearisedSystem& system = a.linear.system;
+  const std::vector<bool> none(system.units.size(), false);
+  const MarginalisedSystem marginalised = marginalise(system, none, a.analysis.options.steps);
+  const NoiseDensity noise(system.noise_dof, static_cast<Eigen::Index>(marginalised.kept.size()));
+  const SingleScores scores = single_scores(system, marginalised, noise, marginalised.e, false);
+  std::vector<std::vector<int>> hypotheses = {{}};
+  for (const int best : scores.best_regressor) {
+    if (best >= 0) hypotheses.push_back({best});
+  }
+  std::vector<int> found;
+  for (const BeltCause& own : a.state.causes) {
+    for (std::size_t k = 0; k < system.regressors.size(); ++k) {
+      const Regressor& d = system.regressors[k];
+      if (d.cause == own.cause && d.values == own.values) {
+        found.push_back(static_cast<int>(k));
+        break;
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  if (found.size() > 1) hypotheses.push_back(std::move(found));
+  return hypotheses;
+}
+
+/// Noise of belts is not stated, so none is larger than that.
+void leave_noise_open(Decision& decision) {
+  decision.nothing += decision.noise;
+  decision.noise = 0.0;
+  if (decision.verdict == Verdict::noise_larger_than_stated)
+    decision.verdict = Verdict::nothing_found;
+}
+
+/// Where the strongest cause is no more than noise does by chance, none is named, whatever a pattern
+/// beside it seems to leave for it.
+void take_names_back(Decision& decision) {
+  if (decision.listed.empty() && decision.regressors.empty()) return;
+  decision.verdict = decision.discrepancy > kDiscrepancyLikely ? Verdict::model_discrepancy
+                                                               : Verdict::nothing_found;
+  decision.listed.clear();
+  decision.regressors.clear();
+}
+
+/// Decision, and the estimate of its causes: beside the pattern that it holds, if any.
+void decide(bool seen, BeltsAnalysis& a) {
+  Analysis& own = a.analysis;
+  const std::vector<bool> none(own.system.units.size(), false);
+  own.decision = decide_for_leaders(own.system, own.comparison, none, seen);
+  if (!seen) take_names_back(own.decision);
+  own.estimate = estimate(own.system,
+                          own.comparison.marginalised_systems[own.decision.marginalised],
+                          own.decision.regressors,
+                          -1);
+  integrate_pattern(a);
+}
+
+void compare(Look look, BeltsAnalysis& a) {
+  a.pattern_length_mm.reset();
+  const auto sets = bad_readings(a.linear, hypotheses_of(a));
+  a.suspects = suspects_of(sets);
+  turn_to(a.suspects, a.sigma_mm, a.linear);
+  Analysis& own = a.analysis;
+  own.system = a.linear.system;
+  std::vector<std::vector<bool>> units;
+  const auto add = [&units](std::vector<bool> set) {
+    if (std::find(units.begin(), units.end(), set) == units.end()) units.push_back(std::move(set));
+  };
+  for (const BadReadings& set : sets) add(units_of(set, a.suspects));
+  add(std::vector<bool>(own.system.units.size(), false));
+  compare_belts(units, look, a);
+  if (look == Look::whole) test_significance(own);
+  decide(look == Look::first || own.family_wise_p < kFalseAlarm, a);
+}
+
+/// Causes that nothing in these readings could show.
+void drop_hidden(BeltsAnalysis& a) {
+  Analysis& own = a.analysis;
+  const std::vector<bool> none(a.linear.system.units.size(), false);
+  const MarginalisedSystem marginalised = marginalise(a.linear.system, none, own.options.steps);
+  std::vector<CauseId> visible;
+  for (const CauseId& cause : own.candidates.testable) {
+    if (can_be_seen(a.linear.system, marginalised, cause)) {
+      visible.push_back(cause);
+    } else {
+      NotTestable& hidden = own.candidates.not_testable.emplace_back();
+      hidden.cause = cause;
+      hidden.reason =
+          "at any size that it may have, other anchors would hide it: measure at more places, "
+          "spread over the sheet";
+    }
+  }
+  if (visible.size() == own.candidates.testable.size()) return;
+  own.candidates.testable = std::move(visible);
+  a.linear = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
+}
+
+/// Anchors, places and sizes as the decision has them. The state stays where that settles nowhere.
+void move_state(BeltsAnalysis& a) {
+  belts::SettledFrame from = a.state.frame;
+  from.counting = decided_counting(a);
+  auto beside = settle_beside(a.belts, decided_causes(a.analysis), from);
+  if (!beside) return;
+  // A place of which everything is set aside stays where it was.
+  a.state = {std::move(beside->frame), std::move(beside->causes)};
+}
+
+}  // namespace
+
+belts::Counting decided_counting(const BeltsAnalysis& a) {
+  const auto bad = readings_of(
+      a.analysis.comparison.marginalised_systems[a.analysis.decision.marginalised].outliers,
+      a.suspects);
+  belts::Counting counting(bad.size());
+  for (std::size_t k = 0; k < bad.size(); ++k) {
+    for (const Belt belt : kBelts) counting[k][belt] = !bad[k][belt];
+  }
+  return counting;
+}
+
+std::vector<BeltCause> decided_causes(const Analysis& a) {
+  std::vector<BeltCause> causes;
+  for (std::size_t k = 0; k < a.estimate.regressors.size(); ++k) {
+    const Regressor& d = a.system.regressors[static_cast<std::size_t>(a.estimate.regressors[k])];
+    BeltCause own{d.cause, d.values};
+    own.values.front() = size_at(d, a.estimate.coefficient(static_cast<Eigen::Index>(k)));
+    causes.push_back(std::move(own));
+  }
+  return causes;
+}
+
+tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts,
+                                                      const DiagnosisOptions& options) {
+  BeltsAnalysis a;
+  a.belts = belts;
+  a.belts.distances.clear();
+  const auto alone = belts::settle_robustly(a.belts);
+  if (!alone) {
+    return tl::unexpected(DiagnosisFailure{DiagnosisFailure::Reason::contradictory_settings,
+                                           "no four anchors make sense of these lengths"});
+  }
+  a.alone = *alone;
+  a.state = {*alone, {}};
+  a.sigma_mm = kUsualSpreadMm;
+  Analysis& own = a.analysis;
+  own.options = options;
+  BeltsCandidates all = candidates(a.belts);
+  own.candidates.testable = std::move(all.testable);
+  for (auto& [cause, reason] : all.not_testable)
+    own.candidates.not_testable.push_back({cause, std::move(reason)});
+  a.linear = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
+  own.session.noise_dof = a.linear.system.noise_dof;
+  own.session.units.resize(a.linear.system.units.size());
+  drop_hidden(a);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    compare(pass + 1 == kPasses ? Look::whole : Look::first, a);
+    if (pass + 1 == kPasses) break;
+    move_state(a);
+    a.sigma_mm *= std::sqrt(own.estimate.noise_square);
+    a.linear = system_of(a.belts, a.state, own.candidates.testable, a.sigma_mm);
+  }
+  leave_noise_open(own.decision);
+  return a;
+}
+
+}  // namespace chaintrue::grid::diagnosis

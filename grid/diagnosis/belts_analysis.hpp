@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The steps from the lengths of four belts to a decision: anchors alone, linearise, set readings
+/// aside, compare models, linearise anew about what was found, compare again. Private to
+/// grid/diagnosis.
+#pragma once
+
+#include <tl/expected.hpp>
+
+#include "grid/diagnosis/analysis.hpp"
+#include "grid/diagnosis/belts_outliers.hpp"
+#include "grid/diagnosis/belts_system.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+struct BeltsAnalysis {
+  MeasuredBelts belts;        ///< without distances: they say nothing of a cause
+  belts::SettledFrame alone;  ///< anchors and places, no cause at work
+  BeltsState state;
+  BeltsSystem linear;
+  Suspects suspects;      ///< to which it is turned
+  double sigma_mm = 0.0;  ///< of one belt's reading, as it is whitened
+  Analysis analysis;      ///< system, comparison and decision; its session has no parts
+  /// Of a pattern that no cause makes, where the decision holds one: what it takes of a check.
+  std::optional<double> pattern_length_mm;
+  double pattern_rms_mm = 0.0;
+  double pattern_share = 0.0;  ///< of the square of what anchors and causes leave
+};
+
+/// Precondition: fit_belts() takes these belts.
+[[nodiscard]] tl::expected<BeltsAnalysis, DiagnosisFailure> analyse(const MeasuredBelts& belts,
+                                                                    const DiagnosisOptions& options);
+
+/// Of each reading, whether the decision keeps it.
+[[nodiscard]] belts::Counting decided_counting(const BeltsAnalysis& analysis);
+
+/// The causes of the decision with their values as estimated.
+[[nodiscard]] std::vector<BeltCause> decided_causes(const Analysis& analysis);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/belts_findings.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "grid/belts/foretelling.hpp"
+#include "grid/diagnosis/belts_report.hpp"
+#include "model/belts/belt_kinematics.hpp"
+#include "model/belts/belt_readings.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+using model::Belt;
+using model::FramePoint;
+using model::kBelts;
+
+namespace {
+
+/// Places that a machine believes in, the upper two belts deciding; nothing where they end nowhere.
+using Believed = std::vector<std::optional<FramePoint>>;
+
+Believed believed(const model::BeltMachine& by,
+                  const model::BeltMachine& real,
+                  const std::vector<model::belts::ResolvedBeltEffect>& effects,
+                  const std::vector<FramePoint>& places) {
+  Believed result;
+  for (const FramePoint& at : places) {
+    // While it cuts, the upper two hold; what set in at a visit has set in.
+    constexpr int kAfterAll = 1000000000;
+    const auto tl = model::belts::read_belt(real, effects, {Belt::tl, false, kAfterAll}, at);
+    const auto tr = model::belts::read_belt(real, effects, {Belt::tr, false, kAfterAll}, at);
+    std::optional<FramePoint> one;
+    if (tl && tr) {
+      if (const auto place = model::place_of_upper(by, *tl, *tr)) one = *place;
+    }
+    result.push_back(one);
+  }
+  return result;
+}
+
+/// rms of what is left of the shifts once the frame as a whole is moved and turned to where it fits
+/// best: that only says where the sheet lies.
+double shape_error_mm(const Believed& believed, const std::vector<FramePoint>& places) {
+  std::vector<Eigen::Vector4d> rows;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (!believed[k]) continue;
+    rows.emplace_back(places[k].x_mm,
+                      places[k].y_mm,
+                      believed[k]->x_mm - places[k].x_mm,
+                      believed[k]->y_mm - places[k].y_mm);
+  }
+  if (rows.size() < 2) return 0.0;
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(2 * n, 3);
+  Eigen::VectorXd shift(2 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Vector4d& row = rows[static_cast<std::size_t>(i)];
+    design.row(2 * i) << 1.0, 0.0, -row[1];
+    design.row(2 * i + 1) << 0.0, 1.0, row[0];
+    shift.segment<2>(2 * i) = row.tail<2>();
+  }
+  const Eigen::VectorXd left = shift - design * design.colPivHouseholderQr().solve(shift);
+  return std::sqrt(left.squaredNorm() / static_cast<double>(n));
+}
+
+/// Half of an axis of the anchors' uncertainty at a time, both ways alike: rms over all of them.
+double uncertain_mm(const model::BeltMachine& machine,
+                    const Eigen::MatrixXd& covariance,
+                    const std::vector<FramePoint>& places) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(covariance);
+  double square = 0.0;
+  for (Eigen::Index i = 0; i < covariance.cols(); ++i) {
+    const belts::AnchorVector moved =
+        belts::anchors_of(machine) +
+        std::sqrt(std::max(axes.eigenvalues()[i], 0.0)) * axes.eigenvectors().col(i);
+    const double own = shape_error_mm(
+        believed(belts::with_anchors(machine, moved), machine, {}, places), places);
+    square += own * own;
+  }
+  return std::sqrt(square);
+}
+
+ToolError tool_error(const Explained& explained,
+                     const MeasuredBelts& belts,
+                     const BeltsFit& alone,
+                     const model::BeltMachine& machine,
+                     const Eigen::MatrixXd& covariance) {
+  std::vector<model::belts::ResolvedBeltEffect> effects;
+  for (const BeltCause& own : explained.beside.causes) {
+    effects.push_back(
+        {model::belts::belt_effect_of(*own.cause.effect), own.cause.side, own.values});
+  }
+  const std::vector<FramePoint>& places = explained.beside.frame.state.places;
+  ToolError error;
+  const auto of = [&](const model::BeltMachine& by) {
+    return shape_error_mm(believed(by, machine, effects, places), places);
+  };
+  if (belts.machine.anchors_known) error.stated_mm = of(belts.machine);
+  error.before_mm = of(alone.machine);
+  error.after_mm = uncertain_mm(machine, covariance, places);
+  if (alone.scale) error.scale_mm_per_m = 1000.0 * alone.scale->sigma;
+  return error;
+}
+
+/// Of all readings, none set aside.
+double rms_of_all_mm(const MeasuredBelts& belts, const FrameBeside& beside) {
+  belts::SettledFrame from = beside.frame;
+  from.counting.assign(belts.points.size(), {true, true, true, true});
+  const auto fitted = settle_beside(belts, beside.causes, from);
+  const FrameBeside& at = fitted ? *fitted : beside;
+  const MeasuredBelts freed = freed_of(belts, at.causes, at.frame.state);
+  const belts::FrameSolver solver(freed, at.frame.counting, at.frame.spread_mm);
+  const Eigen::VectorXd left = solver.equations(at.frame.state).residual;
+  return std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
+}
+
+std::optional<Foretold> foretold_by_halves(const MeasuredBelts& belts, const Explained& explained) {
+  const std::size_t count = belts.points.size();
+  if (count < 2 * kFewestBeltPoints) return std::nullopt;
+  const std::vector<std::size_t> order = belts::in_order(belts);
+  std::vector<double> off_mm;
+  for (const std::size_t half : {0, 1}) {
+    belts::SettledFrame from = explained.beside.frame;
+    for (std::size_t i = half; i < count; i += 2)
+      from.counting[order[i]] = {false, false, false, false};
+    const auto fitted = settle_beside(belts, explained.beside.causes, from);
+    if (!fitted || fitted->frame.checks < 1) return std::nullopt;
+    const MeasuredBelts freed = freed_of(belts, fitted->causes, fitted->frame.state);
+    for (std::size_t i = half; i < count; i += 2) {
+      belts::foretell(freed,
+                      order[i],
+                      fitted->frame.state.anchors,
+                      explained.beside.frame.counting[order[i]],
+                      off_mm);
+    }
+  }
+  return belts::summed(off_mm);
+}
+
+}  // namespace
+
+Explained explained(const BeltsAnalysis& a) {
+  belts::SettledFrame from = a.state.frame;
+  from.counting = decided_counting(a);
+  auto beside = settle_beside(a.belts, decided_causes(a.analysis), from);
+  Explained result{beside ? *std::move(beside) : FrameBeside{from, a.state.causes}, {}};
+  result.freed = freed_of(a.belts, result.beside.causes, result.beside.frame.state);
+  return result;
+}
+
+BeltsFindings belts_findings(const BeltsAnalysis& a,
+                             const Explained& explained,
+                             const MeasuredBelts& belts,
+                             const BeltsFit& alone) {
+  const belts::SettledFrame& frame = explained.beside.frame;
+  BeltsFindings found;
+  found.machine = belts::with_anchors(belts.machine, frame.state.anchors);
+  const Eigen::MatrixXd& covariance = a.analysis.estimate.setting_covariance;
+  for (std::size_t i = 0; i < found.coordinates.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    found.coordinates[i] = {alone.coordinates[i].name,
+                            alone.coordinates[i].stated_mm,
+                            alone.coordinates[i].fitted_mm,
+                            frame.state.anchors[at],
+                            std::sqrt(covariance(at, at))};
+  }
+  found.spread_before_mm = alone.spread_mm;
+  found.rms_before_mm = rms_of_all_mm(a.belts, {a.alone, {}});
+  found.rms_mm = rms_of_all_mm(a.belts, explained.beside);
+  const belts::FrameView view(explained.freed, frame);
+  double good_square = 0.0;
+  for (std::size_t k = 0; k < belts.points.size(); ++k) {
+    BeltPlacePicture place{frame.state.places[k], belts.points[k].order, {}, {}, {}};
+    for (const Belt belt : kBelts) {
+      const BeltResidual left = view.residual(k, belt);
+      place.before_mm[belt] = alone.places[k].belts[belt].off_mm;
+      place.after_mm[belt] = left.off_mm;
+      place.bad[belt] = !frame.counting[k][belt];
+      if (left.counts) good_square += left.off_mm * left.off_mm;
+    }
+    found.places.push_back(place);
+  }
+  const auto values = static_cast<Eigen::Index>(a.analysis.estimate.free.size());
+  found.checks = static_cast<int>(std::max<Eigen::Index>(frame.checks - values, 1));
+  found.spread_mm = std::sqrt(good_square / found.checks);
+  found.foretold_before = alone.half_left_out;
+  found.foretold = foretold_by_halves(a.belts, explained);
+  found.tool = tool_error(explained, belts, alone, found.machine, covariance);
+  found.scale = alone.scale;
+  found.firmware_fit = belts.firmware_fit;
+  return found;
+}
+
+Unexplained unexplained(const BeltsAnalysis& a) {
+  Unexplained result;
+  result.probability = std::clamp(a.analysis.decision.discrepancy, 0.0, 1.0);
+  if (!a.pattern_length_mm) return result;
+  const auto checks = static_cast<double>(a.analysis.system.e.size());
+  result.signal_to_noise = a.pattern_rms_mm / a.sigma_mm * std::sqrt(checks);
+  result.rms_mm = a.pattern_rms_mm;
+  result.share = a.pattern_share;
+  result.length_mm = *a.pattern_length_mm;
+  return result;
+}
+
+std::vector<Outlier> bad_belts(const Explained& explained) {
+  const belts::FrameView view(explained.freed, explained.beside.frame);
+  std::vector<Outlier> result;
+  for (std::size_t k = 0; k < explained.freed.points.size(); ++k) {
+    std::vector<Belt> bad;
+    Outlier outlier;
+    outlier.of = Observations::belts;
+    outlier.index = k;
+    for (const Belt belt : kBelts) {
+      if (explained.beside.frame.counting[k][belt]) continue;
+      bad.push_back(belt);
+      const BeltResidual own = view.residual(k, belt);
+      if (std::abs(own.beside_mm) <= std::abs(outlier.off_mm)) continue;
+      outlier.off_mm = own.beside_mm;
+      outlier.distance = std::abs(own.sigmas);
+    }
+    if (bad.empty()) continue;
+    if (bad.size() == 1) outlier.belt = bad.front();
+    result.push_back(outlier);
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// An analysis of four belts as the answer has it. Private to grid/diagnosis.
+#pragma once
+
+#include "grid/belts/belts_fit.hpp"
+#include "grid/diagnosis/belts_analysis.hpp"
+#include "grid/diagnosis/diagnosis.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Anchors, places and sizes at rest with the causes that were decided on, and the readings without
+/// what these add.
+struct Explained {
+  FrameBeside beside;
+  MeasuredBelts freed;
+};
+[[nodiscard]] Explained explained(const BeltsAnalysis& analysis);
+
+/// Everything but words; `alone` is what fit_belts() makes of the same belts.
+[[nodiscard]] BeltsFindings belts_findings(const BeltsAnalysis& analysis,
+                                           const Explained& explained,
+                                           const MeasuredBelts& belts,
+                                           const BeltsFit& alone);
+
+/// The pattern that no cause makes, where the decision holds one; else its probability alone.
+[[nodiscard]] Unexplained unexplained(const BeltsAnalysis& analysis);
+
+/// Readings set aside: of a place of which more than one is, the place.
+[[nodiscard]] std::vector<Outlier> bad_belts(const Explained& explained);
+
+/// verdict, sentence, what_to_do, not_proved and notes from everything else.
+void put_belts_into_words(const MeasuredBelts& belts, const BeltsFit& alone, Diagnosis& diagnosis);
+
+}  // namespace chaintrue::grid::diagnosis

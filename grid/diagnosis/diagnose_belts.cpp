@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include "grid/diagnosis/belts_report.hpp"
+#include "grid/diagnosis/diagnose.hpp"
+#include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/normal_plot.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr int kWorkSteps = 2;
+constexpr WorkStep kFitting{"anchors alone", 1, kWorkSteps};
+constexpr WorkStep kComparing{"the causes against each other", 2, kWorkSteps};
+
+DiagnosisFailure failure_of(const BeltsFitFailure& failure) {
+  using Of = BeltsFitFailure::Reason;
+  using Reason = DiagnosisFailure::Reason;
+  return {failure.reason == Of::too_few_points || failure.reason == Of::not_determined
+              ? Reason::too_few_points
+              : Reason::contradictory_settings,
+          failure.sentence};
+}
+
+}  // namespace
+
+tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
+                                                   const DiagnosisOptions& options) {
+  tell(options.progress, kFitting);
+  const auto alone = fit_belts(belts);
+  if (!alone) return tl::unexpected(failure_of(alone.error()));
+  tell(options.progress, kComparing);
+  const auto analysed = analyse(belts, options);
+  if (!analysed) return tl::unexpected(analysed.error());
+  const Analysis& a = analysed->analysis;
+  const Explained beside = explained(*analysed);
+  Diagnosis d;
+  d.observations = Observations::belts;
+  d.grid_name = belts.name;
+  d.seed = options.seed;
+  d.verdict = a.decision.verdict;
+  d.noise_factor = std::sqrt(a.estimate.noise_square);
+  d.family_wise_p = a.family_wise_p;
+  d.causes = causes_found(a);
+  d.hypotheses = hypotheses(a);
+  d.terms = terms(a);
+  d.not_testable = a.candidates.not_testable;
+  d.bounds = bounds(a, d.not_testable);
+  d.separations = separations(a);
+  d.unexplained = unexplained(*analysed);
+  d.normal_plot = normal_plot(a);
+  d.outliers = bad_belts(beside);
+  d.belts = belts_findings(*analysed, beside, belts, *alone);
+  put_belts_into_words(belts, *alone, d);
+  return d;
+}
+
+}  // namespace chaintrue::grid::diagnosis

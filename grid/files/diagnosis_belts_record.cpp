@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What belts tell in a chaintrue_diagnosis file.
+#include <algorithm>
+
+#include "grid/files/belts_record.hpp"
+#include "grid/files/diagnosis_record.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+using diagnosis::BeltPlacePicture;
+using diagnosis::BeltsFindings;
+using diagnosis::DiagnosedCoordinate;
+using diagnosis::ToolError;
+
+constexpr Range kMillimetres{"mm", -1e6, 1e6};
+constexpr Range kSigma{"mm", 0.0, 1e6};
+/// As chaintrue_anchors has a value for each belt: one table serves both.
+constexpr Range kAnyNumber{"", -1e12, 1e12};
+constexpr Range kPerMetre{"mm a metre", 0.0, 1e4};
+constexpr int kMostVisits = 1000000000;
+
+const Record<DiagnosedCoordinate>& coordinate_record() {
+  static const auto record =
+      Record<DiagnosedCoordinate>("a coordinate of an anchor beside causes")
+          .required("coordinate",
+                    &DiagnosedCoordinate::name,
+                    one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
+          .optional("stated_mm", &DiagnosedCoordinate::stated_mm, number(kMillimetres))
+          .required("before_mm", &DiagnosedCoordinate::before_mm, number(kMillimetres))
+          .required("fitted_mm", &DiagnosedCoordinate::fitted_mm, number(kMillimetres))
+          .required("sigma_mm", &DiagnosedCoordinate::sigma_mm, number(kSigma));
+  return record;
+}
+
+const Record<BeltPlacePicture>& place_record() {
+  static const auto record = [] {
+    Record<BeltPlacePicture> place("a place with its belts");
+    const auto coordinate = [&](const char* key, double model::FramePoint::*member) {
+      place.custom(
+          key,
+          true,
+          {kMillimetres.expected(), [] { return number_schema(kMillimetres); }},
+          [member](const Cursor& at, BeltPlacePicture& p) {
+            if (const auto value = at.number(kMillimetres)) p.at.*member = *value;
+          },
+          [member](const BeltPlacePicture& p) { return std::optional<Json>(p.at.*member); });
+    };
+    coordinate("x_mm", &model::FramePoint::x_mm);
+    coordinate("y_mm", &model::FramePoint::y_mm);
+    place.optional("order", &BeltPlacePicture::order, integer(-kMostVisits, kMostVisits))
+        .required("before_mm",
+                  &BeltPlacePicture::before_mm,
+                  object(per_belt_record<double>(number(kAnyNumber))))
+        .required("after_mm",
+                  &BeltPlacePicture::after_mm,
+                  object(per_belt_record<double>(number(kAnyNumber))))
+        .required("bad", &BeltPlacePicture::bad, object(per_belt_record<bool>(boolean())));
+    return place;
+  }();
+  return record;
+}
+
+const Record<ToolError>& tool_record() {
+  static const auto record =
+      Record<ToolError>("the tool's error")
+          .optional("stated_mm", &ToolError::stated_mm, number(kSigma))
+          .required("before_mm", &ToolError::before_mm, number(kSigma))
+          .required("after_mm", &ToolError::after_mm, number(kSigma))
+          .optional("scale_mm_per_m", &ToolError::scale_mm_per_m, number(kPerMetre));
+  return record;
+}
+
+void read_coordinates(const Cursor& at, BeltsFindings& found) {
+  const auto read = list(object(coordinate_record())).read(at);
+  if (!read) return;
+  if (read->size() != found.coordinates.size()) {
+    at.problems().add(at.pointer(), fmt::format("{} of them", read->size()), "five coordinates");
+    return;
+  }
+  std::copy(read->begin(), read->end(), found.coordinates.begin());
+}
+
+std::optional<Json> written_coordinates(const BeltsFindings& found) {
+  Json all = Json::array();
+  for (const DiagnosedCoordinate& c : found.coordinates)
+    all.push_back(coordinate_record().write(c));
+  return all;
+}
+
+}  // namespace
+
+const Record<BeltsFindings>& belts_findings_record() {
+  static const auto record = [] {
+    Record<BeltsFindings> found("what belts tell");
+    found.required("machine", &BeltsFindings::machine, object(belt_machine_record()))
+        .custom("coordinates",
+                true,
+                {"five coordinates", list(object(coordinate_record()), 5).expected.schema},
+                read_coordinates,
+                written_coordinates)
+        .required("spread_before_mm", &BeltsFindings::spread_before_mm, number(kSigma))
+        .required("spread_mm", &BeltsFindings::spread_mm, number(kSigma))
+        .required("rms_before_mm", &BeltsFindings::rms_before_mm, number(kSigma))
+        .required("rms_mm", &BeltsFindings::rms_mm, number(kSigma))
+        .required("checks", &BeltsFindings::checks, integer(1, 1000000))
+        .optional("foretold_before", &BeltsFindings::foretold_before, object(foretold_record()))
+        .optional("foretold", &BeltsFindings::foretold, object(foretold_record()))
+        .required("tool", &BeltsFindings::tool, object(tool_record()))
+        .optional("scale", &BeltsFindings::scale, object(scale_record()))
+        .optional("firmware_fit", &BeltsFindings::firmware_fit, object(firmware_fit_record()))
+        .required("places", &BeltsFindings::places, list(object(place_record())));
+    return found;
+  }();
+  return record;
+}
+
+}  // namespace chaintrue::grid::files
