@@ -143,7 +143,7 @@ class DiscrepancyBasis::Fields {
       Eigen::MatrixXd e(marginalised_.e.size(),
                         static_cast<Eigen::Index>(plain.columns.size()) + 1);
       e.col(0) = marginalised_.e;
-      e.rightCols(e.cols() - 1) = marginalised_.g(Eigen::all, plain.columns);
+      e.rightCols(e.cols() - 1) = marginalised_.g.dense(plain.columns);
       first = parts.first.transpose() * e;
       second = parts.second.transpose() * e;
     }

@@ -84,7 +84,7 @@ Estimate estimate(const LinearisedSystem& system,
     unknowns.sigma.head(settings) = system.sigma;
     for (Eigen::Index k = 0; k < free; ++k) {
       const int column = regressors[result.free[static_cast<std::size_t>(k)]];
-      unknowns.design.col(settings + k) = system.g(marginalised.kept, column);
+      unknowns.design.col(settings + k) = system.g.column(marginalised.kept, column);
       unknowns.sigma(settings + k) =
           kWideSignalToNoise / std::max(marginalised.g.col(column).norm(), 1e-12);
     }
