@@ -150,10 +150,11 @@ Decision decide_for_leaders(const LinearisedSystem& system,
 void decide_for(bool seen, Analysis& a) {
   const std::vector<bool> none(a.session.units.size(), false);
   a.decision = decide_for_leaders(a.system, a.comparison, none, seen);
-  a.estimate = estimate(a.system,
-                        a.comparison.marginalised_systems[a.decision.marginalised],
-                        a.decision.regressors,
-                        a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
+  a.noise = discrepancy_noise(
+      a.system, marginalised, a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
+  a.estimate = estimate(a.system, marginalised, a.decision.regressors, a.noise.get());
 }
 
 namespace {

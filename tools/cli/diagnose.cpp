@@ -129,7 +129,7 @@ std::string counted(const grid::Measured& measured) {
 
 /// The cost grows faster than the square of the number (docs/reliability.md); more than these would
 /// take minutes and name nothing else.
-constexpr std::size_t kMostDiagnosed = 600;
+constexpr std::size_t kMostDiagnosed = 1200;
 
 /// Empty where there are not too many.
 std::string too_many(const grid::Measured& measured) {
