@@ -64,7 +64,7 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
   for (int pass = 0; pass < kCalibrations && !a.settled; ++pass) {
     auto system = linearise(session, state, a.options.steps);
     if (!system) return tl::unexpected(unreachable(session, system.error()));
-    system->g.resize(session.rows, 0);
+    system->g = RegressorColumns(session.rows);
     const auto outliers = outlier_sets(*system, none, {{}}, projected).front();
     const MarginalisedSystem marginalised = marginalise(*system, outliers, projected);
     const Eigen::VectorXd change = estimate(*system, marginalised, {}, -1).setting_change;
@@ -99,7 +99,7 @@ void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
     kept.push_back(static_cast<Eigen::Index>(k));
     regressors.push_back(a.system.regressors[k]);
   }
-  a.system.g = a.system.g(Eigen::all, kept).eval();
+  a.system.g = a.system.g.subset(kept);
   a.system.regressors = std::move(regressors);
   a.candidates.testable = std::move(visible);
 }
@@ -154,10 +154,11 @@ Decision decide_for_leaders(const LinearisedSystem& system,
 void decide_for(bool seen, Analysis& a) {
   const std::vector<bool> none(a.session.units.size(), false);
   a.decision = decide_for_leaders(a.system, a.comparison, none, seen);
-  a.estimate = estimate(a.system,
-                        a.comparison.marginalised_systems[a.decision.marginalised],
-                        a.decision.regressors,
-                        a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
+  const MarginalisedSystem& marginalised =
+      a.comparison.marginalised_systems[a.decision.marginalised];
+  a.noise = discrepancy_noise(
+      a.system, marginalised, a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
+  a.estimate = estimate(a.system, marginalised, a.decision.regressors, a.noise.get());
 }
 
 void test_significance(Analysis& a) {

@@ -26,6 +26,8 @@ struct Analysis {
   double score = 0.0;          ///< of the strongest single effect, log Bayes factor against nothing
   double family_wise_p = 1.0;  ///< chance that noise alone scores as high
   Decision decision;
+  /// Of the discrepancy that the decision leaves; null where it leaves none.
+  std::shared_ptr<const DiscrepancyNoise> noise;
   Estimate estimate;  ///< of the decision's causes
 };
 

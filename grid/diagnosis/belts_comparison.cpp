@@ -112,7 +112,8 @@ void add_best(const LinearisedSystem& system,
 /// leads has taken its own.
 std::vector<int> columns_to_try(const LinearisedSystem& system, const MarginalisedSystem& space) {
   std::set<int> chosen;
-  add_best(system, space.g, space.e, chosen);
+  const Eigen::MatrixXd all = space.g.dense();
+  add_best(system, all, space.e, chosen);
   std::vector<std::pair<double, int>> leading;
   for (const int k : chosen) {
     if (system.regressors[static_cast<std::size_t>(k)].fixed) continue;
@@ -127,7 +128,7 @@ std::vector<int> columns_to_try(const LinearisedSystem& system, const Marginalis
     if (std::find(taken.begin(), taken.end(), cause) != taken.end()) continue;
     taken.push_back(cause);
     const Eigen::VectorXd own = space.g.col(k).normalized();
-    const Eigen::MatrixXd g = space.g - own * (own.transpose() * space.g);
+    const Eigen::MatrixXd g = all - own * (own.transpose() * all);
     add_best(system, g, space.e - own * own.dot(space.e), chosen);
   }
   return {chosen.begin(), chosen.end()};
@@ -217,8 +218,8 @@ class Search {
     const CovarianceRoot root(whitened(system_.by_setting(space_.kept, Eigen::all)) *
                               system_.sigma.asDiagonal());
     const Eigen::VectorXd e = root.solve(whitened(system_.e(space_.kept)));
-    const Eigen::MatrixXd g =
-        root.solve(whitened(system_.g(space_.kept, equations_.columns)));
+    const Eigen::MatrixXd columns = system_.g.dense(equations_.columns);
+    const Eigen::MatrixXd g = root.solve(whitened(columns(space_.kept, Eigen::all)));
     equations_.ee = e.squaredNorm();
     equations_.ge = g.transpose() * e;
     equations_.gg = g.transpose() * g;
@@ -344,7 +345,9 @@ void integrate_pattern(BeltsAnalysis& a) {
   whiten(e);
   system.e = e;
   whiten(system.by_setting);
-  whiten(system.g);
+  Eigen::MatrixXd g = system.g.dense();
+  whiten(g);
+  system.g = RegressorColumns(std::move(g));
   space = marginalise(system, space.outliers, own.options.steps);
   own.estimate = estimate(system, space, decision.regressors, -1);
   const Eigen::VectorXd beside = own.estimate.left(space.kept);

@@ -38,7 +38,7 @@ class Search {
     }
     const Eigen::Index settings = own.by_setting.cols();
     x_.resize(e_.size(), settings + static_cast<Eigen::Index>(free.size()));
-    x_ << own.by_setting, own.g(Eigen::all, free);
+    x_ << own.by_setting, own.g.dense(free);
     Eigen::VectorXd prior = x_.colwise().squaredNorm() / std::pow(kWideSignalToNoise, 2);
     prior.head(settings) = own.sigma.cwiseAbs2().cwiseInverse();
     normal_ = x_.transpose() * x_;

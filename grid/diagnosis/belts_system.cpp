@@ -260,7 +260,7 @@ void turn_to(const Suspects& suspects, double sigma_mm, BeltsSystem& result) {
   LinearisedSystem& system = result.system;
   system.e = checked(result.checks, result.residual_mm) / sigma_mm;
   system.by_setting = checked(result.checks, result.by_anchor) / sigma_mm;
-  system.g = checked(result.checks, result.by_cause_mm) / sigma_mm;
+  system.g = Eigen::MatrixXd(checked(result.checks, result.by_cause_mm) / sigma_mm);
 }
 
 }  // namespace chaintrue::grid::diagnosis

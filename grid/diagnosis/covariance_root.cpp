@@ -28,8 +28,18 @@ Eigen::MatrixXd CovarianceRoot::inverse() const {
   return power(-0.5, Eigen::MatrixXd::Identity(basis_.rows(), basis_.rows()));
 }
 
-Eigen::MatrixXd CovarianceRoot::precision() const {
-  return power(-1.0, Eigen::MatrixXd::Identity(basis_.rows(), basis_.rows()));
+Eigen::MatrixXd CovarianceRoot::precision_block(Eigen::Index row,
+                                                Eigen::Index rows,
+                                                Eigen::Index column,
+                                                Eigen::Index columns) const {
+  const Eigen::VectorXd change = (-log_variance_).exp() - 1.0;
+  Eigen::MatrixXd result = basis_.middleRows(row, rows) *
+                           (change.asDiagonal() * basis_.middleRows(column, columns).transpose());
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    const Eigen::Index own = column + k - row;
+    if (own >= 0 && own < rows) result(own, k) += 1.0;
+  }
+  return result;
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -27,8 +27,11 @@ class CovarianceRoot {
   [[nodiscard]] Eigen::MatrixXd times(const Eigen::MatrixXd& m) const;
   /// V^(-1/2), rows x rows.
   [[nodiscard]] Eigen::MatrixXd inverse() const;
-  /// V^(-1), rows x rows.
-  [[nodiscard]] Eigen::MatrixXd precision() const;
+  /// Of V^(-1) the block of so many rows and columns from these on.
+  [[nodiscard]] Eigen::MatrixXd precision_block(Eigen::Index row,
+                                                Eigen::Index rows,
+                                                Eigen::Index column,
+                                                Eigen::Index columns) const;
   [[nodiscard]] double log_det() const { return log_variance_.sum(); }
 
  private:

@@ -355,7 +355,7 @@ std::vector<CauseClass> classes_of(const LinearisedSystem& system,
   std::vector<CauseClass> classes;
   std::vector<Representative> first;
   for (const auto& [cause, column] : leading_regressors(system, marginalised)) {
-    Representative own{seen(system.g(marginalised.kept, column)),
+    Representative own{seen(system.g.column(marginalised.kept, column)),
                        marginalised.g.col(column),
                        system.regressors[static_cast<std::size_t>(column)].fixed};
     const double whole = own.free.norm();

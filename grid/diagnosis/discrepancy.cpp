@@ -235,11 +235,16 @@ Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
   for (const DiscrepancyField& field : kernel.fields) {
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
     if (const auto d = entry_direction(field)) covariance = *d * d->transpose();
-    for (Eigen::Index i = 0; i < 2; ++i) {
-      for (Eigen::Index j = 0; j < 2; ++j) {
-        covariance(i, j) *= field_covariance(
-            field, field_argument(field, a, i), field_argument(field, b, j));
+    if (field.of == FieldOf::border) {
+      for (Eigen::Index i = 0; i < 2; ++i) {
+        for (Eigen::Index j = 0; j < 2; ++j) {
+          covariance(i, j) *= field_covariance(
+              field, field_argument(field, a, i), field_argument(field, b, j));
+        }
       }
+    } else {
+      covariance *=
+          field_covariance(field, field_argument(field, a, 0), field_argument(field, b, 0));
     }
     sum += field_entry(field, a) * covariance * field_entry(field, b).transpose();
   }

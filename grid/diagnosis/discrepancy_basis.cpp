@@ -19,9 +19,8 @@ Eigen::MatrixXd low_rank_field(const DiscrepancyField& field,
                                const std::vector<FieldArgument>& arguments) {
   const auto n = static_cast<Eigen::Index>(arguments.size());
   const auto covariance = [&](Eigen::Index i, Eigen::Index j) {
-    return field_covariance(field,
-                            arguments[static_cast<std::size_t>(i)],
-                            arguments[static_cast<std::size_t>(j)]);
+    return field_covariance(
+        field, arguments[static_cast<std::size_t>(i)], arguments[static_cast<std::size_t>(j)]);
   };
   Eigen::MatrixXd factor(n, 0);
   Eigen::VectorXd left(n);
@@ -122,8 +121,8 @@ class DiscrepancyBasis::Fields {
 
   Products& of(DiscrepancyField field) {
     field.direction_rad.reset();
-    const auto known = std::find_if(
-        all_.begin(), all_.end(), [&](const Products& p) { return p.field == field; });
+    const auto known =
+        std::find_if(all_.begin(), all_.end(), [&](const Products& p) { return p.field == field; });
     if (known != all_.end()) return *known;
     Products& p = all_.emplace_back();
     p.field = field;
@@ -143,7 +142,7 @@ class DiscrepancyBasis::Fields {
       Eigen::MatrixXd e(marginalised_.e.size(),
                         static_cast<Eigen::Index>(plain.columns.size()) + 1);
       e.col(0) = marginalised_.e;
-      e.rightCols(e.cols() - 1) = marginalised_.g(Eigen::all, plain.columns);
+      e.rightCols(e.cols() - 1) = marginalised_.g.dense(plain.columns);
       first = parts.first.transpose() * e;
       second = parts.second.transpose() * e;
     }
@@ -159,8 +158,7 @@ class DiscrepancyBasis::Fields {
 
 struct DiscrepancyBasis::Kernel {
   std::vector<Block> blocks;
-  Eigen::ArrayXd lambda;
-  Eigen::MatrixXd vectors;
+  Eigen::Tridiagonalization<Eigen::MatrixXd> tridiagonal;
 };
 
 DiscrepancyBasis::DiscrepancyBasis(const LinearisedSystem& system,
@@ -196,10 +194,8 @@ DiscrepancyBasis::DiscrepancyBasis(const LinearisedSystem& system,
       }
       row += a.products->gram11.cols();
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(all);
-    own.lambda = eigen.eigenvalues().array().max(0.0);
-    own.vectors = eigen.eigenvectors();
-    marginalised.discrepancy_trace[number] = own.lambda.sum();
+    marginalised.discrepancy_trace[number] = all.trace();
+    if (rank > 0) own.tridiagonal.compute(all);
   }
 }
 
@@ -208,63 +204,87 @@ DiscrepancyBasis::~DiscrepancyBasis() = default;
 DiscrepancyBasis::Beside DiscrepancyBasis::beside(std::size_t kernel,
                                                   const NormalEquations& plain) {
   const Kernel& own = kernels_.at(kernel);
-  Eigen::MatrixXd with(own.vectors.rows(), static_cast<Eigen::Index>(plain.columns.size()) + 1);
+  Beside result;
+  result.plain_ = &plain;
+  result.trace_ = marginalised_.discrepancy_trace.at(kernel);
+  const auto lines = static_cast<Eigen::Index>(plain.columns.size()) + 1;
+  if (own.blocks.empty() || !(result.trace_ > 0.0)) {
+    result.rotated_.resize(lines, 0);
+    return result;
+  }
+  result.on_ = own.tridiagonal.diagonal();
+  result.beside_ = own.tridiagonal.subDiagonal();
+  Eigen::MatrixXd with(result.on_.size(), lines);
   Eigen::Index row = 0;
   for (const Block& block : own.blocks) {
     const Eigen::MatrixXd part = fields_->with(block, plain);
     with.middleRows(row, part.rows()) = part;
     row += part.rows();
   }
-  Beside result;
-  result.plain_ = &plain;
-  result.lambda_ = own.lambda;
-  result.rotated_ = own.vectors.transpose() * with;
+  with.applyOnTheLeft(own.tridiagonal.matrixQ().adjoint());
+  result.rotated_ = with.transpose();
   return result;
 }
 
-Eigen::ArrayXd DiscrepancyBasis::Beside::weights(double strength) const {
-  const double trace = lambda_.sum();
-  const double square = trace > 0.0 ? strength * strength / trace : 0.0;
-  return square / (1.0 + square * lambda_);
+DiscrepancyBasis::Beside::Half DiscrepancyBasis::Beside::half(double strength) const {
+  // J + 1 / s^2 = L D L', L with ones on its diagonal and one entry beside each
+  const double shift = trace_ / (strength * strength);
+  const Eigen::Index r = on_.size();
+  Half result{Eigen::ArrayXd(r), Eigen::ArrayXd::Zero(r), 0.0};
+  double d = 0.0;
+  for (Eigen::Index k = 0; k < r; ++k) {
+    const double own = on_(k) + shift;
+    const double before = k > 0 ? beside_(k - 1) : 0.0;
+    if (k > 0) result.above(k) = before / std::sqrt(d);
+    // J is positive but for rounding
+    d = std::max(k > 0 ? own - before * before / d : own, shift);
+    result.on(k) = 1.0 / std::sqrt(d);
+    result.log_det += std::log(d / shift);
+  }
+  return result;
 }
 
-double DiscrepancyBasis::Beside::log_det(const Eigen::ArrayXd& weights) const {
-  // 1 + s^2 lambda = 1 / (1 - weight lambda)
-  return plain_->log_det - (1.0 - weights * lambda_).log().sum();
+void DiscrepancyBasis::Beside::apply(const Half& half, Eigen::MatrixXd& lines) {
+  for (Eigen::Index k = 0; k < lines.cols(); ++k) {
+    if (k > 0) lines.col(k) -= half.above(k) * lines.col(k - 1);
+    lines.col(k) *= half.on(k);
+  }
 }
 
 DiscrepancyBasis::Beside::Diagonal DiscrepancyBasis::Beside::diagonal(double strength) const {
-  const Eigen::VectorXd weight = weights(strength);
-  const auto e = rotated_.col(0);
-  const auto g = rotated_.rightCols(rotated_.cols() - 1);
-  const Eigen::VectorXd weighted = weight.cwiseProduct(e);
+  const Half own = half(strength);
+  Eigen::MatrixXd lines = rotated_;
+  apply(own, lines);
+  const Eigen::RowVectorXd e = lines.row(0);
+  const auto g = lines.bottomRows(lines.rows() - 1);
   Diagonal result;
-  result.ee = plain_->ee - e.dot(weighted);
-  result.ge = plain_->ge - g.transpose() * weighted;
-  result.gg = plain_->prior_square - g.cwiseAbs2().transpose() * weight;
-  result.log_det = log_det(weight);
+  result.ee = plain_->ee - e.squaredNorm();
+  result.ge = plain_->ge - g * e.transpose();
+  result.gg = plain_->prior_square - g.rowwise().squaredNorm();
+  result.log_det = plain_->log_det + own.log_det;
   return result;
 }
 
 NormalEquations DiscrepancyBasis::Beside::equations(double strength,
                                                     std::vector<int> columns) const {
-  const Eigen::VectorXd weight = weights(strength);
   std::vector<Eigen::Index> at;
-  std::vector<Eigen::Index> rotated;
+  std::vector<Eigen::Index> line = {0};
   for (const int k : columns) {
     at.push_back(plain_->position(k));
-    rotated.push_back(at.back() + 1);
+    line.push_back(at.back() + 1);
   }
-  const Eigen::VectorXd e = rotated_.col(0);
-  const Eigen::MatrixXd g = rotated_(Eigen::all, rotated);
-  const Eigen::MatrixXd weighted = weight.asDiagonal() * g;
+  const Half own = half(strength);
+  Eigen::MatrixXd lines = rotated_(line, Eigen::all);
+  apply(own, lines);
+  const Eigen::RowVectorXd e = lines.row(0);
+  const auto g = lines.bottomRows(lines.rows() - 1);
   NormalEquations result;
   result.columns = std::move(columns);
-  result.ee = plain_->ee - e.dot(weight.cwiseProduct(e));
-  result.ge = plain_->ge(at) - weighted.transpose() * e;
-  result.gg = plain_->gg(at, at) - g.transpose() * weighted;
+  result.ee = plain_->ee - e.squaredNorm();
+  result.ge = plain_->ge(at) - g * e.transpose();
+  result.gg = plain_->gg(at, at) - g * g.transpose();
   result.prior_square = plain_->prior_square(at);
-  result.log_det = log_det(weight);
+  result.log_det = plain_->log_det + own.log_det;
   return result;
 }
 

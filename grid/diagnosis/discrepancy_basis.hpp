@@ -7,14 +7,14 @@
 ///   F      field over the places, low rank: k ~= F F', what is left of its diagonal below 1e-4
 ///   B      R^-1 W T F of a marginalised system, N x r; a direction of entry mixes two of these
 ///   E      residual and columns of the marginalised system
-///   lambda, V  eigenvalues and vectors of B'B
+///   Q J Q' B'B, J tridiagonal: with that a strength costs no more than its columns
 ///
-///   a'(I + s^2 B B')^-1 b = a'b - sum_i s^2 / (1 + s^2 lambda_i) (V'B'a)_i (V'B'b)_i
-///   det(I + s^2 B B')     = prod_i (1 + s^2 lambda_i)
+///   a'(I + s^2 B B')^-1 b = a'b - (Q'B'a)' (1 / s^2 + J)^-1 (Q'B'b)
+///   det(I + s^2 B B')     = det(1 + s^2 J)
 ///
 /// (Woodbury and Sylvester: G. Golub and C. Van Loan, Matrix Computations (2013), sections 2.1.4
-/// and 2.1.5.) Low rank by a pivoted Cholesky factorisation (H. Harbrecht, M. Peters and R.
-/// Schneider, Applied Numerical Mathematics 62 (2012), 428, algorithm 1).
+/// and 2.1.5, and 8.3.1 for the tridiagonal form.) Low rank by a pivoted Cholesky factorisation (H.
+/// Harbrecht, M. Peters and R. Schneider, Applied Numerical Mathematics 62 (2012), 428, algorithm 1).
 #pragma once
 
 #include <Eigen/Core>
@@ -34,7 +34,7 @@ class DiscrepancyBasis {
                    const std::vector<std::size_t>& kernels);
   ~DiscrepancyBasis();
 
-  /// Inner products of the residual and of some columns with a kernel's eigenvectors.
+  /// Inner products of the residual and of some columns with what turns a kernel tridiagonal.
   class Beside {
    public:
     /// Inner products of the residual with itself and with each column, and each column's square.
@@ -50,11 +50,20 @@ class DiscrepancyBasis {
 
    private:
     friend class DiscrepancyBasis;
-    [[nodiscard]] Eigen::ArrayXd weights(double strength) const;
-    [[nodiscard]] double log_det(const Eigen::ArrayXd& weights) const;
+    /// H with (1 + s^2 B B')^-1 = 1 - B Q H' H Q' B' of a strength: two diagonals.
+    struct Half {
+      Eigen::ArrayXd on;     ///< r
+      Eigen::ArrayXd above;  ///< r, each column's entry in the row before; the first is 0
+      double log_det = 0.0;  ///< |1 + s^2 B'B|
+    };
+    [[nodiscard]] Half half(double strength) const;
+    /// Replaces lines E'BQ by E'BQH'.
+    static void apply(const Half& half, Eigen::MatrixXd& lines);
     const NormalEquations* plain_ = nullptr;  ///< without a discrepancy
-    Eigen::ArrayXd lambda_;                   ///< r
-    Eigen::MatrixXd rotated_;                 ///< V'B'E, r x (1 + columns)
+    double trace_ = 0.0;
+    Eigen::ArrayXd on_;        ///< r, J's diagonal
+    Eigen::ArrayXd beside_;    ///< r - 1, the one beside it
+    Eigen::MatrixXd rotated_;  ///< E'BQ, (1 + columns) x r
   };
   /// `plain`: normal equations of the columns without a discrepancy; kept by reference.
   [[nodiscard]] Beside beside(std::size_t kernel, const NormalEquations& plain);

@@ -131,7 +131,7 @@ void Downdating::add_factorisation(std::size_t number,
   factorised.inverse = marginalised.root.inverse();
   Eigen::MatrixXd e(n, static_cast<Eigen::Index>(columns.size()) + 1);
   e.col(0) = marginalised.e;
-  e.rightCols(e.cols() - 1) = marginalised.g(Eigen::all, columns);
+  e.rightCols(e.cols() - 1) = marginalised.g.dense(columns);
   double log_det = marginalised.log_det;
   if (discrepancy >= 0) {
     const Discrepancy process = discrepancy_of(marginalised, discrepancy);
@@ -152,7 +152,7 @@ void Downdating::add_factorisation(std::size_t number,
                           gram(0, 0),
                           gram.col(0).tail(c),
                           gram.bottomRightCorner(c, c),
-                          marginalised.g(Eigen::all, columns).colwise().squaredNorm(),
+                          marginalised.g.dense(columns).colwise().squaredNorm(),
                           log_det};
   const NoiseDensity noise(dof_, n);
   for (const CandidateModel& model : models) {

@@ -42,12 +42,52 @@ Solution solve(const Unknowns& unknowns,
           unknowns.sigma.asDiagonal() * inverse * unknowns.sigma.asDiagonal()};
 }
 
+/// From what is left in the rows. Of the kept ones (1 + s^2 K)^-1 says it: left - s^2 K w = w.
+void take_discrepancy_out(const LinearisedSystem& system,
+                          const MarginalisedSystem& marginalised,
+                          Estimate& estimate) {
+  estimate.left_beside_discrepancy(marginalised.kept) = estimate.discrepancy_weights;
+  for (std::size_t u = 0; u < system.units.size(); ++u) {
+    if (!marginalised.outliers[u]) continue;
+    const SystemUnit& unit = system.units[u];
+    for (const SeenPlace& seen : unit.places) {
+      const DiscrepancyPlace place = discrepancy_place(system.places[seen.place]);
+      estimate.left_beside_discrepancy.segment(unit.first_row, unit.rows) -=
+          (seen.by_chain * discrepancy_at(system, marginalised, estimate, place)).head(unit.rows);
+    }
+  }
+}
+
 }  // namespace
 
 Estimate estimate(const LinearisedSystem& system,
                   const MarginalisedSystem& marginalised,
                   const std::vector<int>& regressors,
                   int discrepancy) {
+  return estimate(system,
+                  marginalised,
+                  regressors,
+                  discrepancy_noise(system, marginalised, discrepancy).get());
+}
+
+std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const LinearisedSystem& system,
+                                                          const MarginalisedSystem& marginalised,
+                                                          int discrepancy) {
+  if (discrepancy < 0) return nullptr;
+  auto noise = std::make_shared<DiscrepancyNoise>();
+  noise->process = discrepancy_of(marginalised, discrepancy);
+  const double square = noise->process.sigma_mm * noise->process.sigma_mm;
+  Eigen::MatrixXd c =
+      square * discrepancy_covariance(system, marginalised.kept, noise->process.kernel);
+  c.diagonal().array() += 1.0;
+  noise->llt.compute(c);
+  return noise;
+}
+
+Estimate estimate(const LinearisedSystem& system,
+                  const MarginalisedSystem& marginalised,
+                  const std::vector<int>& regressors,
+                  const DiscrepancyNoise* noise) {
   Estimate result;
   result.regressors = regressors;
   const auto settings = system.setting.size();
@@ -62,15 +102,6 @@ Estimate estimate(const LinearisedSystem& system,
       result.free.push_back(k);
     }
   }
-  Eigen::LLT<Eigen::MatrixXd> noise;
-  Discrepancy process;
-  if (discrepancy >= 0) {
-    process = discrepancy_of(marginalised, discrepancy);
-    Eigen::MatrixXd c = process.sigma_mm * process.sigma_mm *
-                        discrepancy_covariance(system, marginalised.kept, process.kernel);
-    c.diagonal().array() += 1.0;
-    noise.compute(c);
-  }
   Solution solution;
   // A coefficient that leaves its bounds is fixed there and the rest solved again.
   while (true) {
@@ -84,11 +115,11 @@ Estimate estimate(const LinearisedSystem& system,
     unknowns.sigma.head(settings) = system.sigma;
     for (Eigen::Index k = 0; k < free; ++k) {
       const int column = regressors[result.free[static_cast<std::size_t>(k)]];
-      unknowns.design.col(settings + k) = system.g(marginalised.kept, column);
+      unknowns.design.col(settings + k) = system.g.column(marginalised.kept, column);
       unknowns.sigma(settings + k) =
           kWideSignalToNoise / std::max(marginalised.g.col(column).norm(), 1e-12);
     }
-    solution = solve(unknowns, data(marginalised.kept), discrepancy >= 0 ? &noise : nullptr);
+    solution = solve(unknowns, data(marginalised.kept), noise != nullptr ? &noise->llt : nullptr);
     std::size_t outside = result.free.size();
     for (std::size_t k = 0; k < result.free.size(); ++k) {
       const Regressor& d = system.regressors[static_cast<std::size_t>(regressors[result.free[k]])];
@@ -116,11 +147,11 @@ Estimate estimate(const LinearisedSystem& system,
   result.left_beside_discrepancy = left;
   const Eigen::VectorXd kept = left(marginalised.kept);
   double quadratic = kept.squaredNorm();
-  if (discrepancy >= 0) {
-    result.discrepancy = process;
-    result.discrepancy_weights = noise.solve(kept);
+  if (noise != nullptr) {
+    result.discrepancy = noise->process;
+    result.discrepancy_weights = noise->llt.solve(kept);
     quadratic = kept.dot(result.discrepancy_weights);
-    result.left_beside_discrepancy -= discrepancy_in_rows(system, marginalised, result);
+    take_discrepancy_out(system, marginalised, result);
   }
   const Eigen::VectorXd off =
       (result.setting_change - system.expected_change).cwiseQuotient(system.sigma);
@@ -161,23 +192,6 @@ Eigen::Vector2d discrepancy_at(const LinearisedSystem& system,
     }
   }
   return estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm * mm;
-}
-
-Eigen::VectorXd discrepancy_in_rows(const LinearisedSystem& system,
-                                    const MarginalisedSystem& marginalised,
-                                    const Estimate& estimate) {
-  std::vector<Eigen::Vector2d> chains;
-  for (const SystemPlace& place : system.places) {
-    chains.push_back(discrepancy_at(system, marginalised, estimate, discrepancy_place(place)));
-  }
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(system.e.size());
-  for (const SystemUnit& unit : system.units) {
-    for (const SeenPlace& seen : unit.places) {
-      all.segment(unit.first_row, unit.rows) +=
-          (seen.by_chain * chains[seen.place]).head(unit.rows);
-    }
-  }
-  return all;
 }
 
 Eigen::VectorXd left_of_machine(const LinearisedSystem& system,

@@ -4,7 +4,9 @@
 /// comparison; and what is then left at every point, those that were held out included.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "grid/diagnosis/model_comparison.hpp"
@@ -36,17 +38,25 @@ struct Estimate {
                                 const std::vector<int>& regressors,
                                 int discrepancy);
 
+/// The kept rows' covariance with a discrepancy, factored once for all estimates beside it.
+struct DiscrepancyNoise {
+  Discrepancy process;
+  Eigen::LLT<Eigen::MatrixXd> llt;  ///< of 1 + s^2 K, N x N
+};
+/// Null for no discrepancy.
+[[nodiscard]] std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(
+    const LinearisedSystem& system, const MarginalisedSystem& marginalised, int discrepancy);
+[[nodiscard]] Estimate estimate(const LinearisedSystem& system,
+                                const MarginalisedSystem& marginalised,
+                                const std::vector<int>& regressors,
+                                const DiscrepancyNoise* noise);
+
 /// What the model discrepancy adds to either chain at a place [mm]; zero where the estimate has
 /// none.
 [[nodiscard]] Eigen::Vector2d discrepancy_at(const LinearisedSystem& system,
                                              const MarginalisedSystem& marginalised,
                                              const Estimate& estimate,
                                              const DiscrepancyPlace& place);
-
-/// The same in the whitened rows, all of them.
-[[nodiscard]] Eigen::VectorXd discrepancy_in_rows(const LinearisedSystem& system,
-                                                  const MarginalisedSystem& marginalised,
-                                                  const Estimate& estimate);
 
 /// `left` with what the nuisances took put back: what the machine leaves. For points `left` itself.
 [[nodiscard]] Eigen::VectorXd left_of_machine(const LinearisedSystem& system,

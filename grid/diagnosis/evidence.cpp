@@ -99,7 +99,9 @@ MarginalisedSystem marginalise(const LinearisedSystem& system,
   }
   marginalised.log_det = marginalised.root.log_det();
   marginalised.e = marginalised.root.solve(e);
-  marginalised.g = marginalised.root.solve(system.g(marginalised.kept, Eigen::all));
+  marginalised.g = system.g.mapped([&](const auto& columns) {
+    return marginalised.root.solve(columns(marginalised.kept, Eigen::all));
+  });
   return marginalised;
 }
 
@@ -140,7 +142,7 @@ NormalEquations normal_equations(const MarginalisedSystem& marginalised, std::ve
   NormalEquations equations;
   std::sort(columns.begin(), columns.end());
   equations.columns = std::move(columns);
-  const Eigen::MatrixXd g = marginalised.g(Eigen::all, equations.columns);
+  const Eigen::MatrixXd g = marginalised.g.dense(equations.columns);
   equations.ee = marginalised.e.squaredNorm();
   equations.ge = g.transpose() * marginalised.e;
   equations.gg = g.transpose() * g;

@@ -59,7 +59,7 @@ struct MarginalisedSystem {
   std::vector<Eigen::Index> kept;  ///< N rows, ascending
   CovarianceRoot root;             ///< N x N, R of V = R R
   Eigen::VectorXd e;               ///< N, R^-1 times the residual
-  Eigen::MatrixXd g;               ///< N x a column a regressor, R^-1 times it
+  RegressorColumns g;              ///< N x a column a regressor, R^-1 times it
   double log_det = 0.0;            ///< log |V|
   double log_outliers = 0.0;       ///< prior and density of the points set aside
   /// Per kernel: trace of its covariance in this marginalised system, for a discrepancy of 1 mm.

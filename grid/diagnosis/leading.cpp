@@ -99,10 +99,7 @@ Shown shown(const Analysis& a) {
 
 Estimate estimate_with(const Analysis& a, std::vector<int> regressors) {
   std::sort(regressors.begin(), regressors.end());
-  return estimate(a.system,
-                  marginalised_system(a),
-                  regressors,
-                  a.decision.discrepancy_left ? a.decision.best_discrepancy : -1);
+  return estimate(a.system, marginalised_system(a), regressors, a.noise.get());
 }
 
 Estimate estimate_of(const Analysis& a, const std::vector<int>& regressors) {

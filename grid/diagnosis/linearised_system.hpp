@@ -29,6 +29,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/diagnosis/regressor_columns.hpp"
 #include "grid/diagnosis/session.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -89,7 +90,7 @@ struct SystemUnit {
 struct LinearisedSystem {
   Eigen::VectorXd e;           ///< n
   Eigen::MatrixXd by_setting;  ///< A, n x q
-  Eigen::MatrixXd g;           ///< n x a column a regressor
+  RegressorColumns g;          ///< n x a column a regressor
   std::vector<Regressor> regressors;
   std::vector<SystemPlace> places;
   std::vector<SystemUnit> units;    ///< of consecutive rows, the first ones

@@ -82,8 +82,8 @@ SingleScores single_scores(const LinearisedSystem& system,
   SingleScores scores;
   const double ee = e.squaredNorm();
   const double nothing = noise.log_density(ee);
-  const Eigen::VectorXd c = marginalised.g.transpose() * e;
-  const Eigen::VectorXd square = marginalised.g.colwise().squaredNorm();
+  const Eigen::VectorXd c = marginalised.g.transpose_times(e);
+  const Eigen::VectorXd square = marginalised.g.squared_norms();
   std::vector<std::vector<double>> terms;
   std::vector<double> best;
   NormalEquations equations;

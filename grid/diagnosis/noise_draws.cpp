@@ -21,7 +21,7 @@ Eigen::MatrixXd design_of(const Analysis& a) {
       a.system.by_setting(marginalised.kept, Eigen::all) * a.system.sigma.asDiagonal();
   for (Eigen::Index k = 0; k < causes; ++k) {
     const int column = a.estimate.regressors[a.estimate.free[static_cast<std::size_t>(k)]];
-    design.col(settings + k) = a.system.g(marginalised.kept, column) * kWideSignalToNoise /
+    design.col(settings + k) = a.system.g.column(marginalised.kept, column) * kWideSignalToNoise /
                                std::max(marginalised.g.col(column).norm(), 1e-12);
   }
   return design;

@@ -21,7 +21,7 @@ SingleScore::SingleScore(const LinearisedSystem& system,
                          const MarginalisedSystem& marginalised,
                          double noise_dof)
     : marginalised_(marginalised), dof_(noise_dof) {
-  square_ = marginalised.g.colwise().squaredNorm();
+  square_ = marginalised.g.squared_norms();
   constant_.resize(square_.size());
   for (Eigen::Index k = 0; k < square_.size(); ++k) {
     const Regressor& d = system.regressors[static_cast<std::size_t>(k)];
@@ -58,7 +58,7 @@ double SingleScore::largest(const NormalEquations& equations, Eigen::Index rows)
 }
 
 Eigen::VectorXd SingleScore::by_cause(const Eigen::VectorXd& e) const {
-  const Eigen::VectorXd c = marginalised_.g.transpose() * e;
+  const Eigen::VectorXd c = marginalised_.g.transpose_times(e);
   const double ee = e.squaredNorm();
   const auto n = static_cast<double>(e.size());
   Eigen::VectorXd result =
@@ -71,13 +71,15 @@ Eigen::VectorXd SingleScore::by_cause(const Eigen::VectorXd& e) const {
 }
 
 Eigen::VectorXd SingleScore::largest(const Eigen::MatrixXd& e) const {
-  const Eigen::MatrixXd c = marginalised_.g.transpose() * e;
+  const RegressorColumns& g = marginalised_.g;
+  const Eigen::MatrixXd c = g.distinct().transpose() * e;
   const auto n = static_cast<double>(e.rows());
   Eigen::VectorXd result = Eigen::VectorXd::Constant(e.cols(), kNoScore);
   for (Eigen::Index draw = 0; draw < e.cols(); ++draw) {
     const double ee = e.col(draw).squaredNorm();
-    for (Eigen::Index k = 0; k < c.rows(); ++k) {
-      result(draw) = std::max(result(draw), score(k, square_(k), c(k, draw), ee, n));
+    for (Eigen::Index k = 0; k < g.cols(); ++k) {
+      const double own = g.factor(k) * c(g.index(k), draw);
+      result(draw) = std::max(result(draw), score(k, square_(k), own, ee, n));
     }
   }
   return result;

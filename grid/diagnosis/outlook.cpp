@@ -120,7 +120,7 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
   x.leftCols(settings) = a.system.by_setting(kept, Eigen::all);
   for (std::size_t i = 0; i < fitted.free.size(); ++i) {
     x.col(settings + static_cast<Eigen::Index>(i)) =
-        a.system.g(kept, fitted.regressors[fitted.free[i]]);
+        a.system.g.column(kept, fitted.regressors[fitted.free[i]]);
   }
   mean += k * fitted.discrepancy_weights;
   design -= k * llt.solve(x);

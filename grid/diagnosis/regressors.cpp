@@ -78,8 +78,7 @@ Eigen::VectorXd added(const LinearisedSystem& system,
   Eigen::VectorXd column = Eigen::VectorXd::Zero(system.e.size());
   for (const SystemUnit& unit : system.units) {
     for (const SeenPlace& seen : unit.places) {
-      column.segment(unit.first_row, unit.rows) +=
-          (seen.by_chain * mm[seen.place]).head(unit.rows);
+      column.segment(unit.first_row, unit.rows) += (seen.by_chain * mm[seen.place]).head(unit.rows);
     }
   }
   return column;
@@ -129,14 +128,9 @@ std::vector<double> places(const LinearisedSystem& system, CauseId cause) {
 /// Goes on through zero as a straight line, where an odd effect changes its sign.
 bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
 
-struct Column {
-  Regressor regressor;
-  Eigen::VectorXd g;
-};
-
 class Builder {
  public:
-  Builder(const Session& session, const State& state, const LinearisedSystem& system)
+  Builder(const Session& session, const State& state, LinearisedSystem& system)
       : session_(session), state_(state), system_(system) {}
 
   void add(CauseId cause, const std::vector<Refinement>& refinements) {
@@ -164,8 +158,6 @@ class Builder {
     }
   }
 
-  [[nodiscard]] std::vector<Column>& columns() { return columns_; }
-
  private:
   [[nodiscard]] static double share_of_side(CauseId cause) {
     return 1.0 / static_cast<double>(cause.effect->sides.size());
@@ -185,18 +177,21 @@ class Builder {
     regressor.log_prior = log_prior;
     regressor.refined = refined_;
     limit(regressor);
-    columns_.push_back({std::move(regressor), std::move(*g)});
+    system_.regressors.push_back(std::move(regressor));
+    system_.g.add(*g);
   }
 
+  /// A misreading of k links is k times that of one.
   void add_links(CauseId cause, std::vector<double> values) {
     const std::vector<double> where = places(system_, cause);
     for (const double place : where) {
       values.back() = place;
+      values.front() = 1.0;
+      const auto one = signature(session_, state_, system_, cause, values);
+      if (!one || !(one->norm() > 0.0)) continue;
       for (int links = -kMostLinks; links <= kMostLinks; ++links) {
         if (links == 0) continue;
         values.front() = links;
-        auto g = signature(session_, state_, system_, cause, values);
-        if (!g || !(g->norm() > 0.0)) continue;
         Regressor regressor;
         regressor.cause = cause;
         regressor.values = values;
@@ -204,15 +199,19 @@ class Builder {
         regressor.slip = cause.effect->at_one_visit;
         regressor.lowest = regressor.highest = 1.0;
         regressor.visits = static_cast<double>(where.size());
-        columns_.push_back({std::move(regressor), std::move(*g)});
+        system_.regressors.push_back(std::move(regressor));
+        if (links == -kMostLinks) {
+          system_.g.add(*one, links);
+        } else {
+          system_.g.add_multiple(links);
+        }
       }
     }
   }
 
   const Session& session_;
   const State& state_;
-  const LinearisedSystem& system_;
-  std::vector<Column> columns_;
+  LinearisedSystem& system_;
   bool refined_ = false;
 };
 
@@ -272,15 +271,9 @@ void add_regressors(const Session& session,
                     const std::vector<CauseId>& causes,
                     const std::vector<Refinement>& refinements,
                     LinearisedSystem& system) {
+  if (system.g.cols() == 0) system.g = RegressorColumns(session.rows);
   Builder builder(session, state, system);
   for (const CauseId& cause : causes) builder.add(cause, refinements);
-  const auto count = static_cast<Eigen::Index>(builder.columns().size());
-  system.g.resize(session.rows, count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    Column& column = builder.columns()[static_cast<std::size_t>(k)];
-    system.g.col(k) = column.g;
-    system.regressors.push_back(std::move(column.regressor));
-  }
 }
 
 bool renew_regressors(const Session& session,
@@ -288,12 +281,11 @@ bool renew_regressors(const Session& session,
                       const std::vector<Regressor>& regressors,
                       LinearisedSystem& system) {
   system.regressors = regressors;
-  system.g.resize(session.rows, static_cast<Eigen::Index>(regressors.size()));
-  for (std::size_t k = 0; k < regressors.size(); ++k) {
-    Regressor& d = system.regressors[k];
+  system.g = RegressorColumns(session.rows);
+  for (Regressor& d : system.regressors) {
     const auto g = signature(session, state, system, d.cause, d.values);
     if (!g || !(g->norm() > 0.0)) return false;
-    system.g.col(static_cast<Eigen::Index>(k)) = *g;
+    system.g.add(*g);
     if (d.fixed) continue;
     std::vector<double> nearby = d.values;
     nearby.front() *= kNearby;

@@ -68,8 +68,8 @@ class SetSearch::Search {
     std::vector<int> kept;
     std::vector<int> fixed;
     const auto count = static_cast<int>(system_.regressors.size());
-    const Eigen::VectorXd c = marginalised_.g.transpose() * marginalised_.e;
-    const Eigen::VectorXd square = marginalised_.g.colwise().squaredNorm();
+    const Eigen::VectorXd c = marginalised_.g.transpose_times(marginalised_.e);
+    const Eigen::VectorXd square = marginalised_.g.squared_norms();
     for (int k = 0; k < count; ++k) {
       const Regressor& d = system_.regressors[static_cast<std::size_t>(k)];
       if (options_.told && !(d.cause == *options_.told)) continue;
@@ -85,15 +85,15 @@ class SetSearch::Search {
       return c(a) * c(a) / square(a) > c(b) * c(b) / square(b);
     });
     leading.resize(std::min<std::size_t>(leading.size(), 8));
-    const Eigen::MatrixXd cross =
-        marginalised_.g(Eigen::all, fixed).transpose() * marginalised_.g(Eigen::all, leading);
+    const RegressorColumns& g = marginalised_.g;
+    const Eigen::MatrixXd cross = g.distinct().transpose() * g.dense(leading);
     std::vector<std::pair<double, int>> gains;
     for (std::size_t f = 0; f < fixed.size(); ++f) {
       const int k = fixed[f];
       double best = 2.0 * c(k) - square(k);
       for (std::size_t l = 0; l < leading.size(); ++l) {
         const double ll = square(leading[l]);
-        const double x = cross(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(l));
+        const double x = g.factor(k) * cross(g.index(k), static_cast<Eigen::Index>(l));
         best = std::max(best, 2.0 * (c(k) - x * c(leading[l]) / ll) - (square(k) - x * x / ll));
       }
       gains.emplace_back(-best, k);

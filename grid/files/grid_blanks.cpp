@@ -2,9 +2,28 @@
 // The part of grid_checks.hpp about lists that are filled in: what is left blank, what is copied.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
 #include "grid/files/grid_checks.hpp"
 
 namespace chaintrue::grid::files {
+namespace {
+
+void keep_only(const std::vector<std::size_t>& kept,
+               std::vector<StatedPoint>& points,
+               PointPlaces& places) {
+  std::vector<StatedPoint> others;
+  for (const std::size_t i : kept) others.push_back(points[i]);
+  points = std::move(others);
+  places.of = [kept, of = places.of](std::size_t index, std::string_view field) {
+    return of(kept[index], field);
+  };
+}
+
+}  // namespace
 
 void leave_out_blanks(std::vector<StatedPoint>& points, PointPlaces& places, Problems& problems) {
   std::vector<std::size_t> kept;
@@ -28,12 +47,52 @@ void leave_out_blanks(std::vector<StatedPoint>& points, PointPlaces& places, Pro
                             blank.size(),
                             points.size(),
                             joined(blank)));
-  std::vector<StatedPoint> others;
-  for (const std::size_t i : kept) others.push_back(points[i]);
-  points = std::move(others);
-  places.of = [kept, of = places.of](std::size_t index, std::string_view field) {
-    return of(kept[index], field);
-  };
+  keep_only(kept, points, places);
+}
+
+namespace {
+
+/// A tape's or a laser's noise is a tenth of a millimetre and more: two visits agree in both lengths
+/// to a hundredth once in a thousand times or less.
+bool is_finer_than_noise(const std::vector<StatedPoint>& points) {
+  constexpr double kPerMm = 10.0;
+  return std::any_of(points.begin(), points.end(), [](const StatedPoint& point) {
+    const double tenths = kPerMm * point.left_mm.value_or(0.0);
+    return std::abs(tenths - std::round(tenths)) > 1e-6;  // rounding of a length in tenths
+  });
+}
+
+}  // namespace
+
+void count_copies_once(std::vector<StatedPoint>& points, PointPlaces& places, Problems& problems) {
+  using Digits = std::array<double, 4>;
+  if (!is_finer_than_noise(points)) return;
+  std::map<Digits, std::size_t> first;
+  std::vector<std::size_t> kept;
+  std::string example;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const StatedPoint& point = points[i];
+    const bool is_read = point.left_mm && point.right_mm && !point.order && !point.is_spoilt;
+    if (is_read) {
+      const auto [at, is_new] =
+          first.emplace(Digits{point.x_mm, point.y_mm, *point.left_mm, *point.right_mm}, i);
+      if (!is_new) {
+        if (example.empty())
+          example = fmt::format("{} is {}", places.of(i, ""), places.of(at->second, ""));
+        continue;
+      }
+    }
+    kept.push_back(i);
+  }
+  if (kept.size() == points.size()) return;
+  problems.warn(
+      places.all,
+      fmt::format("{} of {} points are copies of others, to the last digit of both lengths, "
+                  "and count once ({}): a place that is measured again reads otherwise",
+                  points.size() - kept.size(),
+                  points.size(),
+                  example));
+  keep_only(kept, points, places);
 }
 
 void warn_of_copies(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems) {

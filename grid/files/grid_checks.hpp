@@ -42,6 +42,11 @@ struct PointPlaces {
 /// \throws InputError where every point is blank.
 void leave_out_blanks(std::vector<StatedPoint>& points, PointPlaces& places, Problems& problems);
 
+/// Rows that are another in every digit are counted once, and said; `places` are then those of the
+/// others. Only of lengths that are written to a hundredth of a millimetre or finer, and of rows that
+/// do not say which visit they are.
+void count_copies_once(std::vector<StatedPoint>& points, PointPlaces& places, Problems& problems);
+
 /// Warns of points that read exactly as commanded.
 void warn_of_copies(const MeasuredGrid& grid, const PointPlaces& places, Problems& problems);
 

@@ -157,6 +157,7 @@ ReadGrid finish(StatedGrid stated,
                 const GridOptions& options,
                 Problems& problems) {
   leave_out_blanks(stated.points, places, problems);
+  count_copies_once(stated.points, places, problems);
   fetch_machine(stated, options, problems);
   ReadGrid read;
   MeasuredGrid& grid = read.grid;

@@ -136,6 +136,22 @@ TEST_P(EffectContract, IsDescribedInFull) {
   }
 }
 
+// The diagnosis takes one column for all whole numbers of links.
+TEST_P(EffectContract, AWholeNumberIsMisreadInProportion) {
+  const Effect& e = effect();
+  if (!e.parameters.front().integer) return;
+  ASSERT_NE(e.misread, nullptr);
+  std::vector<double> values = nominal_values(e);
+  for (const int visit : {0, 9, 10, 11, 30}) {
+    values.front() = 1.0;
+    const double one = e.misread({visit, 6.35}, values);
+    for (const double links : {-3.0, -1.0, 2.0, 5.0}) {
+      values.front() = links;
+      EXPECT_NEAR(e.misread({visit, 6.35}, values), links * one, 1e-13) << visit;  // rounding
+    }
+  }
+}
+
 TEST_P(EffectContract, StandsAtExactlyOneStation) {
   const Effect& e = effect();
   const int paper = e.write != nullptr;

@@ -30,8 +30,9 @@ LinearisedSystem small_system(double lowest) {
   system.e << 1.2, -0.4, 2.1, 0.3, -1.7, 0.9;
   system.by_setting.resize(6, 1);
   system.by_setting.col(0) << 0.5, 0.4, 0.6, 0.5, 0.3, 0.2;
-  system.g.resize(6, 1);
-  system.g.col(0) << 1.0, -0.5, 1.5, 0.2, -1.0, 0.7;
+  Eigen::VectorXd column(6);
+  column << 1.0, -0.5, 1.5, 0.2, -1.0, 0.7;
+  system.g = RegressorColumns(column);
   for (Eigen::Index row = 0; row < 6; row += 2) {
     system.units.push_back({.first_row = row, .rows = 2});
     system.unit_of_row.insert(system.unit_of_row.end(), 2, static_cast<int>(row / 2));
@@ -182,7 +183,7 @@ TEST(Evidence, QuadraticIsThatOfGeneralisedLeastSquares) {
   EXPECT_NEAR(marginalised.e.squaredNorm(), r.dot(v.inverse() * r), 1e-12);  // rounding
   EXPECT_NEAR(marginalised.log_det, std::log(v.determinant()), 1e-12);       // rounding
   EXPECT_NEAR(
-      marginalised.g.col(0).dot(marginalised.e), system.g.col(0)(kept).dot(v.inverse() * r), 1e-12);
+      marginalised.g.col(0).dot(marginalised.e), system.g.column(kept, 0).dot(v.inverse() * r), 1e-12);
 }
 
 TEST(NullDistribution, HoldsItsSize) {

@@ -42,7 +42,7 @@ TEST(Settling, ATurnOfTheSheetCountsAsItsEdgeMoves) {
   const Analysis a = analysis_of(grid);
   ASSERT_TRUE(a.settled);
   auto again = linearise(a.session, a.state, a.options.steps).value();
-  again.g.resize(a.session.rows, 0);
+  again.g = RegressorColumns(a.session.rows);
   Steps projected = a.options.steps;
   projected.project_settings = true;
   const auto marginalised =

@@ -209,6 +209,41 @@ TEST(GridFile, AMachineFileIsLookedForBesideTheGrid) {
   EXPECT_EQ(parse_grid(text, good + "x.json", options).grid.machine->name, "classic Maslow");
 }
 
+std::string rows_of(const std::string& row, int count) {
+  std::string text = "x_mm,y_mm,left_mm,right_mm\n";
+  for (int i = 0; i < 12; ++i)
+    text +=
+        fmt::format("{},{},{},{}\n", 100 * (i % 4), 100 * (i / 4), 1500 + 60 * i, 1900 - 30 * i);
+  for (int i = 0; i < count; ++i) text += row + "\n";
+  return text;
+}
+
+TEST(GridFile, ARowThatWasCopiedCountsOnce) {
+  GridOptions options;
+  options.fewest_points = 3;
+  const ReadGrid once = parse_grid(rows_of("50,50,1511.23,1902.41", 1), "g.csv", options);
+  const ReadGrid often = parse_grid(rows_of("50,50,1511.23,1902.41", 2000), "g.csv", options);
+  EXPECT_EQ(write_grid(often.grid), write_grid(once.grid));
+  EXPECT_THAT(once.warnings, ::testing::IsEmpty());
+  ASSERT_EQ(often.warnings.size(), 1U);
+  EXPECT_THAT(often.warnings.front().message(),
+              HasSubstr("1999 of 2012 points are copies of others, to the last digit of both "
+                        "lengths, and count once (line 15, column 1 is line 14, column 1)"));
+}
+
+TEST(GridFile, ASecondVisitThatReadsTheSameIsAVisit) {
+  GridOptions options;
+  options.fewest_points = 3;
+  // Read to half a millimetre two visits may well agree.
+  EXPECT_EQ(parse_grid(rows_of("50,50,1511.5,1902", 2), "g.csv", options).grid.points.size(), 14U);
+  std::string numbered = "order,x_mm,y_mm,left_mm,right_mm\n";
+  for (int i = 0; i < 12; ++i)
+    numbered += fmt::format(
+        "{},{},{},{},{}\n", i, 100 * (i % 4), 100 * (i / 4), 1500.25 + 60 * i, 1900 - 30 * i);
+  numbered += "12,0,0,1500.25,1900\n";
+  EXPECT_EQ(parse_grid(numbered, "g.csv", options).grid.points.size(), 13U);
+}
+
 TEST(GridFile, AThousandRepeatsThatDisagreeAreNotAThousandLines) {
   MeasuredGrid grid;
   for (int i = 0; i < 300; ++i) {

@@ -129,9 +129,9 @@ std::string counted(const grid::Measured& measured) {
   return fmt::format("{} points and {} distances", points, distances);
 }
 
-/// The cost grows faster than the square of the number (docs/reliability.md); more than these would
-/// take minutes and name nothing else.
-constexpr std::size_t kMostDiagnosed = 600;
+/// The cost grows with the square of the number and more (docs/reliability.md): these take half a
+/// minute, and more would name nothing else.
+constexpr std::size_t kMostDiagnosed = 1200;
 
 /// Empty where there are not too many.
 std::string too_many(const grid::Measured& measured) {

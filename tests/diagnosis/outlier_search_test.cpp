@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The search for outliers, which changes one decomposition step by step, against one that writes the
+// whole covariance down and leaves the rows out of it.
+#include "grid/diagnosis/outlier_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "grid/diagnosis/model_comparison.hpp"
+#include "grid/synthetic/random.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+constexpr std::size_t kUnits = 24;
+
+/// Units of one row and of two in turn, three settings, one cause, some units far off.
+LinearisedSystem random_system(synthetic::Random& random) {
+  LinearisedSystem system;
+  Eigen::Index row = 0;
+  for (std::size_t u = 0; u < kUnits; ++u) {
+    const Eigen::Index rows = u % 3 == 0 ? 1 : 2;
+    system.units.push_back({.first_row = row, .rows = rows});
+    system.unit_of_row.insert(
+        system.unit_of_row.end(), static_cast<std::size_t>(rows), static_cast<int>(u));
+    row += rows;
+  }
+  system.e.resize(row);
+  system.by_setting.resize(row, 3);
+  Eigen::VectorXd g(row);
+  for (Eigen::Index i = 0; i < row; ++i) {
+    system.e(i) = random.normal();
+    g(i) = random.normal();
+    for (Eigen::Index k = 0; k < 3; ++k) system.by_setting(i, k) = random.normal();
+  }
+  for (const std::size_t bad : {4U, 9U, 15U}) {
+    system.e(system.units[bad].first_row) += 25.0 * random.normal();
+  }
+  system.g = RegressorColumns(g);
+  system.setting = Eigen::VectorXd::Zero(3);
+  system.expected_change = Eigen::VectorXd::Constant(3, 0.2);
+  system.sigma = Eigen::VectorXd::Constant(3, 1.5);
+  system.fewest_units = 8;
+  Regressor regressor;
+  regressor.cause = {model::effects::find_effect("chain_stretch"),
+                     model::effects::EffectSide::none};
+  regressor.values = {1.0};
+  regressor.lowest = -100.0;
+  regressor.highest = 100.0;
+  system.regressors = {regressor};
+  return system;
+}
+
+struct Weighed {
+  double quadratic = 0.0;
+  double log_det = 0.0;
+  Eigen::Index rows = 0;
+};
+
+Weighed weighed(const LinearisedSystem& system,
+                const Eigen::MatrixXd& covariance,
+                const Eigen::VectorXd& residual,
+                const std::vector<bool>& outliers) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < residual.size(); ++i) {
+    if (!outliers[static_cast<std::size_t>(system.unit_of_row[static_cast<std::size_t>(i)])])
+      kept.push_back(i);
+  }
+  const Eigen::LLT<Eigen::MatrixXd> llt(covariance(kept, kept));
+  const Eigen::VectorXd white = llt.matrixL().solve(residual(kept));
+  return {white.squaredNorm(),
+          2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum(),
+          static_cast<Eigen::Index>(kept.size())};
+}
+
+/// One unit after the other, each time the one that the data would rather do without; the best of
+/// the nested sets.
+std::vector<bool> one_by_one(const LinearisedSystem& system, const std::vector<int>& set) {
+  const std::vector<bool> none(kUnits, false);
+  const MarginalisedSystem whole = marginalise(system, none, {});
+  const Eigen::MatrixXd scaled = system.by_setting * system.sigma.asDiagonal();
+  Eigen::MatrixXd covariance =
+      Eigen::MatrixXd::Identity(system.e.size(), system.e.size()) + scaled * scaled.transpose();
+  for (const int k : set) {
+    const Eigen::VectorXd g = system.g.col(k);
+    const double length = whole.g.col(k).norm();
+    covariance += g * g.transpose() * std::pow(kWideSignalToNoise / length, 2);
+  }
+  const Eigen::VectorXd residual = system.e - system.by_setting * system.expected_change;
+  std::vector<bool> outliers = none;
+  std::vector<bool> best = none;
+  const auto weight = [&](const std::vector<bool>& out) {
+    const Weighed w = weighed(system, covariance, residual, out);
+    return NoiseDensity(system.noise_dof, w.rows).log_density(w.quadratic) - 0.5 * w.log_det +
+           log_price_of_outliers(system, out);
+  };
+  double most = weight(none);
+  const auto steps =
+      static_cast<std::size_t>(std::max(3.0, std::ceil(kMostOutlierShare * double{kUnits})));
+  for (std::size_t step = 0; step < steps; ++step) {
+    const double before = weighed(system, covariance, residual, outliers).quadratic;
+    std::size_t worst = 0;
+    double gain = -std::numeric_limits<double>::infinity();
+    for (std::size_t u = 0; u < kUnits; ++u) {
+      if (outliers[u]) continue;
+      std::vector<bool> without = outliers;
+      without[u] = true;
+      const double own = before - weighed(system, covariance, residual, without).quadratic +
+                         2.0 * log_price_of_outlier(system.units[u].rows);
+      if (own > gain) {
+        gain = own;
+        worst = u;
+      }
+    }
+    outliers[worst] = true;
+    if (const double own = weight(outliers); own > most) {
+      most = own;
+      best = outliers;
+    }
+  }
+  return best;
+}
+
+TEST(OutlierSearch, IsThatOfTheWholeCovariance) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    synthetic::Random random(seed);
+    const LinearisedSystem system = random_system(random);
+    const std::vector<bool> none(kUnits, false);
+    for (const std::vector<int>& set : {std::vector<int>{}, std::vector<int>{0}}) {
+      const auto found = outlier_sets(system, none, {set}, {});
+      EXPECT_EQ(found.front(), one_by_one(system, set)) << set.size() << " regressors";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis
