@@ -141,6 +141,14 @@ double coefficient_sigma(const Regressor& regressor) {
   return std::pow(ratio, regressor.power);
 }
 
+/// What sets in on one belt at about one visit is one event, whatever it is called.
+bool one_event(const Regressor& a, const Regressor& b) {
+  constexpr double kAboutOneVisit = 4.0;
+  const auto sets_in = [](const Regressor& r) { return r.cause.effect->parameters.size() > 1; };
+  return sets_in(a) && sets_in(b) && a.cause.side == b.cause.side &&
+         std::abs(a.values.back() - b.values.back()) <= kAboutOneVisit;
+}
+
 /// V = L L' of a pattern in the kept rows.
 struct Pattern {
   Eigen::LLT<Eigen::MatrixXd> root;
@@ -246,7 +254,7 @@ class Search {
     for (Eigen::Index i = 0; i < equations_.ge.size(); ++i) {
       const Regressor& own = regressor(i);
       const bool fits = std::all_of(parent.begin(), parent.end(), [&](Eigen::Index other) {
-        return compatible(own, regressor(other));
+        return compatible(own, regressor(other)) && !one_event(own, regressor(other));
       });
       if (!fits) continue;
       ColumnSet set = parent;

@@ -51,7 +51,7 @@ struct BeltsFindings {
   /// sqrt(sum r^2 / checks): what one belt's reading is off by.
   double spread_before_mm = 0.0;
   double spread_mm = 0.0;
-  /// Over all readings, those set aside too, as the machine's own message counts.
+  /// Over all readings, none set aside, as the machine's own message counts.
   double rms_before_mm = 0.0;
   double rms_mm = 0.0;
   int checks = 0;

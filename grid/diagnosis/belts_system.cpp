@@ -49,8 +49,8 @@ constexpr Teeth kTeeth[] = {{1.0, 0.25},
 double share_of(const CauseId& cause) {
   const std::string_view id = cause.effect->id;
   if (id == "belt_stretch") return 40.0;
-  if (id == "tooth_skip") return 0.2;
-  return id == "anchor_moved" ? 0.1 : 1.0;
+  if (id == "tooth_skip") return 0.3;
+  return id == "anchor_moved" ? 0.01 : 1.0;
 }
 
 /// The visits in order, without the first few and the last few.

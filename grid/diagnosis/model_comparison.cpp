@@ -251,10 +251,6 @@ ModelComparison compare_models(const LinearisedSystem& system,
                                const std::vector<bool>& excluded,
                                const ComparisonOptions& options) {
   Comparer comparer(system, excluded, options);
-  if (!options.outlier_sets.empty()) {
-    comparer.compare_with(options.outlier_sets);
-    return std::move(comparer.comparison());
-  }
   auto sets =
       outlier_sets(system, excluded, first_hypotheses(system, excluded, options), options.steps);
   if (std::find(sets.begin(), sets.end(), excluded) == sets.end()) sets.push_back(excluded);

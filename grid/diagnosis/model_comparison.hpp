@@ -44,9 +44,6 @@ struct ComparisonOptions {
   std::vector<std::size_t> kernels{};
   /// Nothing but this cause acts.
   std::optional<CauseId> told;
-  /// Sets of units to set aside, where somebody has looked for them who knows more of the readings;
-  /// empty: they are looked for.
-  std::vector<std::vector<bool>> outlier_sets{};
 };
 
 /// Points already known not to count (held out) are `excluded`.

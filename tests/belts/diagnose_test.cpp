@@ -112,7 +112,7 @@ TEST_P(HiddenCause, IsNamedWithItsBeltAndItsSize) {
 
 TEST(BeltsDiagnosis, NothingIsNamedWhereNothingIsWrong) {
   for (std::uint64_t seed = 1; seed <= 15; ++seed) {
-    const Diagnosis found = diagnosed(measured({.seed = seed, .noise_mm = 0.2 + 0.05 * static_cast<double>(seed)}));
+    const Diagnosis found = diagnosed(measured({.hidden = {}, .seed = seed, .noise_mm = 0.2 + 0.05 * static_cast<double>(seed)}));
     EXPECT_TRUE(found.causes.empty()) << "seed " << seed << ": " << found.sentence;
     EXPECT_THAT(found.sentence, AnyOf(HasSubstr("Nothing"), HasSubstr("smoothly")));
   }

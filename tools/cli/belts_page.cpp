@@ -163,7 +163,8 @@ Section frame_section(const Diagnosis& found) {
                             found.causes.size() > 1 ? "With the causes" : "With the cause",
                             &BeltPlacePicture::after_mm);
   after.caption = "The same scale. Strokes that point all ways are noise.";
-  section.blocks.emplace_back(report::ChartRow{{std::move(before), std::move(after)}});
+  section.blocks.emplace_back(std::move(before));
+  section.blocks.emplace_back(std::move(after));
   return section;
 }
 
