@@ -15,7 +15,11 @@ function collector() {
 }
 
 function isSame(a, b) {
-  return a !== undefined && a.length === b.length && a.every((byte, i) => byte === b[i]);
+  if (a === undefined || a.length !== b.length) return false;
+  for (let i = 0; i < a.length; ++i) {
+    if (a[i] !== b[i]) return false;
+  }
+  return true;
 }
 
 function makeFolders(FS, path) {

@@ -28,7 +28,6 @@ class Page {
   busy = new Busy(() => this.engine.cancel());
   engine = null;
   example = null;
-  noiseHint = "Left empty, it is what the sheet was planned for.";
   #banners = {storage: h("p", {class: "banner", role: "alert", hidden: true}), problem: h("p", {class: "banner bad", role: "alert", hidden: true})};
   #steps = {};
   #links = {};

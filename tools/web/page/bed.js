@@ -41,7 +41,7 @@ export function bedPicture(bed, sheet, pick) {
 function mark(place, index) {
   if (!place || !Number.isFinite(place.x)) return null;
   return svg("g", {"data-kind": "mark", transform: `translate(${place.x} ${-place.y})`},
-    svg("circle", {r: 34}), svg("text", {y: 12}, String(index + 1)));
+    svg("circle", {r: 52}), svg("text", {y: 19}, String(index + 1)));
 }
 
 function distance(from, to, index) {
@@ -52,5 +52,5 @@ function distance(from, to, index) {
 
 function hole(place) {
   return svg("g", {class: "hole", transform: `translate(${place.x} ${-place.y})`},
-    svg("circle", {r: 30}), svg("text", {y: 12}, place.name));
+    svg("circle", {r: 52}), svg("text", {y: 19}, place.name));
 }

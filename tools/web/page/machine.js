@@ -6,6 +6,8 @@ import {MachineForm} from "./machine_form.js";
 import {Sheet} from "./sheet.js";
 import {folderOf} from "./zip.js";
 
+/** Where the command puts the machine and its sheets; here it is the folder of the page itself. */
+const FOLDER = "my-machine";
 const SETTINGS = ".ini,.json,.yaml,.yml,.txt,.zip";
 
 export function machineStep(page) {
@@ -101,14 +103,16 @@ export async function openZip(page, bytes, say) {
 
 /** `chaintrue start`: the machine and the sheets from a settings file. */
 export async function startFrom(page, name, bytes, say, step = "measure") {
-  const result = await runVerb(page, ["start", name, "."], {files: {[name]: bytes}});
+  const isOurs = name === "machine.json";
+  const result = await runVerb(page, isOurs ? ["start", name] : ["start", name, FOLDER], {files: {[name]: bytes}});
   if (!result) return false;
   const sentences = sentencesOf(result);
   if (result.code !== DONE) {
     say(sentences, true);
     return false;
   }
-  replaceFolder(page, {[name]: bytes, ...result.files}, step);
+  const made = Object.entries(result.files).map(([path, content]) => [path.replace(`${FOLDER}/`, ""), content]);
+  replaceFolder(page, {[name]: bytes, ...Object.fromEntries(made)}, step);
   say(sentences);
   return true;
 }

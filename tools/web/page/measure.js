@@ -15,11 +15,11 @@ const WAYS = [
 const PAUSE_MS = 350;
 
 export function measureStep(page) {
+  const said = h("div", {class: "said", role: "status", "aria-live": "polite"});
   const readings = new Readings((text, name) => {
     page.store.change({[page.store.view.sheet]: bytesOf(text)}, name && `${page.store.view.sheet} ${name}`);
     fitSoon();
-  });
-  const said = h("div", {class: "said", role: "status", "aria-live": "polite"});
+  }, said);
   const print = h("div");
   const odd = h("p", {class: "hint", hidden: true}, "This list is not in the form that the command writes lists in. It is used as " +
     "it is; to change it, edit it in a spreadsheet and open it again.");
@@ -39,8 +39,7 @@ export function measureStep(page) {
       print),
     h("section", {}, h("h2", {}, "Readings"),
       h("p", {class: "choices"}, h("label", {for: "unit"}, "You read in"), unit),
-      odd, readings.element),
-    h("section", {class: "outcome"}, h("h2", {}, "What they say"), said));
+      odd, readings.element));
   let timer = null;
 
   function fitSoon() {

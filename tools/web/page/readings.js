@@ -18,15 +18,20 @@ export class Readings {
   #sheet = null;
   #unit = "mm";
   #changed;
+  #outcome;
   #inputs = [];
   #notes = [];
   #bed = null;
   #active = 0;
   #wrong = new Map();
 
-  /** @param changed(text, name) is told of the whole list and of the name of the cell */
-  constructor(changed) {
+  /**
+   * @param changed(text, name) is told of the whole list and of the name of the cell
+   * @param outcome what stands below the bed: what the readings say
+   */
+  constructor(changed, outcome) {
     this.#changed = changed;
+    this.#outcome = outcome;
   }
 
   /** Draws the list anew, unless it is what the table itself has just made of it. */
@@ -46,7 +51,7 @@ export class Readings {
         h("caption", {}, `${sheet.rows.length} readings. Arrow keys and Enter move; cells can be pasted from a spreadsheet.`),
         h("thead", {}, h("tr", {}, sheet.columns.map((column) => h("th", {scope: "col"}, wordOf(column, unit))))),
         body)),
-      h("div", {class: "beside"}, picture.element));
+      h("div", {class: "beside"}, picture.element, this.#outcome));
     this.#show();
   }
 
@@ -61,7 +66,7 @@ export class Readings {
     const name = `row-${row}-note`;
     const inputs = [];
     const line = h("tr", {"data-row": row}, this.#sheet.columns.map((column, index) => {
-      const text = cells[index] ?? "";
+      const text = this.#sheet.value(row, index);
       if (!this.#sheet.readColumns.includes(index)) {
         const shown = column.endsWith("_mm") ? shownIn(this.#unit, text) : text;
         return index === 0 ? h("th", {scope: "row"}, shown) : h("td", {class: "number"}, shown);

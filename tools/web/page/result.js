@@ -6,6 +6,7 @@ import {reportFrame} from "./frame.js";
 
 export function resultStep(page) {
   const map = h("div");
+  const noise = new NoiseFields(page);
   const causes = h("div");
   const next = h("div");
   const numbers = h("div");
@@ -14,8 +15,8 @@ export function resultStep(page) {
     h("section", {}, h("h2", {}, "How true it cuts"), map),
     h("section", {}, h("h2", {}, "Why does it err?"),
       h("p", {}, "Which of the known causes explains the readings, how sure that is, and what to do."),
-      noiseFields(page),
-      h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick: () => diagnose(page)}, "Find the cause")),
+      noise.element,
+      h("p", {class: "buttons"}, h("button", {type: "button", class: "main", onclick: () => diagnose(page, noise.words())}, "Find the cause")),
       causes, next),
     h("section", {}, h("h2", {}, "Better numbers"),
       h("p", {}, "Typed into the controller once, they take off what settings can. Or compensate each program, which is truer."),
@@ -39,6 +40,7 @@ export function resultStep(page) {
       none.hidden = Boolean(folder["map.json"]);
       all.hidden = !folder["map.json"];
       if (view.step !== "result") return;
+      noise.update(page.store);
       follow("map.json", map, () => {
         numbers.replaceChildren();
         report(page, "map.json", "map.html", "The map", map);
@@ -51,34 +53,39 @@ export function resultStep(page) {
   };
 }
 
-/** The noise that a person states; the values at first are those of the command's own README.txt. */
-function noiseFields(page) {
-  const field = (id, label) => {
-    const input = h("input", {id, type: "text", inputmode: "decimal", size: 5});
-    return h("span", {class: "pair"}, h("label", {for: id}, label), input);
-  };
-  return h("p", {class: "choices"}, field("noise-length", "A chain length is good to, mm"),
-    field("noise-position", "A place that you read is good to, mm"),
-    h("span", {class: "hint"}, page.noiseHint));
+const NOISE = [["--noise-length-mm", "A chain length is good to, mm"], ["--noise-position-mm", "A place that you read is good to, mm"]];
+
+/** The noise that a person states, one sigma. */
+class NoiseFields {
+  #page;
+  #inputs = NOISE.map(([option]) => h("input", {
+    id: option.slice(2), type: "text", inputmode: "decimal", size: 5,
+    onchange: () => this.#page.store.show({noise: this.#inputs.map(({value}) => value)}),
+  }));
+  element = h("p", {class: "choices"}, NOISE.map(([option, label], index) =>
+    h("span", {class: "pair"}, h("label", {for: option.slice(2)}, label), this.#inputs[index])));
+
+  constructor(page) {
+    this.#page = page;
+  }
+
+  update({folder, view}) {
+    this.element.hidden = view.sheet === "holes.csv";
+    for (const [index, input] of this.#inputs.entries()) {
+      if (document.activeElement !== input) input.value = view.noise?.[index] ?? usual(folder, NOISE[index][0]);
+    }
+  }
+
+  words() {
+    if (this.element.hidden) return [];
+    return this.#inputs.flatMap(({value}, index) => (value.trim() === "" ? [] : [NOISE[index][0], value.trim().replace(",", ".")]));
+  }
 }
 
-/** The line of README.txt that begins `chaintrue diagnose`, as words. */
-function diagnoseWords(folder) {
+/** What README.txt of the command tells its owner to state. */
+function usual(folder, option) {
   const readme = folder["README.txt"] ? textOf(folder["README.txt"]) : "";
-  const line = /^ *chaintrue (diagnose marks\.csv .*)$/m.exec(readme);
-  return line ? line[1].split(" ") : ["diagnose", "marks.csv", "--machine", "machine.json"];
-}
-
-function noiseWords(folder) {
-  const words = diagnoseWords(folder);
-  return ["--noise-length-mm", "--noise-position-mm"].flatMap((option) => {
-    const input = document.getElementById(option === "--noise-length-mm" ? "noise-length" : "noise-position");
-    const typed = input.value.trim().replace(",", ".");
-    const usual = words[words.indexOf(option) + 1];
-    if (typed === "" && words.includes(option)) input.value = usual;
-    const value = typed === "" ? usual : typed;
-    return words.includes(option) || typed !== "" ? [option, value] : [];
-  });
+  return new RegExp(`chaintrue diagnose .*${option} (\\S+)`).exec(readme)?.[1] ?? "";
 }
 
 async function report(page, from, to, title, box) {
@@ -93,10 +100,8 @@ async function report(page, from, to, title, box) {
   box.replaceChildren(reportFrame(title, to, bytes, {onDownload: () => download(to, bytes)}));
 }
 
-async function diagnose(page) {
-  const {folder, view} = page.store;
-  const noise = view.sheet === "holes.csv" ? [] : noiseWords(folder);
-  const words = ["diagnose", view.sheet, "--machine", "machine.json", ...noise, "-o", "diagnosis.json", "--report", "diagnosis.html", "--force"];
+async function diagnose(page, noise) {
+  const words = ["diagnose", page.store.view.sheet, "--machine", "machine.json", ...noise, "-o", "diagnosis.json", "--report", "diagnosis.html", "--force"];
   const result = await runVerb(page, words);
   if (!result) return;
   if (result.code !== DONE) {

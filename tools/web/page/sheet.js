@@ -6,6 +6,11 @@
 const READ = [["distance_mm"], ["left_mm", "right_mm"], ["x_mm", "y_mm"]];
 
 const isNote = (line) => line === "" || line.startsWith("#");
+/** The cells of a line as they stand, quotes and all. The pattern finds one empty cell more behind a line's end. */
+const cellsOf = (line) => line.match(/("(?:[^"]|"")*"|[^,"]*)(?:,|$)/g)
+  .slice(0, line.endsWith(",") ? undefined : -1).map((cell) => cell.replace(/,$/, ""));
+const quoted = (text) => (/[",]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+const unquoted = (cell) => (cell.startsWith('"') ? cell.slice(1, -1).replaceAll('""', '"') : cell);
 const isHeader = (cells) => cells.some((cell) => cell.endsWith("_mm"));
 
 export class Sheet {
@@ -19,7 +24,9 @@ export class Sheet {
 
   /** Null where the text is not in the form that the command writes lists in. */
   static of(text) {
-    if (/[";\t\r]/.test(text.split("\n").filter((line) => !isNote(line)).join("\n"))) return null;
+    const lines = text.split("\n").filter((line) => !isNote(line));
+    if (lines.length === 0 || /[";\t\r]/.test(lines[0])) return null;
+    if (lines.some((line) => cellsOf(line).join(",") !== line)) return null;
     const sheet = new Sheet(text);
     return sheet.rows.length > 0 ? sheet : null;
   }
@@ -29,7 +36,7 @@ export class Sheet {
     const tables = [];
     this.#lines.forEach((line, index) => {
       if (isNote(line)) return;
-      const cells = line.split(",");
+      const cells = cellsOf(line);
       if (isHeader(cells)) tables.push({columns: cells, rows: []});
       else tables.at(-1)?.rows.push({line: index, cells});
     });
@@ -51,9 +58,13 @@ export class Sheet {
   /** Sets a cell; gives the text of the whole list. */
   set(row, column, value) {
     const {line, cells} = this.rows[row];
-    cells[column] = value;
+    cells[column] = quoted(value);
     this.#lines[line] = cells.join(",");
     return this.text();
+  }
+
+  value(row, column) {
+    return unquoted(this.rows[row].cells[column] ?? "");
   }
 
   isBlank(row) {
@@ -104,12 +115,12 @@ const MM_PER_INCH = 25.4;
  */
 export function millimetresOf(typed, unit) {
   const text = typed.trim().replace(/^\u2212/, "-").replace(/^([-+]?\d*),(\d+)$/, "$1.$2");
-  if (unit !== "in" || text === "") return text.replaceAll(",", ";");
+  if (unit !== "in" || text === "") return text;
   const fraction = /^([-+]?)(?:(\d+)[ -])?(\d+)\/(\d+)$/.exec(text);
   const inches = fraction
     ? (fraction[1] === "-" ? -1 : 1) * (Number(fraction[2] ?? 0) + Number(fraction[3]) / Number(fraction[4]))
     : Number(text.replace(/["\u2033]$/, ""));
-  return Number.isFinite(inches) ? plain(inches * MM_PER_INCH, 3) : text.replaceAll(",", ";");
+  return Number.isFinite(inches) ? plain(inches * MM_PER_INCH, 3) : text;
 }
 
 /** A cell of the list in the unit of the table. */
