@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of readings and the machine's form, in Chromium.
+// The table of readings, the machine's form, a log in place of them: in Chromium.
 import assert from "node:assert/strict";
 import {after, before, describe, test} from "node:test";
 import {fixture, Visit} from "./browser.mjs";
 
-describe("the table and the form", () => {
+describe("typing", () => {
   let visit = null;
   before(async () => {
     visit = await Visit.to("chrome");
@@ -97,6 +97,12 @@ describe("the table and the form", () => {
     await visit.page.keyboard.press("Tab");
     await visit.text("#machine-sled-note", "expected a number from 0.05 to 200 kg");
     assert.equal(await visit.page.$eval("#machine-sled", (input) => input.getAttribute("aria-invalid")), "true");
+  });
+
+  test("a Maslow 4's log gives the lines to paste back", async () => {
+    await visit.click("Machine");
+    await visit.upload("#settings", fixture("good/maslow4_log.txt"));
+    assert.match(await visit.text("pre", "$/kinematics"), /^\$\/kinematics\/MaslowKinematics\/tlX=-?\d+\.\d\d$/m);
   });
 
   test("nothing was logged", () => assert.deepEqual(visit.problems, []));
