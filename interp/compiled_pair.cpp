@@ -66,6 +66,10 @@ const Kernels* best() {
 
 const Kernels* kernels = best();
 
+bool are_equal(std::span<const double> a, std::span<const double> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
 bool uniform(std::span<const double> nodes) {
   const auto n = static_cast<double>(nodes.size() - 1);
   const double step = (nodes.back() - nodes.front()) / n;
@@ -145,8 +149,8 @@ CompiledPair CompiledPair::from_splines(const TensorSpline& first, const TensorS
   const SplineAxis& x = first.axes()->x;
   const SplineAxis& y = first.axes()->y;
   const bool same =
-      first.axes() == second.axes() || (std::ranges::equal(x.nodes(), second.axes()->x.nodes()) &&
-                                        std::ranges::equal(y.nodes(), second.axes()->y.nodes()));
+      first.axes() == second.axes() || (are_equal(x.nodes(), second.axes()->x.nodes()) &&
+                                        are_equal(y.nodes(), second.axes()->y.nodes()));
   if (!same || !uniform(x.nodes()) || !uniform(y.nodes())) {
     throw std::invalid_argument("a table needs both surfaces on the same evenly spaced axes");
   }

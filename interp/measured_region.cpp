@@ -55,7 +55,7 @@ ConvexHull::ConvexHull(const std::vector<PlanePoint>& points) {
       throw std::invalid_argument(fmt::format("a point of the region is ({}, {})", p.x, p.y));
     }
   }
-  std::ranges::sort(sorted, [](const PlanePoint& a, const PlanePoint& b) {
+  std::sort(sorted.begin(), sorted.end(), [](const PlanePoint& a, const PlanePoint& b) {
     return a.x != b.x ? a.x < b.x : a.y < b.y;
   });
   const auto half = [this](auto begin, auto end) {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 
-#include "interp/alglib_spline.hpp"
 #include "interp/quintic_spline.hpp"
 #include "interp/tensor_spline.hpp"
+#ifdef CHAINTRUE_HAS_ALGLIB
+#include "interp/alglib_spline.hpp"
+#endif
 
 namespace chaintrue::interp {
 namespace {
@@ -29,11 +31,13 @@ std::unique_ptr<Surface> build_quintic(const Nodes& x,
   return std::make_unique<QuinticSpline>(x, y, values);
 }
 
+#ifdef CHAINTRUE_HAS_ALGLIB
 std::unique_ptr<Surface> build_alglib(const Nodes& x,
                                       const Nodes& y,
                                       const Eigen::MatrixXd& values) {
   return std::make_unique<AlglibSpline>(x, y, values);
 }
+#endif
 
 constexpr std::array kMethods = {
 #define CHAINTRUE_SURFACE_METHOD(id, degree, description) \
@@ -47,7 +51,9 @@ constexpr std::array kMethods = {
 std::span<const SurfaceMethod> surface_methods() { return kMethods; }
 
 const SurfaceMethod* find_surface_method(std::string_view id) {
-  const auto* found = std::ranges::find(kMethods, id, &SurfaceMethod::id);
+  const auto* found = std::find_if(kMethods.begin(),
+                                   kMethods.end(),
+                                   [id](const SurfaceMethod& method) { return method.id == id; });
   return found == kMethods.end() ? nullptr : found;
 }
 

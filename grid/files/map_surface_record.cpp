@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "grid/files/machine_record.hpp"
+#include "grid/files/parse_double.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {
@@ -142,7 +142,7 @@ const Record<LatticePart>& lattice_part_record() {
 double seven_digits(double value) {
   const std::string digits = fmt::format("{:.7g}", value);
   double rounded = 0.0;
-  std::from_chars(digits.data(), digits.data() + digits.size(), rounded);
+  parse_double(digits.data(), digits.data() + digits.size(), rounded);
   return rounded;
 }
 

@@ -4,15 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "grid/files/parse_double.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// from_chars takes no plus sign.
+/// parse_double takes no plus sign.
 std::string_view without_plus(std::string_view text) {
   return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
 }
@@ -26,7 +27,7 @@ struct Parsed {
 Parsed parse(std::string_view text) {
   text = without_plus(text);
   Parsed parsed;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parsed.value);
+  const auto [end, error] = parse_double(text.data(), text.data() + text.size(), parsed.value);
   parsed.is_whole = !text.empty() && end == text.data() + text.size();
   parsed.is_out_of_range = error == std::errc::result_out_of_range;
   return parsed;

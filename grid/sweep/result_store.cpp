@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -33,14 +32,27 @@ std::uint64_t checksum(const Record& record) {
   return hash;
 }
 
+std::uint64_t bits_of(double value) {
+  std::uint64_t bits = 0;
+  static_assert(sizeof bits == sizeof value);
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+double double_of(std::uint64_t bits) {
+  double value = 0.0;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
 Record record_of(std::uint64_t cell, const CellResult& r) {
   Record record{cell,
                 static_cast<std::uint64_t>(r.status),
-                std::bit_cast<std::uint64_t>(r.chain_rms_mm),
-                std::bit_cast<std::uint64_t>(r.chain_max_mm),
-                std::bit_cast<std::uint64_t>(r.tool_rms_mm),
-                std::bit_cast<std::uint64_t>(r.tool_max_mm),
-                std::bit_cast<std::uint64_t>(r.expected_tool_rms_mm),
+                bits_of(r.chain_rms_mm),
+                bits_of(r.chain_max_mm),
+                bits_of(r.tool_rms_mm),
+                bits_of(r.tool_max_mm),
+                bits_of(r.expected_tool_rms_mm),
                 0};
   record.back() = checksum(record);
   return record;
@@ -49,11 +61,11 @@ Record record_of(std::uint64_t cell, const CellResult& r) {
 CellResult result_of(const Record& record) {
   CellResult r;
   r.status = static_cast<CellStatus>(record[1]);
-  r.chain_rms_mm = std::bit_cast<double>(record[2]);
-  r.chain_max_mm = std::bit_cast<double>(record[3]);
-  r.tool_rms_mm = std::bit_cast<double>(record[4]);
-  r.tool_max_mm = std::bit_cast<double>(record[5]);
-  r.expected_tool_rms_mm = std::bit_cast<double>(record[6]);
+  r.chain_rms_mm = double_of(record[2]);
+  r.chain_max_mm = double_of(record[3]);
+  r.tool_rms_mm = double_of(record[4]);
+  r.tool_max_mm = double_of(record[5]);
+  r.expected_tool_rms_mm = double_of(record[6]);
   return r;
 }
 

@@ -2,10 +2,13 @@
 #include "grid/sweep/run_sweep.hpp"
 
 #include <fmt/format.h>
+#ifdef CHAINTRUE_HAS_TBB
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#endif
 
+#include <functional>
 #include <mutex>
 #include <optional>
 
@@ -28,6 +31,26 @@ std::uint64_t cells_of(const Share& share, std::uint64_t cells) {
   return first < cells ? (cells - first - 1) / (share.count * share.ranks) + 1 : 0;
 }
 
+#ifdef CHAINTRUE_HAS_TBB
+
+void for_all(std::uint64_t count, int threads, const std::function<void(std::uint64_t)>& work) {
+  std::optional<tbb::global_control> limit;
+  if (threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  }
+  tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, count, 1), [&](const auto& range) {
+    for (std::uint64_t k = range.begin(); k != range.end(); ++k) work(k);
+  });
+}
+
+#else
+
+void for_all(std::uint64_t count, int /*threads*/, const std::function<void(std::uint64_t)>& work) {
+  for (std::uint64_t k = 0; k < count; ++k) work(k);
+}
+
+#endif
+
 }  // namespace
 
 std::uint64_t run_sweep(const SweepSpec& spec, std::uint64_t spec_hash, const SweepRun& run) {
@@ -39,21 +62,14 @@ std::uint64_t run_sweep(const SweepSpec& spec, std::uint64_t spec_hash, const Sw
   PartWriter writer(run.directory, part_name(run.share), spec_hash);
   std::mutex writing;
   std::uint64_t finished = 0;
-  std::optional<tbb::global_control> limit;
-  if (run.threads > 0) {
-    limit.emplace(tbb::global_control::max_allowed_parallelism,
-                  static_cast<std::size_t>(run.threads));
-  }
-  tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, total, 1), [&](const auto& range) {
-    for (std::uint64_t k = range.begin(); k != range.end(); ++k) {
-      const std::uint64_t cell = cell_of(run.share, k);
-      if (store.has(cell)) continue;
-      const CellResult result = run_cell(spec, cell);
-      const std::scoped_lock lock(writing);
-      writer.append(cell, result);
-      ++finished;
-      if (run.progress) run.progress(finished, pending);
-    }
+  for_all(total, run.threads, [&](std::uint64_t k) {
+    const std::uint64_t cell = cell_of(run.share, k);
+    if (store.has(cell)) return;
+    const CellResult result = run_cell(spec, cell);
+    const std::scoped_lock lock(writing);
+    writer.append(cell, result);
+    ++finished;
+    if (run.progress) run.progress(finished, pending);
   });
   return finished;
 }

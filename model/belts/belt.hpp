@@ -27,7 +27,7 @@ struct PerBelt {
   constexpr const T& operator[](Belt belt) const {
     return belt == Belt::tl ? tl : belt == Belt::tr ? tr : belt == Belt::bl ? bl : br;
   }
-  friend constexpr bool operator==(const PerBelt&, const PerBelt&) = default;
+  friend bool operator==(const PerBelt&, const PerBelt&) = default;
 };
 
 /// The word of files: tl, tr, bl, br.

@@ -31,9 +31,10 @@ void check_parameters(const BeltEffect& effect,
                       const std::string& place,
                       std::vector<MachineProblem>& problems) {
   for (const auto& [key, value] : applied.parameters) {
-    const auto known = std::find_if(effect.parameters.begin(),
-                                    effect.parameters.end(),
-                                    [&](const auto& parameter) { return parameter.name == key; });
+    const auto known = std::find_if(
+        effect.parameters.begin(), effect.parameters.end(), [&wanted = key](const auto& parameter) {
+          return parameter.name == wanted;
+        });
     if (known == effect.parameters.end()) {
       std::string names;
       for (const auto& parameter : effect.parameters) {

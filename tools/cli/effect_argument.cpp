@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "grid/files/parse_double.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::cli {
@@ -114,7 +115,8 @@ std::vector<model::AppliedEffect> parse_effects(const std::vector<std::string>& 
 
 bool parse_number(std::string_view text, double& value) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] =
+      grid::files::parse_double(text.data(), text.data() + text.size(), value);
   return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
 }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -17,6 +16,7 @@
 
 #include "grid/files/file_identity.hpp"
 #include "grid/files/input_error.hpp"
+#include "grid/files/parse_double.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/map_input.hpp"
@@ -42,7 +42,8 @@ constexpr KindName kKinds[] = {
 };
 
 bool number(std::string_view text, double& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] =
+      grid::files::parse_double(text.data(), text.data() + text.size(), value);
   return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
 }
 

@@ -2,6 +2,7 @@
 /// \file
 /// The command's entrance: parses, runs the chosen verb, turns outcomes into exit codes.
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -103,6 +104,9 @@ void let_verbs_pass_on(CLI::App& app) {
 }
 
 int main_with_exit_code(int argc, char** argv) {
+#ifdef __EMSCRIPTEN__
+  ::umask(022);  // emscripten begins with 0777: nobody could read what is written
+#endif
   take_up_closed_streams();
   keep_lines_whole();
   grid::files::remove_pending_files_on_signals();

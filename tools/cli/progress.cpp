@@ -2,7 +2,11 @@
 #include "tools/cli/progress.hpp"
 
 #include <fmt/format.h>
+#ifdef __EMSCRIPTEN__
+#include <emscripten.h>
+#else
 #include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <atomic>
@@ -36,7 +40,7 @@ Told& told() {
   return last;
 }
 
-void begin(const grid::WorkStep& step) {
+void note(const grid::WorkStep& step) {
   const std::scoped_lock lock(told().mutex);
   const grid::WorkStep& last = told().step;
   if (step.number != last.number || step.what != last.what || step.pass != last.pass) {
@@ -65,6 +69,37 @@ std::string in_words(const std::string& verb, double elapsed_s) {
     words += fmt::format(", pass {}{}", step.pass, share < 0.0 ? " until it settles" : "");
   return words + left_in_words(seconds_since(told().began), share);
 }
+
+#ifdef __EMSCRIPTEN__
+
+/// A page has neither a terminal nor a second thread: its script, Module.onProgress, is told the
+/// words when a step or a share is, not more often than it can show them.
+class Line {
+ public:
+  explicit Line(std::string verb) : verb_(std::move(verb)) {}
+
+  void show() {
+    constexpr auto kStep = std::chrono::milliseconds(100);
+    const Clock::time_point now = Clock::now();
+    if (now - shown_ < kStep) return;
+    shown_ = now;
+    const std::string words = in_words(verb_, seconds_since(start_));
+    EM_ASM(
+        {
+          if (Module.onProgress) Module.onProgress(UTF8ToString($0));
+        },
+        words.c_str());
+  }
+
+ private:
+  std::string verb_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point shown_ = start_;
+};
+
+bool is_watched() { return true; }
+
+#else
 
 /// Writes its line over and over, in a thread of its own, until it goes.
 class Line {
@@ -104,23 +139,40 @@ class Line {
   std::thread thread_;  // last: it uses the others
 };
 
+bool is_watched() { return ::isatty(STDERR_FILENO) != 0; }
+
+#endif
+
 std::unique_ptr<Line>& line() {
   static std::unique_ptr<Line> the_line;
   return the_line;
 }
 
+/// Elsewhere the line shows itself.
+void show_in_page() {
+#ifdef __EMSCRIPTEN__
+  if (line()) line()->show();
+#endif
+}
+
 }  // namespace
 
 ProgressLine::ProgressLine(const std::string& verb) {
-  if (::isatty(STDERR_FILENO) != 0) line() = std::make_unique<Line>(verb);
+  if (is_watched()) line() = std::make_unique<Line>(verb);
 }
 
 ProgressLine::~ProgressLine() { end_progress(); }
 
-grid::Progress shown_progress() { return begin; }
+grid::Progress shown_progress() {
+  return [](const grid::WorkStep& step) {
+    note(step);
+    show_in_page();
+  };
+}
 
 void progress_is(double finished, double total) {
   told().share = total > 0.0 ? finished / total : -1.0;
+  show_in_page();
 }
 
 void end_progress() { line().reset(); }

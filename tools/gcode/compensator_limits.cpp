@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "tools/gcode/compensator.hpp"
+
+#include "grid/files/parse_double.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -116,7 +117,7 @@ void Compensator::note_unknown(const PassedWord& word) {
   const std::string code = word.text.substr(0, word.text.find(' '));
   const Firmware& firmware = corrector_.firmware();
   double number = 0.0;
-  std::from_chars(code.data() + 1, code.data() + code.size(), number);
+  grid::files::parse_double(code.data() + 1, code.data() + code.size(), number);
   const int tenths = static_cast<int>(std::lround(10.0 * number));
   if (knows_code(firmware, letter, tenths) || !unknown_words_.insert(code).second) return;
   findings_.add(Note{

@@ -5,9 +5,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
+
+#include "grid/files/parse_double.hpp"
 
 namespace chaintrue::gcode {
 namespace {
@@ -170,8 +171,8 @@ Result<double> ValueReader::number() {
   std::string_view digits = text.substr(at_, end - at_);
   if (digits.starts_with('+')) digits.remove_prefix(1);
   double value = 0.0;
-  const auto [stop, error] = std::from_chars(
-      digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed);
+  const auto [stop, error] = grid::files::parse_double(
+      digits.data(), digits.data() + digits.size(), value, grid::files::NumberForm::fixed);
   if (digits.empty() || error == std::errc::invalid_argument) {
     return refuse(ProblemName::bad_number, start, "a number was expected here");
   }

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Makes the page and the package of emscripten's output:
+//   node build.mjs FOLDER_OF_CHAINTRUE_JS OUTPUT_FOLDER VERSION
+import {mkdirSync, readFileSync, writeFileSync} from "node:fs";
+import {dirname, join} from "node:path";
+import {fileURLToPath} from "node:url";
+import {gzipSync} from "node:zlib";
+import esbuild from "esbuild";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = join(here, "../..");
+const read = (path) => readFileSync(path, "utf8");
+
+/** What a page may carry, in bytes: one that a mail takes. */
+const MOST_BYTES = 3e6;
+
+export function bundle(entry, options = {}) {
+  const made = esbuild.buildSync({
+    entryPoints: [join(here, entry)], bundle: true, write: false, minify: true, format: "iife", target: "es2022",
+    charset: "utf8", legalComments: "inline", ...options,
+  });
+  return made.outputFiles[0].text;
+}
+
+const packed = (bytes) => gzipSync(bytes, {level: 9}).toString("base64");
+
+/** Text of a script element: nothing in it may end it. */
+const inScript = (text) => text.replaceAll("</", "<\\/");
+
+function licences() {
+  const fflate = read(join(here, "node_modules/fflate/LICENSE"));
+  return `${read(join(root, "tools/report/assets/licences.txt"))}\nfflate\n\n${fflate}`
+    .replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+}
+
+function example() {
+  return {
+    "groundcontrol.ini": read(join(root, "fixtures/good/groundcontrol_ring.ini")),
+    "marks.csv": read(join(root, "fixtures/start/marks.csv")),
+    "bracket.nc": read(join(root, "fixtures/gcode/bracket.nc")),
+  };
+}
+
+export function page(parts) {
+  return Object.entries(parts).reduce((html, [name, text]) => html.replace(`@${name}@`, () => text), read(join(here, "page/index.html")));
+}
+
+function main([from, to, version]) {
+  const glue = read(join(from, "chaintrue.js"));
+  const wasm = readFileSync(join(from, "chaintrue.wasm"));
+  const worker = `${glue}\nself.createChaintrue = createChaintrue;\n${bundle("engine/worker.js")}`;
+  const html = page({
+    STYLE: read(join(here, "page/style.css")), VERSION: version, LICENCES: licences(), EXAMPLE: inScript(JSON.stringify(example())),
+    WORKER: packed(worker), WASM: packed(wasm), APP: inScript(bundle("page/app.js")),
+  });
+  mkdirSync(to, {recursive: true});
+  writeFileSync(join(to, "chaintrue.html"), html);
+  writeFileSync(join(to, "chaintrue.wasm"), wasm);
+  writeFileSync(join(to, "chaintrue.mjs"), `${glue}\n${bundle("engine/package.js", {format: "esm", minify: false, platform: "node"})}`);
+  writeFileSync(join(to, "chaintrue.d.ts"), read(join(here, "engine/chaintrue.d.ts")));
+  const description = {
+    name: "chaintrue", version, type: "module", license: "GPL-3.0-or-later", main: "chaintrue.mjs", types: "chaintrue.d.ts",
+    files: ["chaintrue.mjs", "chaintrue.wasm", "chaintrue.d.ts"],
+  };
+  writeFileSync(join(to, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
+  console.error(`${join(to, "chaintrue.html")}: ${(html.length / 1e6).toFixed(2)} MB`);
+  if (html.length > MOST_BYTES) throw new Error(`the page has ${html.length} bytes, at most ${MOST_BYTES} were promised`);
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) main(process.argv.slice(2));

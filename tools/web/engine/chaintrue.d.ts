@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/** Files of a folder by their path, as in {"my-machine/machine.json": bytes}. */
+export type Files = Record<string, Uint8Array>;
+
+export interface Result {
+  /** The command's exit code: 0 done, 1 a check failed, 2 usage, 3 bad input, 4 not supported or outside, 5 internal. */
+  code: number;
+  stdout: string;
+  stderr: string;
+  /** The files that this run has written. */
+  files: Files;
+}
+
+export interface Options {
+  /** What `-` reads. */
+  stdin?: Uint8Array;
+  /** Told of long work, at most ten times a second: "diagnose: 3 s, step 2 of 5, ...". */
+  onProgress?: (words: string) => void;
+}
+
+export interface Chaintrue {
+  /** Runs the command with these words in a folder of these files. Rejects only where the engine itself dies. */
+  run(words: string[], files?: Files, options?: Options): Promise<Result>;
+}
+
+/** The command, compiled once; `wasm` is chaintrue.wasm where it does not lie beside chaintrue.mjs. */
+export function load(wasm?: ArrayBuffer | Uint8Array): Promise<Chaintrue>;

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command as the page sees it: one run after the other in a worker that can be stopped.
+
+/** The command did not come to its end: it was stopped, or the engine died. */
+export class NotFinished extends Error {
+  constructor(message, isCancelled) {
+    super(message);
+    this.isCancelled = isCancelled;
+  }
+}
+
+export class Engine {
+  #source;
+  #wasm;
+  #worker = null;
+  #current = null;
+  #waiting = [];
+  #number = 0;
+
+  /** @param source text of the worker; @param wasm bytes of the command */
+  constructor(source, wasm) {
+    this.#source = source;
+    this.#wasm = wasm;
+    this.#start();
+  }
+
+  /**
+   * Runs the command after those that wait. `supersede` names a task: of several that wait under one name
+   * only the last is run, the others end as cancelled.
+   * @returns a promise of {code, stdout, stderr, files}; rejects with NotFinished
+   */
+  run(words, files, {onProgress, supersede} = {}) {
+    if (supersede) this.cancel((job) => job !== this.#current && job.supersede === supersede);
+    return new Promise((resolve, reject) => {
+      this.#waiting.push({id: ++this.#number, words, files, onProgress, supersede, resolve, reject});
+      this.#next();
+    });
+  }
+
+  /** Stops the runs that `which` chooses, the one under way among them. */
+  cancel(which = () => true) {
+    const stopped = this.#waiting.filter(which);
+    this.#waiting = this.#waiting.filter((job) => !stopped.includes(job));
+    if (this.#current && which(this.#current)) {
+      stopped.push(this.#current);
+      this.#restart();
+    }
+    for (const job of stopped) job.reject(new NotFinished("Stopped.", true));
+    this.#next();
+  }
+
+  get isBusy() {
+    return this.#current !== null;
+  }
+
+  #start() {
+    const url = URL.createObjectURL(new Blob([this.#source], {type: "text/javascript"}));
+    this.#worker = new Worker(url);
+    URL.revokeObjectURL(url);
+    this.#worker.onmessage = ({data}) => this.#heard(data);
+    this.#worker.onerror = (event) => {
+      event.preventDefault();
+      this.#died(event.message || "the worker ended");
+    };
+    this.#worker.postMessage({wasm: this.#wasm});
+  }
+
+  #restart() {
+    this.#worker.terminate();
+    this.#current = null;
+    this.#start();
+  }
+
+  #next() {
+    if (this.#current || this.#waiting.length === 0) return;
+    this.#current = this.#waiting.shift();
+    const {id, words, files} = this.#current;
+    this.#worker.postMessage({id, words, files});
+  }
+
+  #heard({id, progress, result, crashed}) {
+    const job = this.#current;
+    if (!job || job.id !== id) return;
+    if (progress !== undefined) {
+      job.onProgress?.(progress);
+      return;
+    }
+    if (crashed !== undefined) {
+      this.#died(crashed);
+      return;
+    }
+    this.#current = null;
+    job.resolve(result);
+    this.#next();
+  }
+
+  #died(reason) {
+    const job = this.#current;
+    this.#restart();
+    job?.reject(new NotFinished(`The engine stopped unexpectedly (${reason}). Nothing that you typed is lost; please ` +
+      "report it with the folder of the button Download.", false));
+    this.#next();
+  }
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command as a package for others' pages and for node. `createChaintrue` stands before this text.
+import {run} from "./run.js";
+
+const isNode = typeof process !== "undefined" && process.versions?.node !== undefined;
+
+async function bytesOf(url) {
+  if (!isNode) return (await fetch(url)).arrayBuffer();
+  const {readFile} = await import("node:fs/promises");
+  return readFile(url);
+}
+
+/** The command, ready to be run: see chaintrue.d.ts. */
+export async function load(wasm) {
+  const bytes = wasm ?? await bytesOf(new URL("chaintrue.wasm", import.meta.url));
+  const module = await WebAssembly.compile(bytes);
+  return {run: (words, files = {}, options = {}) => run(createChaintrue, module, words, files, options)};
+}

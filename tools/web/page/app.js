@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page: an owner's evening in four steps on one folder. The engine and the example lie in the page as data.
+import {Engine} from "../engine/engine.js";
+import {Busy} from "./busy.js";
+import {cutStep} from "./cut.js";
+import {download, h} from "./dom.js";
+import {filesStep} from "./files.js";
+import {machineStep, mayReplace, openZip, replaceFolder} from "./machine.js";
+import {Maslow4} from "./maslow4.js";
+import {measureStep} from "./measure.js";
+import {resultStep} from "./result.js";
+import {Storage} from "./storage.js";
+import {Store} from "./store.js";
+import {zipOf} from "./zip.js";
+
+const STEPS = [["machine", "Machine"], ["measure", "Measure"], ["result", "Map and causes"], ["cut", "Cut"], ["files", "Files"]];
+
+async function unpacked(id) {
+  const text = atob(document.getElementById(id).textContent.trim());
+  const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).arrayBuffer();
+}
+
+class Page {
+  store = new Store();
+  storage = new Storage((problem) => this.#say("storage", problem));
+  busy = new Busy(() => this.engine.cancel());
+  engine = null;
+  example = null;
+  #banners = {storage: h("p", {class: "banner", role: "alert", hidden: true}), problem: h("p", {class: "banner bad", role: "alert", hidden: true})};
+  #steps = {};
+  #links = {};
+  #undo = h("button", {type: "button", onclick: () => this.store.undo()}, "Undo");
+  #redo = h("button", {type: "button", onclick: () => this.store.redo()}, "Redo");
+  #zip = h("input", {type: "file", id: "zip", accept: ".zip", hidden: true, onchange: () => this.#opened()});
+
+  alert(sentence) {
+    this.#say("problem", sentence);
+  }
+
+  async begin() {
+    this.example = JSON.parse(document.getElementById("example").textContent);
+    this.maslow4 = new Maslow4(this);
+    this.#steps = {machine: machineStep(this), measure: measureStep(this), result: resultStep(this), cut: cutStep(this), files: filesStep(this)};
+    this.machine = this.#steps.machine;
+    this.machine.element.append(this.maslow4.element);
+    this.#draw();
+    this.#listenToKeys();
+    const [source, wasm, kept] = await Promise.all([unpacked("worker"), unpacked("wasm"), this.storage.open()]);
+    this.engine = new Engine(new TextDecoder().decode(source), wasm);
+    if (kept) this.store.restore(kept);
+    this.store.listen(() => this.#changed());
+    this.#changed();
+    document.body.dataset.ready = "true";
+  }
+
+  #draw() {
+    const tools = h("div", {class: "tools"}, this.#undo, this.#redo,
+      h("button", {type: "button", onclick: () => download("my-machine.zip", zipOf(this.store.folder))}, "Download"),
+      h("button", {type: "button", onclick: () => this.#zip.click()}, "Open"), this.#zip,
+      h("button", {type: "button", onclick: () => mayReplace(this) && replaceFolder(this, {}, "machine")}, "Begin anew"));
+    this.#zip.setAttribute("aria-label", "A zip that Download has made");
+    const nav = h("nav", {"aria-label": "Steps"}, h("ol", {}, STEPS.map(([step, label]) => {
+      this.#links[step] = h("button", {type: "button", onclick: () => this.#go(step)}, label);
+      return h("li", {}, this.#links[step]);
+    })));
+    document.querySelector("header").append(tools, nav);
+    document.querySelector("main").replaceChildren(this.#banners.storage, this.#banners.problem, this.busy.element,
+      ...STEPS.map(([step, label]) => h("div", {id: `step-${step}`, class: "step", role: "region", "aria-label": label}, this.#steps[step].element)));
+  }
+
+  #go(step) {
+    this.#say("problem", null);
+    this.store.show({step});
+    scrollTo(0, 0);
+  }
+
+  #changed() {
+    const {folder, view} = this.store;
+    for (const [step] of STEPS) {
+      document.getElementById(`step-${step}`).hidden = step !== view.step;
+      if (step === view.step) this.#links[step].setAttribute("aria-current", "step");
+      else this.#links[step].removeAttribute("aria-current");
+      this.#steps[step].update();
+    }
+    this.maslow4.update();
+    this.#undo.disabled = !this.store.canUndo;
+    this.#redo.disabled = !this.store.canRedo;
+    this.storage.keep({folder, view});
+  }
+
+  #say(which, sentence) {
+    const banner = this.#banners[which];
+    banner.hidden = sentence === null;
+    banner.textContent = sentence ?? "";
+  }
+
+  async #opened() {
+    const [file] = this.#zip.files;
+    this.#zip.value = "";
+    if (!file || !mayReplace(this)) return;
+    await openZip(this, new Uint8Array(await file.arrayBuffer()), (sentences) => this.#say("problem", sentences[0] ?? null));
+  }
+
+  #listenToKeys() {
+    document.addEventListener("keydown", (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
+      const key = event.key.toLowerCase();
+      if (key !== "z" && key !== "y") return;
+      event.preventDefault();
+      if (key === "y" || event.shiftKey) this.store.redo();
+      else this.store.undo();
+    });
+  }
+}
+
+const page = new Page();
+page.begin().catch((problem) => {
+  document.querySelector("main").replaceChildren(h("p", {class: "banner bad", role: "alert"},
+    `This page cannot start in this browser (${problem.message}). It needs a browser of 2023 or later: Chromium, Chrome, Edge, Firefox or Safari.`));
+});

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bed beside the table: where the rows' places lie, and which is being typed in.
+import {svg} from "./dom.js";
+
+const MARGIN_MM = 60;
+
+/** @param bed {width_mm, height_mm}; @param sheet a Sheet; @param pick(row) is told of a click */
+export function bedPicture(bed, sheet, pick) {
+  const width = bed.width_mm;
+  const height = bed.height_mm;
+  const picture = svg("svg", {
+    class: "bed", role: "img", "aria-label": "The bed with the places to measure",
+    viewBox: `${-width / 2 - MARGIN_MM} ${-height / 2 - MARGIN_MM} ${width + 2 * MARGIN_MM} ${height + 2 * MARGIN_MM}`,
+  });
+  picture.append(svg("rect", {class: "board", x: -width / 2, y: -height / 2, width, height}));
+  picture.append(svg("path", {class: "axes", d: `M ${-width / 2} 0 H ${width / 2} M 0 ${-height / 2} V ${height / 2}`}));
+  const named = Object.fromEntries(sheet.places.map((place) => [place.name, place]));
+  const isDistances = sheet.columns[0] === "from";
+  const items = sheet.rows.map((row, index) =>
+    isDistances ? distance(named[row.cells[0]], named[row.cells[1]], index) : mark(sheet.places[index], index));
+  for (const [index, item] of items.entries()) {
+    if (!item) continue;
+    item.addEventListener("click", () => pick(index));
+    picture.append(item);
+  }
+  if (isDistances) picture.append(...sheet.places.map((place) => hole(place)));
+  return {
+    element: picture,
+    /** Rows that are filled in, and rows that something is wrong with. */
+    show({active, filled, wrong}) {
+      for (const [index, item] of items.entries()) {
+        if (!item) continue;
+        item.setAttribute("class", [item.dataset.kind, index === active && "active", filled(index) && "filled",
+          wrong(index) && "wrong"].filter(Boolean).join(" "));
+      }
+      if (items[active]) picture.append(items[active]);
+    },
+  };
+}
+
+function mark(place, index) {
+  if (!place || !Number.isFinite(place.x)) return null;
+  return svg("g", {"data-kind": "mark", transform: `translate(${place.x} ${-place.y})`},
+    svg("circle", {r: 52}), svg("text", {y: 19}, String(index + 1)));
+}
+
+function distance(from, to, index) {
+  if (!from || !to) return null;
+  return svg("g", {"data-kind": "distance", "data-row": index},
+    svg("line", {x1: from.x, y1: -from.y, x2: to.x, y2: -to.y}));
+}
+
+function hole(place) {
+  return svg("g", {class: "hole", transform: `translate(${place.x} ${-place.y})`},
+    svg("circle", {r: 52}), svg("text", {y: 19}, place.name));
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elements in one expression.
+
+const SVG = "http://www.w3.org/2000/svg";
+
+function fill(element, properties, children) {
+  for (const [name, value] of Object.entries(properties ?? {})) {
+    if (value === undefined || value === null || value === false) continue;
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (value === true) element.setAttribute(name, "");
+    else element.setAttribute(name, value);
+  }
+  element.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== false));
+  return element;
+}
+
+export const h = (tag, properties, ...children) => fill(document.createElement(tag), properties, children);
+export const svg = (tag, properties, ...children) => fill(document.createElementNS(SVG, tag), properties, children);
+
+export const textOf = (bytes) => new TextDecoder().decode(bytes);
+export const bytesOf = (text) => new TextEncoder().encode(text);
+
+/** Gives the browser a file to keep. */
+export function download(name, bytes) {
+  const url = URL.createObjectURL(new Blob([bytes], {type: "application/octet-stream"}));
+  const link = h("a", {href: url, download: name});
+  document.body.append(link);
+  link.click();
+  link.remove();
+  // The browser reads the bytes after the click has returned.
+  setTimeout(() => URL.revokeObjectURL(url), 60_000);
+}
+
+/** A button that opens the browser's choice of files, and a place to drop them. */
+export function fileDrop(id, label, accept, hint, take, {multiple = false} = {}) {
+  const input = h("input", {type: "file", id, accept, multiple, onchange: async () => {
+    const files = [...input.files];
+    input.value = "";
+    if (files.length > 0) await take(files);
+  }});
+  const zone = h("div", {class: "drop"}, h("label", {for: id}, label), input, h("p", {class: "hint"}, hint));
+  zone.addEventListener("dragover", (event) => {
+    event.preventDefault();
+    zone.classList.add("over");
+  });
+  zone.addEventListener("dragleave", () => zone.classList.remove("over"));
+  zone.addEventListener("drop", async (event) => {
+    event.preventDefault();
+    zone.classList.remove("over");
+    const files = [...event.dataTransfer.files];
+    if (files.length > 0) await take(multiple ? files : files.slice(0, 1));
+  });
+  return zone;
+}

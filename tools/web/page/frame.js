@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A page that the command wrote, in a frame of its own: it can run its charts, and reach neither this page nor a network.
+import {h, textOf} from "./dom.js";
+
+/** Tells the frame's height, and prints when asked: the frame is of no origin, so only messages pass. */
+const INSIDE = `<script>
+new ResizeObserver(() => parent.postMessage({chaintrueHeight: document.documentElement.getBoundingClientRect().height}, "*"))
+  .observe(document.documentElement);
+addEventListener("message", (event) => { if (event.data === "chaintrue print") print(); });
+</script>`;
+
+const frames = new Set();
+addEventListener("message", (event) => {
+  for (const frame of frames) {
+    if (frame.contentWindow !== event.source) continue;
+    const height = Number(event.data?.chaintrueHeight);
+    if (height > 0) frame.style.height = `${Math.ceil(height)}px`;
+  }
+});
+
+/** Buttons and the frame. `title` names it to a screen reader. */
+export function reportFrame(title, name, bytes, {onDownload}) {
+  const frame = h("iframe", {title, sandbox: "allow-scripts allow-modals", class: "report"});
+  frame.srcdoc = textOf(bytes) + INSIDE;
+  for (const other of frames) if (!other.isConnected) frames.delete(other);
+  frames.add(frame);
+  return h("div", {class: "framed"},
+    h("p", {class: "buttons"},
+      h("button", {type: "button", onclick: () => frame.contentWindow.postMessage("chaintrue print", "*")}, "Print"),
+      h("button", {type: "button", onclick: () => onDownload(name)}, `Download ${name}`)),
+    frame);
+}

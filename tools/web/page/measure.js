@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The second step: sheets to print, readings to type, and the fit as they are typed.
+import {DONE, problemOf, runVerb, sentenceList, sentencesOf} from "./command.js";
+import {bytesOf, download, h, textOf} from "./dom.js";
+import {reportFrame} from "./frame.js";
+import {Readings} from "./readings.js";
+import {Sheet} from "./sheet.js";
+
+const WAYS = [
+  ["marks.csv", "Marks: x and y of each from the sheet's middle lines, with a square"],
+  ["holes.csv", "Holes: distances between them, with a tape"],
+  ["lengths.csv", "Chain lengths: read off the machine at each mark"],
+];
+/** Between the last key and a run of the command: as long as a person takes from key to key. */
+const PAUSE_MS = 350;
+
+export function measureStep(page) {
+  const said = h("div", {class: "said", role: "status", "aria-live": "polite"});
+  const readings = new Readings((text, name) => {
+    page.store.change({[page.store.view.sheet]: bytesOf(text)}, name && `${page.store.view.sheet} ${name}`);
+    fitSoon();
+  }, said);
+  const print = h("div");
+  const odd = h("p", {class: "hint", hidden: true}, "This list is not in the form that the command writes lists in. It is used as " +
+    "it is; to change it, edit it in a spreadsheet and open it again.");
+  const way = h("select", {id: "way", onchange: () => chooseWay(page, way.value)}, WAYS.map(([path, label]) => h("option", {value: path}, label)));
+  const unit = h("select", {id: "unit", onchange: () => page.store.show({unit: unit.value})},
+    h("option", {value: "mm"}, "millimetres"), h("option", {value: "in"}, "inches"));
+  const program = h("button", {type: "button", onclick: () => {
+    const name = programOf(page.store.view.sheet);
+    download(name, page.store.folder[name]);
+  }}, "Download the program that drives there");
+  const sheetButton = h("button", {type: "button", onclick: () => showSheet()}, "Show the sheet to print");
+  const element = h("div", {},
+    h("section", {}, h("h2", {}, "Measure"),
+      h("p", {class: "choices"}, h("label", {for: "way"}, "What you read"), way),
+      h("p", {class: "buttons"}, sheetButton, program),
+      h("p", {class: "hint"}, "Run the program without any compensation, measure, and type what you read below. What you leave empty is left out."),
+      print),
+    h("section", {}, h("h2", {}, "Readings"),
+      h("p", {class: "choices"}, h("label", {for: "unit"}, "You read in"), unit),
+      odd, readings.element));
+  let timer = null;
+
+  function fitSoon() {
+    clearTimeout(timer);
+    timer = setTimeout(() => fit(page, readings, said), PAUSE_MS);
+  }
+
+  function showSheet() {
+    const name = page.store.view.sheet.replace(/\.csv$/, ".html");
+    const bytes = page.store.folder[name];
+    if (print.firstChild || !bytes) print.replaceChildren();
+    else print.replaceChildren(reportFrame(`The sheet ${name}`, name, bytes, {onDownload: () => download(name, bytes)}));
+    sheetButton.textContent = print.firstChild ? "Hide the sheet" : "Show the sheet to print";
+  }
+
+  let shown = null;
+  return {
+    element,
+    update() {
+      const {folder, view} = page.store;
+      way.value = view.sheet;
+      unit.value = view.unit;
+      program.hidden = !folder[programOf(view.sheet)];
+      sheetButton.hidden = !folder[view.sheet.replace(/\.csv$/, ".html")];
+      const bytes = folder[view.sheet];
+      const bed = bedOf(folder);
+      const sheet = bytes && bed ? Sheet.of(textOf(bytes)) : null;
+      odd.hidden = sheet !== null || !bytes;
+      readings.element.hidden = sheet === null;
+      if (sheet) readings.draw(sheet, bed, view.unit);
+      if (shown === bytes && shown !== null) return;
+      shown = bytes;
+      if (sheet) fitSoon();
+      else said.replaceChildren();
+    },
+  };
+}
+
+const programOf = (sheet) => sheet.replace(/\.csv$/, ".nc");
+
+export function bedOf(folder) {
+  try {
+    const {bed} = JSON.parse(textOf(folder["machine.json"]));
+    return Number(bed.width_mm) > 0 && Number(bed.height_mm) > 0 ? bed : null;
+  } catch {
+    return null;
+  }
+}
+
+async function chooseWay(page, path) {
+  if (!page.store.folder[path] && page.store.folder["machine.json"]) {
+    const result = await runVerb(page, ["plan", "--machine", "machine.json", "--measure", "lengths", "-o", path,
+      "--page", path.replace(/\.csv$/, ".html"), "--gcode", programOf(path), "--force"]);
+    if (result?.code === DONE) page.store.derive(result.files);
+    else if (result) page.alert(sentencesOf(result).join(" "));
+  }
+  page.store.show({sheet: path});
+}
+
+/** The fit of what is typed so far; its sentences stand below, and at the rows that they are about. */
+async function fit(page, readings, said) {
+  const {sheet: path} = page.store.view;
+  const text = page.store.folder[path];
+  if (!text) return;
+  const list = Sheet.of(textOf(text));
+  if (list && list.filled === 0) {
+    readings.mark(new Map());
+    said.replaceChildren(h("p", {class: "hint"}, "Nothing is typed in yet."));
+    return;
+  }
+  const words = ["fit", path, "--machine", "machine.json", "-o", "map.json", "--force", "--verbose"];
+  const result = await runVerb(page, words, {quiet: true, supersede: "fit"});
+  if (!result || page.store.folder[path] !== text) return;
+  const sentences = sentencesOf(result);
+  const problems = new Map();
+  for (const sentence of sentences) markRow(problems, list, sentence, path);
+  readings.mark(problems);
+  if (result.code === DONE) page.store.derive({...result.files, "diagnosis.json": null, "diagnosis.html": null});
+  else if (page.store.folder["map.json"]) page.store.derive({"map.json": null, "diagnosis.json": null, "diagnosis.html": null});
+  said.className = result.code === DONE ? "said" : "said problem";
+  said.replaceChildren(...outcome(page, sentences, result.code));
+}
+
+function outcome(page, sentences, code) {
+  // Tables of --verbose follow the sentences after an empty line; their lines begin with blanks or are their titles.
+  const end = sentences.findIndex((line) => /^Settings {3,}/.test(line));
+  const plain = end < 0 ? sentences : sentences.slice(0, end);
+  const tables = end < 0 ? [] : sentences.slice(end);
+  return [
+    sentenceList(plain),
+    tables.length > 0 && h("details", {}, h("summary", {}, "The numbers"), h("pre", {tabindex: "0"}, tables.join("\n"))),
+    code === DONE && h("p", {class: "buttons"},
+      h("button", {type: "button", class: "main", onclick: () => page.store.show({step: "result"})}, "See the map and the causes")),
+  ].filter(Boolean);
+}
+
+/** Puts a sentence at the row that it is about: a place in the file, or a point by its number. */
+function markRow(problems, list, sentence, path) {
+  if (!list) return;
+  const problem = problemOf(sentence, path);
+  if (problem?.line) {
+    const cell = list.cellAt(problem.line, problem.column);
+    if (cell) problems.set(cell.row, {column: cell.column, text: problem.text});
+    return;
+  }
+  const point = /^Point (\d+) /.exec(sentence);
+  const between = /\b([A-Z]\d*)-([A-Z]\d*)\b/.exec(sentence);
+  const row = point ? list.rowOfPoint(Number(point[1]))
+    : between ? list.rows.findIndex(({cells}) => cells[0] === between[1] && cells[1] === between[2]) : -1;
+  if (row >= 0) problems.set(row, {column: null, text: sentence});
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The built page in a real browser, and the command of the same source beside it.
+import {spawnSync} from "node:child_process";
+import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {dirname, join} from "node:path";
+import {fileURLToPath, pathToFileURL} from "node:url";
+import puppeteer from "puppeteer-core";
+
+export const root = join(dirname(fileURLToPath(import.meta.url)), "../../..");
+export const built = join(root, "build/page");
+export const native = join(root, "build/chaintrue");
+export const fixture = (path) => join(root, "fixtures", path);
+
+/** Slow machines with other work take their time; what is measured is measured apart. */
+export const PATIENCE_MS = 120_000;
+
+const EXECUTABLES = {chrome: ["/usr/bin/chromium"], firefox: ["/usr/bin/firefox-esr", "/usr/bin/firefox"]};
+const executableOf = (browser) => EXECUTABLES[browser].find((path) => existsSync(path));
+
+/** The browsers that are installed. */
+export const browsers = Object.keys(EXECUTABLES).filter(executableOf);
+
+/** A folder that is gone with the process. */
+export function temporaryFolder() {
+  const folder = mkdtempSync(join(tmpdir(), "chaintrue-page-"));
+  process.on("exit", () => rmSync(folder, {recursive: true, force: true}));
+  return folder;
+}
+
+/** Runs the native command: {code, stdout, stderr}. */
+export function runNative(words, folder) {
+  const {status, stdout, stderr} = spawnSync(native, words, {cwd: folder, encoding: "utf8", maxBuffer: 1e9});
+  return {code: status, stdout, stderr};
+}
+
+/** A visit to the page. Whatever a page logs as an error or throws is kept in `problems`. */
+export class Visit {
+  problems = [];
+
+  static async to(browserName, {width = 1280, height = 900, dark = false, prepare, url = pathToFileURL(join(built, "chaintrue.html")).href} = {}) {
+    const visit = new Visit();
+    visit.downloads = temporaryFolder();
+    visit.browser = await puppeteer.launch({
+      browser: browserName, executablePath: executableOf(browserName), headless: true,
+      // A container's root has no sandbox to give. Nothing but this page is opened.
+      args: browserName === "chrome" ? ["--no-sandbox"] : [],
+      ...(browserName === "chrome" && {downloadBehavior: {policy: "allow", downloadPath: visit.downloads}}),
+      extraPrefsFirefox: {
+        "browser.download.folderList": 2, "browser.download.dir": visit.downloads, "browser.download.alwaysOpenPanel": false,
+        "browser.helperApps.neverAsk.saveToDisk": "application/octet-stream", "browser.download.useDownloadDir": true,
+        "ui.systemUsesDarkTheme": dark ? 1 : 0, "layout.css.prefers-color-scheme.content-override": dark ? 0 : 1,
+      },
+    });
+    visit.page = await visit.browser.newPage();
+    await visit.page.setViewport({width, height});
+    if (browserName === "chrome") await visit.page.emulateMediaFeatures([{name: "prefers-color-scheme", value: dark ? "dark" : "light"}]);
+    visit.page.setDefaultTimeout(PATIENCE_MS);
+    visit.page.on("pageerror", (error) => visit.problems.push(error.message));
+    visit.page.on("console", (message) => {
+      if (message.type() === "error") visit.problems.push(message.text());
+    });
+    visit.page.on("dialog", (dialog) => dialog.accept());
+    if (prepare) await prepare(visit.page);
+    await visit.page.goto(url);
+    await visit.ready();
+    return visit;
+  }
+
+  ready() {
+    return this.page.waitForSelector("body[data-ready]");
+  }
+
+  async reload() {
+    await this.page.reload();
+    await this.ready();
+  }
+
+  /** Clicks the visible button of this text. */
+  async click(text) {
+    const button = await this.page.waitForFunction((wanted) =>
+      [...document.querySelectorAll("button")].find((one) => one.textContent === wanted && one.checkVisibility()), {}, text);
+    await button.asElement().click();
+  }
+
+  async upload(selector, path) {
+    const input = await this.page.waitForSelector(selector);
+    await input.uploadFile(path);
+  }
+
+  /** Waits until the visible text of `selector` holds `wanted`; gives the text. */
+  async text(selector, wanted = "") {
+    await this.page.waitForFunction((where, what) => [...document.querySelectorAll(where)].some((one) =>
+      one.checkVisibility() && one.textContent !== "" && one.textContent.includes(what)), {}, selector, wanted);
+    return this.page.$$eval(selector, (found) => found.filter((one) => one.checkVisibility()).map((one) => one.textContent).join("\n"));
+  }
+
+  /** The input of a column of a row, from 0. */
+  cell(row, column) {
+    return this.page.waitForSelector(`tr[data-row="${row}"] td:nth-last-child(${2 - column}) input`);
+  }
+
+  values() {
+    return this.page.$$eval(".list input", (inputs) => inputs.map((input) => input.value));
+  }
+
+  /** Puts a text in place of what a cell holds, with keys. */
+  async type(row, column, text) {
+    await (await this.cell(row, column)).click({count: 3});
+    await this.page.keyboard.press("Backspace");
+    await this.page.keyboard.type(text);
+  }
+
+  /** The report in the frame of this title, once its charts are drawn. */
+  async report(title) {
+    const element = await this.page.waitForSelector(`iframe[title="${title}"]`);
+    const frame = await element.contentFrame();
+    await frame.waitForFunction(() => document.querySelectorAll("figure.chart").length > 0 &&
+      [...document.querySelectorAll("figure.chart")].every((figure) => figure.querySelector("svg")));
+    return frame;
+  }
+
+  /** The bytes of a file that the browser was given, once they are all there. */
+  async downloaded(name) {
+    const path = join(this.downloads, name);
+    const until = Date.now() + PATIENCE_MS;
+    for (;;) {
+      const isPartial = readdirSync(this.downloads).some((one) => /\.(part|crdownload)$/.test(one));
+      if (existsSync(path) && !isPartial && readFileSync(path).length > 0) break;
+      if (Date.now() > until) throw new Error(`${name} was not downloaded; there are: ${readdirSync(this.downloads)}`);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+    const bytes = readFileSync(path);
+    rmSync(path);
+    return bytes;
+  }
+
+  close() {
+    return this.browser.close();
+  }
+}
+
+/** Writes files {path: bytes} into a folder. */
+export function writeFolder(folder, files) {
+  for (const [path, bytes] of Object.entries(files)) writeFileSync(join(folder, path), bytes);
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// An owner's evening, typed and clicked: from the settings file to the verified program, in every browser that is here.
+import assert from "node:assert/strict";
+import {readFileSync} from "node:fs";
+import {join} from "node:path";
+import {describe, test} from "node:test";
+import {folderOf} from "../page/zip.js";
+import {browsers, fixture, runNative, temporaryFolder, Visit, writeFolder} from "./browser.mjs";
+
+const READINGS = readFileSync(fixture("start/marks.csv"), "utf8").trim().split("\n").slice(1).map((line) => line.split(",").slice(3));
+const ROW_OF_SLIP = 10;
+
+/** Numbers equal to 1e-9 of their size, as the page's own description promises; all else equal. */
+export function assertAlike(found, wanted, place = "") {
+  if (typeof wanted === "number" && typeof found === "number") {
+    // What is zero but for rounding has no size of its own: 1e-9 mm is nothing either.
+    assert.ok(Math.abs(found - wanted) <= 1e-9 * Math.max(1, Math.abs(wanted)), `${place}: ${found}, natively ${wanted}`);
+  } else if (wanted !== null && typeof wanted === "object") {
+    assert.deepEqual(Object.keys(found), Object.keys(wanted), place);
+    for (const key of Object.keys(wanted)) assertAlike(found[key], wanted[key], `${place}/${key}`);
+  } else if (!(typeof wanted === "string" && wanted.startsWith("Written by chaintrue"))) {
+    assert.equal(found, wanted, place);
+  }
+}
+
+for (const browser of browsers) {
+  describe(`an evening in ${browser}`, () => {
+    test("from the settings file to the verified program", async () => {
+      const visit = await Visit.to(browser);
+      try {
+        await visit.upload("#settings", fixture("good/groundcontrol_ring.ini"));
+        await typeReadings(visit);
+        await slipAndMend(visit);
+        await visit.reload();
+        assert.deepEqual(await visit.values(), READINGS.flat(), "a reload loses nothing");
+        await visit.text(".said", "the map leaves 0.39 mm");
+        await visit.click("See the map and the causes");
+        await visit.report("The map");
+        await visit.click("Find the cause");
+        const diagnosis = await visit.report("The diagnosis");
+        assert.match(await diagnosis.$eval("main", (main) => main.textContent), /links/);
+        await visit.click("What to measure next");
+        await visit.text("#step-result .sentences", "measure");
+        await visit.click("Show the numbers to type in");
+        assert.match(await visit.text("#step-result pre", "motorspacingx"), /rotationradius/);
+        await cutAPart(visit);
+        await compareFolder(visit);
+        assert.deepEqual(visit.problems, []);
+      } finally {
+        await visit.close();
+      }
+    });
+  });
+}
+
+/** With keys alone from cell to cell; every third number with a comma. */
+async function typeReadings(visit) {
+  await (await visit.cell(0, 0)).focus();
+  for (const [row, [x, y]] of READINGS.entries()) {
+    await visit.page.keyboard.type(row % 3 === 0 ? x.replace(".", ",") : x);
+    await visit.page.keyboard.press("ArrowRight");
+    await visit.page.keyboard.type(y);
+    if (row + 1 === READINGS.length) break;
+    await visit.page.keyboard.press("Enter");
+    await visit.page.keyboard.press("ArrowLeft");
+  }
+  await visit.text(".said", "the map leaves 0.39 mm");
+}
+
+async function slipAndMend(visit) {
+  await visit.type(ROW_OF_SLIP, 1, "-23o.5");
+  await visit.text("tr.note", "found -23o.5, expected a number in mm from -20000 to 20000 (y_mm)");
+  await visit.type(ROW_OF_SLIP, 1, "-230.5");
+  await visit.text("tr.note", "Point 11 at (2, -230) was set aside");
+  assert.equal(await visit.page.$eval(`tr[data-row="${ROW_OF_SLIP}"] input`, (input) => input.getAttribute("aria-invalid")), "true");
+  await visit.type(ROW_OF_SLIP, 1, READINGS[ROW_OF_SLIP][1]);
+  await visit.page.waitForFunction(() => document.querySelectorAll("tr.note:not([hidden])").length === 0);
+  // The marks are all there again before the page is left.
+  await visit.text(".said", "the map leaves 0.39 mm");
+}
+
+async function cutAPart(visit) {
+  await visit.click("Cut");
+  await visit.upload("#program", fixture("gcode/bracket.nc"));
+  await visit.text(".said", "the tool stays within 0.0428 mm of the path");
+  await visit.report("bracket.nc before and after");
+  await visit.click("Verify it once more");
+  await visit.text(".said", "holds: the tool strays at most 0.0428 mm");
+  await visit.click("Download bracket.true.nc");
+  visit.program = await visit.downloaded("bracket.true.nc");
+}
+
+/** What the page hands out is the command's own, and the native command makes the same of it. */
+async function compareFolder(visit) {
+  await visit.click("Download");
+  const files = folderOf(await visit.downloaded("my-machine.zip"));
+  const folder = temporaryFolder();
+  writeFolder(folder, files);
+  const fit = runNative(["fit", "marks.csv", "--machine", "machine.json", "-o", "map.json", "--force"], folder);
+  assert.equal(fit.code, 0, fit.stderr);
+  const text = (bytes) => new TextDecoder().decode(bytes);
+  assertAlike(JSON.parse(text(files["map.json"])), JSON.parse(readFileSync(join(folder, "map.json"), "utf8")), "map.json");
+  const cut = runNative(["gcode", "compensate", "bracket.nc", "--map", "map.json", "-o", "bracket.true.nc", "--force"], folder);
+  assert.equal(cut.code, 0, cut.stderr);
+  assert.equal(text(visit.program), readFileSync(join(folder, "bracket.true.nc"), "utf8"), "the program, byte for byte");
+}

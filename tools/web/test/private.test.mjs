@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// No network, wrong files, no storage, large programs, a dead engine, and what axe-core finds.
+import assert from "node:assert/strict";
+import {createServer} from "node:http";
+import {readFileSync, writeFileSync} from "node:fs";
+import {createRequire} from "node:module";
+import {join} from "node:path";
+import {pathToFileURL} from "node:url";
+import {describe, test} from "node:test";
+import {folderOf} from "../page/zip.js";
+import {browsers, built, fixture, temporaryFolder, Visit} from "./browser.mjs";
+
+/** Every way out that a script has, tried in a document. */
+async function tryEveryWayOut(server) {
+  const image = new Image();
+  image.src = `${server}/image`;
+  const script = document.createElement("script");
+  script.src = `${server}/script`;
+  const style = document.createElement("link");
+  Object.assign(style, {rel: "stylesheet", href: `${server}/style`});
+  const frame = document.createElement("iframe");
+  frame.src = `${server}/frame`;
+  const media = document.createElement("video");
+  media.src = `${server}/media`;
+  document.body.append(image, script, style, frame, media);
+  navigator.sendBeacon?.(`${server}/beacon`);
+  try {
+    new WebSocket(server.replace("http", "ws")).onerror = () => {};
+    new EventSource(`${server}/events`);
+  } catch {
+    // Refused at once is refused as well.
+  }
+  await fetch(`${server}/fetch`, {mode: "no-cors"}).catch(() => {});
+  await new Promise((resolve) => setTimeout(resolve, 1000));
+}
+
+/** A server that counts who asks. */
+async function listening() {
+  const asked = [];
+  const server = createServer((request, response) => {
+    asked.push(request.url);
+    response.end();
+  });
+  server.on("upgrade", (request, socket) => {
+    asked.push("websocket");
+    socket.destroy();
+  });
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+  return {asked, url: `http://127.0.0.1:${server.address().port}`, close: () => server.close()};
+}
+
+for (const browser of browsers) {
+  test(`nothing reaches a network from the page or from a report, in ${browser}`, async () => {
+    const server = await listening();
+    const visit = await Visit.to(browser);
+    try {
+      await visit.page.evaluate(tryEveryWayOut, server.url);
+      await visit.click("Try an example machine");
+      await visit.text(".said", "the map leaves");
+      await visit.click("See the map and the causes");
+      const report = await visit.report("The map");
+      await report.evaluate(tryEveryWayOut, server.url);
+      assert.deepEqual(server.asked, []);
+      // The attempts are real: without the policy they arrive.
+      const open = join(temporaryFolder(), "open.html");
+      writeFileSync(open, "<!DOCTYPE html><title>open</title><body></body>");
+      await visit.page.goto(pathToFileURL(open).href);
+      await visit.page.evaluate(tryEveryWayOut, server.url);
+      assert.ok(server.asked.length >= 5, `only these arrived without a policy: ${server.asked}`);
+    } finally {
+      await visit.close();
+      server.close();
+    }
+  });
+
+  for (const [name, prepare] of Object.entries({
+    "forbidden": (page) => page.evaluateOnNewDocument(() => {
+      indexedDB.open = () => {
+        throw new DOMException("denied", "SecurityError");
+      };
+    }),
+    "full": (page) => page.evaluateOnNewDocument(() => {
+      IDBObjectStore.prototype.put = () => {
+        throw new DOMException("full", "QuotaExceededError");
+      };
+    }),
+  })) {
+    test(`storage that is ${name} is said, and the download works, in ${browser}`, async () => {
+      const visit = await Visit.to(browser, {prepare});
+      try {
+        await visit.upload("#settings", fixture("good/groundcontrol_ring.ini"));
+        await visit.type(0, 0, "-1113");
+        assert.match(await visit.text(".banner", "keeps nothing"), name === "full" ? /storage is full/ : /private window/);
+        await visit.click("Download");
+        const folder = folderOf(await visit.downloaded("my-machine.zip"));
+        assert.match(new TextDecoder().decode(folder["marks.csv"]), /^1,-1119,-509,-1113,$/m);
+      } finally {
+        await visit.close();
+      }
+    });
+  }
+}
+
+describe("files", () => {
+  test("a wrong settings file is told whole, and nothing is lost", async () => {
+    const visit = await Visit.to("chrome");
+    try {
+      await visit.upload("#settings", fixture("good/groundcontrol_ring.ini"));
+      await visit.cell(0, 0);
+      await visit.click("Machine");
+      await visit.upload("#settings", fixture("bad/groundcontrol_wrong_types.ini"));
+      const said = await visit.text(".said.problem", "expected");
+      assert.match(said, /groundcontrol_wrong_types\.ini: line \d+/);
+      await visit.upload("#settings", fixture("gcode/bracket.nc"));
+      await visit.text(".said.problem", "bracket.nc");
+      const zip = join(temporaryFolder(), "wrong.zip");
+      writeFileSync(zip, "this is no zip");
+      await visit.upload("#settings", zip);
+      await visit.text(".said.problem", "This zip cannot be read");
+      await visit.click("Measure");
+      assert.equal((await visit.values()).length, 56);
+      assert.deepEqual(visit.problems, []);
+    } finally {
+      await visit.close();
+    }
+  });
+
+  test("the zip that is given is taken back", async () => {
+    const visit = await Visit.to("chrome");
+    try {
+      await visit.click("Try an example machine");
+      await visit.text(".said", "the map leaves 0.39 mm");
+      const before = await visit.values();
+      await visit.click("Download");
+      const bytes = await visit.downloaded("my-machine.zip");
+      const zip = join(temporaryFolder(), "my-machine.zip");
+      writeFileSync(zip, bytes);
+      await visit.click("Begin anew");
+      await visit.upload("#settings", zip);
+      await visit.text(".said", "the map leaves 0.39 mm");
+      assert.deepEqual(await visit.values(), before);
+      assert.deepEqual(Object.keys(folderOf(bytes)).sort(), ["README.txt", "bracket.nc", "groundcontrol.ini", "holes.csv", "holes.html",
+        "holes.nc", "machine.json", "map.json", "marks.csv", "marks.html", "marks.nc"]);
+    } finally {
+      await visit.close();
+    }
+  });
+
+  test("a program of 5 MB is compensated, shown and given, and can be stopped", async () => {
+    const visit = await Visit.to("chrome");
+    try {
+      const program = join(temporaryFolder(), "relief.nc");
+      writeFileSync(program, reliefOf(5e6));
+      await visit.click("Try an example machine");
+      await visit.text(".said", "the map leaves 0.39 mm");
+      await visit.click("Cut");
+      await visit.upload("#program", program);
+      await visit.text(".busy", "gcode");
+      await visit.click("Stop");
+      await visit.page.waitForFunction(() => document.querySelector(".busy").hidden);
+      await visit.click("Compensate relief.nc");
+      await visit.text(".said", "the tool stays within");
+      await visit.click("Download relief.true.nc");
+      assert.ok((await visit.downloaded("relief.true.nc")).length > 5e6);
+      assert.deepEqual(visit.problems, []);
+    } finally {
+      await visit.close();
+    }
+  });
+
+  test("an engine that dies is said in a sentence, and loses no reading", async () => {
+    const visit = await Visit.to("chrome", {prepare: (page) => page.evaluateOnNewDocument(() => {
+      const post = Worker.prototype.postMessage;
+      Worker.prototype.postMessage = function (message, ...rest) {
+        // A run whose words are none: the worker throws, as it does where the engine dies.
+        return post.call(this, message.words?.[0] === "fit" && !globalThis.healthy ? {...message, files: null} : message, ...rest);
+      };
+    })});
+    try {
+      await visit.click("Try an example machine");
+      await visit.text(".banner.bad", "The engine stopped unexpectedly");
+      assert.equal((await visit.values())[0], "-1113");
+      await visit.page.evaluate(() => {
+        globalThis.healthy = true;
+      });
+      await visit.type(0, 0, "-1113.5");
+      await visit.text(".said", "the map leaves");
+    } finally {
+      await visit.close();
+    }
+  });
+});
+
+/** A relief in straight moves of half a millimetre, at least so many bytes. */
+function reliefOf(bytes) {
+  const lines = ["G21 G90 G17 G94", "G0 Z5", "G0 X-400 Y-300", "G1 Z-1 F800"];
+  let length = 0;
+  for (let row = 0; length < bytes; ++row) {
+    const y = -300 + row * 0.5;
+    for (let step = 0; step <= 1600 && length < bytes; ++step) {
+      const x = (row % 2 === 0 ? -400 : 400) + (row % 2 === 0 ? 0.5 : -0.5) * step;
+      const line = `G1 X${x.toFixed(1)} Y${y.toFixed(1)} Z${(-1 - Math.sin(x / 20) * Math.cos(y / 20)).toFixed(3)}`;
+      lines.push(line);
+      length += line.length + 1;
+    }
+  }
+  return `${[...lines, "G0 Z5", "M2"].join("\n")}\n`;
+}
+
+describe("for everybody", () => {
+  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+  for (const [width, dark] of [[1280, false], [400, true]]) {
+    test(`axe-core finds nothing serious, and nothing stands out of the screen, at ${width} px ${dark ? "dark" : "light"}`, async () => {
+      const visit = await Visit.to("chrome", {width, dark});
+      try {
+        await visit.click("Try an example machine");
+        await visit.text(".said", "the map leaves 0.39 mm");
+        await visit.type(10, 1, "-230.5");
+        await visit.text("tr.note", "was set aside");
+        await visit.page.evaluate(axe);
+        for (const step of ["Machine", "Measure", "Map and causes", "Cut", "Files"]) {
+          await visit.click(step);
+          if (step === "Map and causes") await visit.report("The map");
+          const found = await visit.page.evaluate(() => axe.run(document, {iframes: false}));
+          const serious = found.violations.filter(({impact}) => impact === "serious" || impact === "critical");
+          assert.deepEqual(serious.map(({id, nodes}) => `${id}: ${nodes[0].html}`), [], step);
+          const over = await visit.page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+          assert.equal(over, 0, `${step} is ${over} px wider than the screen`);
+        }
+      } finally {
+        await visit.close();
+      }
+    });
+  }
+
+  test("the page is at most 3 MB", () => {
+    assert.ok(readFileSync(join(built, "chaintrue.html")).length <= 3e6);
+  });
+});
