@@ -59,6 +59,7 @@ TEST_F(NextStep, OfEveryVerbWorks) {
       "diagnose simulated.json -o d.json",
       "diagnose simulated.json -o d.json --report d.html",
       "diagnose simulated.json",
+      "plan simulated.json --after d.json -o more.txt",
       "export groundcontrol machine.json",
       "export groundcontrol map.json",
       "export groundcontrol d.json",

@@ -18,6 +18,7 @@
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/cli/warnings.hpp"
 
@@ -184,6 +185,13 @@ int plan_after(const PlanAfterOptions& options) {
                "A CSV holds no readings: make the {} (JSON), which has a list of them.\n",
                sources.grids.empty() ? "holes a chaintrue_holes" : "grid a chaintrue_grid");
   }
+  // Once these are measured and written into their files.
+  std::vector<std::string> words = {"diagnose", sources.all.front().name};
+  for (std::size_t k = 1; k < sources.all.size(); ++k) {
+    words.insert(words.end(), {"--with", sources.all[k].name});
+  }
+  words.insert(words.end(), {"-o", options.after});
+  say_next(words);
   return kDone;
 }
 
