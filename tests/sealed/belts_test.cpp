@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hidden sessions of four belts, few enough for every test run; build/tests/sealed_belts poses
+// Hidden sessions of four belts, few enough for every test run; build/sealed_belts poses
 // hundreds, and its table stands in docs/maslow4.md.
 #include <gtest/gtest.h>
 
