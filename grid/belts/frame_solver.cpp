@@ -43,6 +43,30 @@ std::pair<Eigen::Index, Eigen::Index> columns_of(Belt belt) {
   return {-1, -1};
 }
 
+/// What of a row of J_a is not 0: an anchor's coordinates, and those of a taped place.
+struct SparseRow {
+  std::array<Eigen::Index, 4> column{};
+  std::array<double, 4> value{};
+  std::size_t count = 0;
+
+  void add(Eigen::Index at, double by) {
+    column.at(count) = at;
+    value.at(count++) = by;
+  }
+};
+
+SparseRow sparse_row(Belt belt, const Eigen::RowVector2d& by_place, Eigen::Index place_column) {
+  SparseRow row;
+  const auto [x, y] = columns_of(belt);
+  if (x >= 0) row.add(x, -by_place.x());
+  if (y >= 0) row.add(y, -by_place.y());
+  if (place_column >= 0) {
+    row.add(place_column, by_place.x());
+    row.add(place_column + 1, by_place.y());
+  }
+  return row;
+}
+
 /// An end of a distance, with its derivative by the frame's unknowns.
 struct End {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
@@ -200,11 +224,9 @@ Eigen::VectorXd FrameSolver::frame_row(const FrameEquations& at,
                                        std::size_t point,
                                        Belt belt) const {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns_);
-  const Eigen::RowVector2d by_place = at.by_place.row(row_of(point, belt));
-  const auto [x, y] = columns_of(belt);
-  if (x >= 0) row[x] = -by_place.x();
-  if (y >= 0) row[y] = -by_place.y();
-  if (is_taped(point)) row.segment<2>(place_column_[point]) = by_place.transpose();
+  const SparseRow own =
+      sparse_row(belt, at.by_place.row(row_of(point, belt)), place_column_[point]);
+  for (std::size_t i = 0; i < own.count; ++i) row[own.column[i]] = own.value[i];
   return row;
 }
 
@@ -220,7 +242,9 @@ FrameSolver::Eliminated FrameSolver::eliminated(const FrameEquations& at,
     const Eigen::Index row = row_of(point, belt);
     const Eigen::Vector2d by_place = at.by_place.row(row).transpose();
     normal += weight * by_place * by_place.transpose();
-    result.cross += weight * frame_row(at, point, belt) * by_place.transpose();
+    const SparseRow own = sparse_row(belt, by_place.transpose(), place_column_[point]);
+    for (std::size_t i = 0; i < own.count; ++i)
+      result.cross.row(own.column[i]) += weight * own.value[i] * by_place.transpose();
     result.gradient += weight * at.residual[row] * by_place;
   }
   normal.diagonal() *= 1.0 + damping;
@@ -241,9 +265,12 @@ FrameSolver::Reduced FrameSolver::reduce(const FrameEquations& at, double dampin
   for (std::size_t k = 0; k < belts_.points.size(); ++k) {
     for (const Belt belt : kBelts) {
       if (!counts(k, belt)) continue;
-      const Eigen::VectorXd row = frame_row(at, k, belt);
-      reduced.normal += weight * row * row.transpose();
-      reduced.gradient += weight * at.residual[row_of(k, belt)] * row;
+      const SparseRow own = sparse_row(belt, at.by_place.row(row_of(k, belt)), place_column_[k]);
+      for (std::size_t i = 0; i < own.count; ++i) {
+        for (std::size_t j = 0; j < own.count; ++j)
+          reduced.normal(own.column[i], own.column[j]) += weight * own.value[i] * own.value[j];
+        reduced.gradient[own.column[i]] += weight * at.residual[row_of(k, belt)] * own.value[i];
+      }
     }
   }
   reduced.normal.diagonal() *= 1.0 + damping;

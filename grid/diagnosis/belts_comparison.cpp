@@ -33,6 +33,20 @@ constexpr std::array<std::size_t, kMostCauses> kExtended = {1, 12, 6, 4};
 /// Sets of readings set aside that are tried beside patterns.
 constexpr std::size_t kMostSets = 2;
 
+/// With more rows a pattern's covariance costs seconds: a coarser choice of them, at the end alone.
+constexpr std::size_t kManyRows = 500;
+
+/// Which patterns are looked at: every so many of the kernels and of the strengths.
+struct Choice {
+  std::size_t sets = 0;
+  std::size_t kernel_step = 1;
+  std::size_t strength_step = 1;
+};
+Choice choice_of(Look look, std::size_t rows) {
+  if (look == Look::first) return rows > kManyRows ? Choice{} : Choice{1, 1, 2};
+  return rows > kManyRows ? Choice{1, 3, 2} : Choice{kMostSets, 1, 1};
+}
+
 double log_share(std::size_t strength) {
   // A half-Cauchy density in steps of equal ratio (discrepancy.hpp).
   const auto weight = [](double s) { return s / (1.0 + std::pow(s / kDiscrepancyScale, 2)); };
@@ -141,11 +155,12 @@ double coefficient_sigma(const Regressor& regressor) {
   return std::pow(ratio, regressor.power);
 }
 
-/// What sets in on one belt at about one visit is one event, whatever it is called.
+/// What sets in at about one visit is one event, whatever it is called: an anchor that slips in a way
+/// between those that are tried looks like a skip of another belt as well.
 bool one_event(const Regressor& a, const Regressor& b) {
   constexpr double kAboutOneVisit = 4.0;
   const auto sets_in = [](const Regressor& r) { return r.cause.effect->parameters.size() > 1; };
-  return sets_in(a) && sets_in(b) && a.cause.side == b.cause.side &&
+  return sets_in(a) && sets_in(b) &&
          std::abs(a.values.back() - b.values.back()) <= kAboutOneVisit;
 }
 
@@ -313,15 +328,15 @@ void compare_belts(const std::vector<std::vector<bool>>& sets, Look look, BeltsA
     take(std::move(models));
   }
   std::sort(best.rbegin(), best.rend());
-  const std::size_t most = look == Look::first ? 1 : kMostSets;
-  const std::size_t step = look == Look::first ? 2 : 1;
-  for (std::size_t k = 0; k < std::min(most, best.size()); ++k) {
+  const Choice choice = choice_of(look, system.units.size());
+  for (std::size_t k = 0; k < std::min(choice.sets, best.size()); ++k) {
     const std::size_t number = best[k].second;
     const MarginalisedSystem& space = comparison.marginalised_systems[number];
-    for (std::size_t l = 0; l < kKernels.size(); ++l) {
+    for (std::size_t l = choice.kernel_step / 2; l < kKernels.size(); l += choice.kernel_step) {
       const Eigen::MatrixXd covariance = covariance_of(a, space.kept, kKernels.at(l));
       const double trace = trace_of(covariance, space.root);
-      for (std::size_t s = step - 1; s < kStrengths.size(); s += step) {
+      for (std::size_t s = choice.strength_step - 1; s < kStrengths.size();
+           s += choice.strength_step) {
         take(Search(a, number, columns[number])
                  .run_beside(pattern_of(covariance, trace, kStrengths.at(s)),
                              static_cast<int>(l * kStrengths.size() + s),

@@ -99,16 +99,22 @@ TEST_F(SimulateBeltsCommand, ReadsBeltsOrAnchorsAndReportsEverySlip) {
   ASSERT_EQ(run("fit belts.json -o anchors.json").code, 0);
   EXPECT_EQ(run("simulate --belts anchors.json --grid 5x5 -o again.json").code, 0);
   const auto bad = run(belts +
-                       "--grid 5 --effect nothing:-:a=1 --effect belt_scale:all:scale=3 --effect x "
+                       "--grid 5 --effect nothing:-:a=1 --effect belt_scale:left:scale=3 --effect x "
                        "--offset bl_x_mm=3");
   EXPECT_EQ(bad.code, 3);
   EXPECT_THAT(bad.err,
               AllOf(HasSubstr("--grid: found 5"),
                     HasSubstr("found nothing in nothing:-:a=1"),
-                    HasSubstr("found all in belt_scale:all:scale=3"),
-                    HasSubstr("found scale=3 in belt_scale:all:scale=3"),
+                    HasSubstr("found left in belt_scale:left:scale=3"),
+                    HasSubstr("found scale=3 in belt_scale:left:scale=3"),
                     HasSubstr("id:side:key=value"),
                     HasSubstr("--offset: found bl_x_mm=3")));
+  const auto of_chains = run(belts + "--grid 5x5 --draw-settings --answer answer.json --repeats 3");
+  EXPECT_EQ(of_chains.code, 3);
+  EXPECT_THAT(of_chains.err,
+              AllOf(HasSubstr("--draw-settings: found given"),
+                    HasSubstr("--answer: found answer.json"),
+                    HasSubstr("--repeats: found 3")));
   EXPECT_EQ(run(belts + "--random 5").code, 2);
   EXPECT_EQ(run("simulate --grid 5x5").code, 2);
 }

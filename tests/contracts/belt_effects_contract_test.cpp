@@ -164,7 +164,7 @@ TEST(BeltEffects, ALevelPrintTakesOutTheHeightsThatTheMachineBelieves) {
 TEST(BeltEffects, WhatCannotBeIsReported) {
   EXPECT_TRUE(problems_of({{"belt_zero", "all", {{"offset_mm", 2.0}}}}).empty());
   const auto problems = problems_of({{"belt_shrink", "", {}},
-                                     {"belt_scale", "all", {{"scale", 0.2}}},
+                                     {"belt_scale", "left", {{"scale", 0.2}}},
                                      {"tooth_skip", "tl", {{"teeth", 1.5}, {"links", 1.0}}}});
   ASSERT_EQ(problems.size(), 5U);
   EXPECT_EQ(problems[0].parameter, "/0/effect");

@@ -101,11 +101,34 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
   return spec;
 }
 
+/// What is of chains and marks: nothing of it would be heeded.
+void refuse_options_of_chains(const SimulateOptions& options, OptionProblems& problems) {
+  const SimulateOptions usual;
+  const auto refuse = [&](bool is_given, const char* option, std::string value) {
+    if (is_given)
+      problems.add(option,
+                   std::move(value),
+                   "to be left out beside --belts, which takes --grid, --offset, --effect, "
+                   "--length-noise-mm, --bad-points and --seed");
+  };
+  refuse(options.draw_settings, "--draw-settings", "given");
+  refuse(!options.answer.empty(), "--answer", options.answer);
+  refuse(!options.points.empty(), "--points", options.points);
+  refuse(!options.marks.empty(), "--marks", options.marks);
+  refuse(options.random_points > 0, "--random", fmt::format("{}", options.random_points));
+  refuse(options.repeats > 0, "--repeats", fmt::format("{}", options.repeats));
+  refuse(options.jitter_mm > 0.0, "--jitter-mm", fmt::format("{:g}", options.jitter_mm));
+  refuse(options.without_corners, "--without-corners", "given");
+  refuse(options.region != usual.region, "--region", options.region);
+  refuse(options.model != usual.model, "--model", options.model);
+}
+
 }  // namespace
 
 int simulate_the_belts(const SimulateOptions& options) {
   const model::BeltMachine stated = machine_of(options.belts);
   OptionProblems problems;
+  refuse_options_of_chains(options, problems);
   const synthetic::BeltsSpec spec = spec_of(options, problems);
   model::BeltMachine truth = stated;
   for (const std::string& offset : options.offsets) take_offset(offset, truth, problems);

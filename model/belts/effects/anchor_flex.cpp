@@ -16,7 +16,7 @@ constexpr EffectParameter kParameters[] = {{
     .symbol = "g",
     .meaning = "how far an anchor moves towards the tool when its belt is pulled",
     .nominal = 1.0,
-    .lower = -20.0,
+    .lower = 0.0,
     .upper = 20.0,
     .prior_sigma = 1.0,
 }};

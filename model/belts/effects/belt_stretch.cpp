@@ -17,7 +17,7 @@ constexpr EffectParameter kParameters[] = {{
     .symbol = "e",
     .meaning = "what a pulled belt stretches by, beyond one that holds",
     .nominal = 0.004,
-    .lower = -0.03,
+    .lower = 0.0,
     .upper = 0.03,
     .prior_sigma = 0.003,
 }};

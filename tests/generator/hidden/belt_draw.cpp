@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/hidden/belt_draw.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "generator/hidden/random.hpp"
+
+namespace chaintrue::generator {
+namespace {
+
+constexpr const char* kSides[] = {"tl", "tr", "bl", "br"};
+/// 43.975 mm of belt a turn of 22 teeth.
+constexpr double kToothMm = 43.975 / 22.0;
+/// 150 N make 0.015 mm of 2 m: nothing beside the least noise, and forces that still balance to 1e-4 N.
+constexpr double kRigidN = 2e7;
+
+/// Usual sizes, from least to most; those of either sign are drawn with either.
+struct Card {
+  const char* effect;
+  bool sided;
+  bool may_be_of_all;
+  double least;
+  double most;
+  bool either_sign;
+};
+constexpr Card kCards[] = {{"belt_stretch", false, false, 0.002, 0.006, false},
+                           {"belt_scale", true, false, 0.001, 0.004, true},
+                           {"anchor_height", true, false, 15.0, 60.0, true},
+                           {"anchor_moved", true, false, 2.0, 10.0, false},
+                           {"tooth_skip", true, false, 1.0, 3.0, true},
+                           {"drift", true, true, 0.01, 0.06, true},
+                           {"belt_zero", true, true, 3.0, 25.0, true}};
+
+double span(const std::array<double, 3>& anchor, double x, double y) {
+  return std::hypot(anchor[0] - x, anchor[1] - y);
+}
+
+std::vector<std::array<double, 2>> raster(const BeltFrame& frame, int columns, int rows, Dice& dice) {
+  const double width = frame.anchors[3][0];
+  const double height = 0.5 * (frame.anchors[0][1] + frame.anchors[1][1]);
+  std::vector<std::array<double, 2>> all;
+  for (int r = 0; r < rows; ++r) {
+    for (int i = 0; i < columns; ++i) {
+      const int c = r % 2 == 0 ? i : columns - 1 - i;
+      all.push_back({width * (0.17 + 0.66 * c / (columns - 1)) + dice.uniform(-3.0, 3.0),
+                     height * (0.22 + 0.56 * r / (rows - 1)) + dice.uniform(-3.0, 3.0)});
+    }
+  }
+  return all;
+}
+
+BeltFrame drawn_frame(Dice& dice) {
+  BeltFrame frame;
+  const double width = dice.uniform(2400.0, 3500.0);
+  const double height = dice.uniform(1800.0, 2500.0);
+  const auto near = [&](double value) { return value + dice.uniform(-50.0, 50.0); };
+  frame.anchors = {{{near(0.0), near(height), 100.0},
+                    {near(width), near(height), 56.0},
+                    {0.0, 0.0, 34.0},
+                    {near(width), 0.0, 78.0}}};
+  frame.stiffness_n = kRigidN;
+  return frame;
+}
+
+/// Readings of all four without noise, each belt in the frame that is true for its visit.
+std::vector<FourLengths> readings(const BeltFrame& frame,
+                                  const BeltSecret& secret,
+                                  const std::vector<std::array<double, 2>>& commands) {
+  BeltSession session{frame, commands};
+  session.pull_noise = 0.0;
+  session.noise_mm = 0.0;
+  if (secret.effect == "belt_stretch") session.frame.stiffness_n = frame.pull_n / secret.size;
+  std::vector<FourLengths> read = read_session(session);
+  const auto own = [&](std::size_t i) { return secret.side == kSides[i] || secret.side == "all"; };
+  if (secret.effect == "anchor_moved" || secret.effect == "anchor_height") {
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!own(i)) continue;
+      auto& anchor = session.frame.anchors[i];
+      if (secret.effect == "anchor_height") {
+        anchor[2] += secret.size;
+      } else {
+        anchor[0] += secret.size * std::cos(secret.direction_rad);
+        anchor[1] += secret.size * std::sin(secret.direction_rad);
+      }
+    }
+    const std::vector<FourLengths> after = read_session(session);
+    for (std::size_t n = 0; n < read.size(); ++n) {
+      if (static_cast<int>(n) >= secret.first_visit) read[n] = after[n];
+    }
+  }
+  for (std::size_t n = 0; n < read.size(); ++n) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!own(i)) continue;
+      if (secret.effect == "belt_scale") read[n][i] /= 1.0 + secret.size;
+      if (secret.effect == "belt_zero") read[n][i] += secret.size;
+      if (secret.effect == "drift") read[n][i] += secret.size * static_cast<double>(n);
+      if (secret.effect == "tooth_skip" && static_cast<int>(n) >= secret.first_visit)
+        read[n][i] += kToothMm * secret.size;
+    }
+  }
+  return read;
+}
+
+/// Length of a change of the readings beyond what anchors and places take of it, mm.
+double beyond_the_fit(const BeltFrame& frame,
+                      const std::vector<std::array<double, 2>>& places,
+                      const std::vector<FourLengths>& change) {
+  const auto count = static_cast<Eigen::Index>(places.size());
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(4 * count, 5 + 2 * count);
+  Eigen::VectorXd off(4 * count);
+  for (Eigen::Index n = 0; n < count; ++n) {
+    const auto& at = places[static_cast<std::size_t>(n)];
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      const auto& anchor = frame.anchors[static_cast<std::size_t>(i)];
+      const double level = span(anchor, at[0], at[1]);
+      const double belt = level - frame.reach_mm;
+      const double share = belt / std::hypot(belt, anchor[2]);
+      const double ux = share * (at[0] - anchor[0]) / level;
+      const double uy = share * (at[1] - anchor[1]) / level;
+      const Eigen::Index row = 4 * n + i;
+      design(row, 5 + 2 * n) = ux;
+      design(row, 6 + 2 * n) = uy;
+      if (i == 0) design(row, 0) = -ux, design(row, 1) = -uy;
+      if (i == 1) design(row, 2) = -ux, design(row, 3) = -uy;
+      if (i == 3) design(row, 4) = -ux;
+      off(row) = change[static_cast<std::size_t>(n)][static_cast<std::size_t>(i)];
+    }
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(design);
+  return (off - design * qr.solve(off)).norm();
+}
+
+BeltSecret drawn_secret(const BeltRecipe& recipe, int visits, Dice& dice) {
+  BeltSecret secret;
+  if (recipe.nothing) return secret;
+  const Card* card = &kCards[dice.below(std::size(kCards))];
+  for (const Card& one : kCards) {
+    if (recipe.effect == one.effect) card = &one;
+  }
+  secret.effect = card->effect;
+  secret.size = dice.log_uniform(card->least, card->most) * (card->either_sign ? dice.sign() : 1.0);
+  if (secret.effect == "tooth_skip") secret.size = std::round(secret.size);
+  if (card->sided) secret.side = kSides[dice.below(4)];
+  if (card->may_be_of_all && dice.uniform() < 0.3) secret.side = "all";
+  secret.direction_rad = dice.uniform(-3.14, 3.14);
+  const bool sets_in = secret.effect == "tooth_skip" || secret.effect == "anchor_moved";
+  if (sets_in) secret.first_visit = static_cast<int>(visits * dice.uniform(0.15, 0.85));
+  return secret;
+}
+
+}  // namespace
+
+BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed) {
+  Dice dice(seed, "belt draw");
+  BeltDraw draw;
+  draw.frame = drawn_frame(dice);
+  constexpr std::array<std::array<int, 2>, 3> kRasters = {{{6, 5}, {8, 7}, {10, 9}}};
+  const auto& [columns, rows] = kRasters[dice.below(kRasters.size())];
+  const auto commands = raster(draw.frame, columns, rows, dice);
+  draw.secret = drawn_secret(recipe, columns * rows, dice);
+  draw.lengths_mm = readings(draw.frame, draw.secret, commands);
+  draw.noise_mm = dice.uniform(0.2, 1.0);
+  if (!recipe.nothing) {
+    std::vector<FourLengths> change = readings(draw.frame, BeltSecret{}, commands);
+    for (std::size_t n = 0; n < change.size(); ++n) {
+      for (std::size_t i = 0; i < 4; ++i) change[n][i] = draw.lengths_mm[n][i] - change[n][i];
+    }
+    draw.secret.strength = dice.log_uniform(recipe.least_strength, recipe.most_strength);
+    draw.noise_mm = beyond_the_fit(draw.frame, commands, change) / draw.secret.strength;
+  }
+  Dice noise(seed, "belt noise");
+  for (FourLengths& read : draw.lengths_mm) {
+    for (double& length : read) length += draw.noise_mm * noise.normal();
+  }
+  for (int k = 0; k < recipe.bad_readings; ++k) {
+    const auto point = static_cast<int>(draw.lengths_mm.size()) * k / recipe.bad_readings +
+                       static_cast<int>(dice.below(3));
+    const auto belt = dice.below(4);
+    // Far beyond the noise: slips that a person would want to know of.
+    draw.lengths_mm[static_cast<std::size_t>(point)][belt] +=
+        dice.sign() * draw.noise_mm * dice.log_uniform(15.0, 100.0);
+    draw.secret.bad.push_back({point, static_cast<int>(belt)});
+  }
+  return draw;
+}
+
+}  // namespace chaintrue::generator

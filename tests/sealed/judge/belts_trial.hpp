@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// One hidden session of four belts diagnosed, and the answer opened.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "generator/hidden/belt_draw.hpp"
+
+namespace chaintrue::sealed {
+
+struct BeltsTrial {
+  std::uint64_t seed = 0;
+  generator::BeltSecret secret;
+  bool failed = false;
+  bool named = false;        ///< anything at all
+  bool exact = false;        ///< what is hidden, alone, with its belt
+  bool held = false;         ///< what is hidden is among what is named
+  bool right_belt = false;   ///< what is named first is of the hidden belt
+  bool bad_found = false;    ///< the bad readings, each by point and belt, and no others
+  std::string sentence;
+};
+[[nodiscard]] BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t seed);
+
+}  // namespace chaintrue::sealed
