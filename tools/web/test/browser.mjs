@@ -97,7 +97,7 @@ export class Visit {
 
   /** The input of a column of a row, from 0. */
   cell(row, column) {
-    return this.page.waitForSelector(`tr[data-row="${row}"] td:nth-last-child(${2 - column}) input`);
+    return this.page.waitForSelector(`tr[data-row="${row}"] td:nth-last-child(${2 - column}) input`, {visible: true});
   }
 
   values() {

@@ -234,7 +234,4 @@ describe("for everybody", () => {
     });
   }
 
-  test("the page is at most 3 MB", () => {
-    assert.ok(readFileSync(join(built, "chaintrue.html")).length <= 3e6);
-  });
 });

@@ -6,7 +6,7 @@ import {cpSync, existsSync, readdirSync, readFileSync, rmSync, statSync} from "n
 import {join, relative} from "node:path";
 import {describe, test} from "node:test";
 import {pathToFileURL} from "node:url";
-import {built, root, runNative, temporaryFolder} from "./browser.mjs";
+import {built, root, runNative, temporaryFolder} from "../test/browser.mjs";
 
 /** What other libraries of the C standard's functions may move a number by, of its size. */
 const RELATIVE = 1e-9;
