@@ -124,6 +124,15 @@ class Decider {
         result_.caused += p;
       }
     }
+    // Of thousands of addends, rounding.
+    for (double* const sum : {&result_.caused,
+                              &result_.discrepancy,
+                              &result_.discrepancy_alone,
+                              &result_.outliers,
+                              &result_.noise,
+                              &result_.nothing}) {
+      *sum = std::min(*sum, 1.0);
+    }
   }
 
   void share_abstention(const CandidateModel& model, double p) {

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "grid/diagnosis/decision.hpp"
 #include "grid/diagnosis/model_comparison.hpp"
 #include "grid/diagnosis/normal.hpp"
 #include "grid/diagnosis/null_distribution.hpp"
@@ -182,8 +183,25 @@ TEST(Evidence, QuadraticIsThatOfGeneralisedLeastSquares) {
   const Eigen::VectorXd r = system.e(kept) - 0.4 * a;
   EXPECT_NEAR(marginalised.e.squaredNorm(), r.dot(v.inverse() * r), 1e-12);  // rounding
   EXPECT_NEAR(marginalised.log_det, std::log(v.determinant()), 1e-12);       // rounding
-  EXPECT_NEAR(
-      marginalised.g.col(0).dot(marginalised.e), system.g.column(kept, 0).dot(v.inverse() * r), 1e-12);
+  EXPECT_NEAR(marginalised.g.col(0).dot(marginalised.e),
+              system.g.column(kept, 0).dot(v.inverse() * r),
+              1e-12);
+}
+
+TEST(Decision, NothingIsMoreThanCertain) {
+  const LinearisedSystem system = small_system(-100.0);
+  const std::vector<bool> none(3, false);
+  ModelComparison comparison;
+  comparison.marginalised_systems.push_back(marginalise(system, none, {}));
+  comparison.marginalised_systems.front().discrepancy_trace.assign(discrepancy_kernels().size(),
+                                                                   1.0);
+  CandidateModel model;
+  model.discrepancy = 0;
+  model.log_weight = 1e-14;  // as the rounding of a total over thousands of models leaves it
+  comparison.models = {model};
+  EXPECT_GT(comparison.probability(model), 1.0);
+  EXPECT_EQ(decide(system, comparison, none, true).discrepancy, 1.0);
+  EXPECT_EQ(decide(system, comparison, none, true).discrepancy_alone, 1.0);
 }
 
 TEST(NullDistribution, HoldsItsSize) {
