@@ -72,7 +72,9 @@ function main([from, to, version]) {
   mkdirSync(to, {recursive: true});
   writeFileSync(join(to, "chaintrue.html"), html);
   writeFileSync(join(to, "chaintrue.wasm"), wasm);
-  writeFileSync(join(to, "chaintrue.mjs"), `${glue}\n${bundle("engine/package.js", {format: "esm", minify: false, platform: "node"})}`);
+  // Emscripten's script asks for parts of node that a module has not, and listens to its process once more with each run.
+  const withoutNode = `const createChaintrue = ((process) => {\n${glue}\nreturn createChaintrue;\n})();`;
+  writeFileSync(join(to, "chaintrue.mjs"), `${withoutNode}\n${bundle("engine/package.js", {format: "esm", minify: false, platform: "node"})}`);
   writeFileSync(join(to, "chaintrue.d.ts"), read(join(here, "engine/chaintrue.d.ts")));
   const description = {
     name: "chaintrue", version, type: "module", license: "GPL-3.0-or-later", main: "chaintrue.mjs", types: "chaintrue.d.ts",
