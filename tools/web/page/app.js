@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: an owner's evening in four steps on one folder. The engine and the example lie in the page as data.
 import {Engine} from "../engine/engine.js";
+import {decoded} from "./base85.js";
 import {Busy} from "./busy.js";
 import {cutStep} from "./cut.js";
 import {download, h} from "./dom.js";
@@ -16,8 +17,7 @@ import {zipOf} from "./zip.js";
 const STEPS = [["machine", "Machine"], ["measure", "Measure"], ["result", "Map and causes"], ["cut", "Cut"], ["files", "Files"]];
 
 async function unpacked(id) {
-  const text = atob(document.getElementById(id).textContent.trim());
-  const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
+  const bytes = decoded(document.getElementById(id).textContent.trim());
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).arrayBuffer();
 }

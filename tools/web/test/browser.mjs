@@ -21,10 +21,13 @@ const executableOf = (browser) => EXECUTABLES[browser].find((path) => existsSync
 /** The browsers that are installed. */
 export const browsers = Object.keys(EXECUTABLES).filter(executableOf);
 
+const folders = [];
+process.on("exit", () => folders.forEach((folder) => rmSync(folder, {recursive: true, force: true})));
+
 /** A folder that is gone with the process. */
 export function temporaryFolder() {
   const folder = mkdtempSync(join(tmpdir(), "chaintrue-page-"));
-  process.on("exit", () => rmSync(folder, {recursive: true, force: true}));
+  folders.push(folder);
   return folder;
 }
 
