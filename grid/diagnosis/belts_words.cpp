@@ -20,15 +20,6 @@ std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& pa
   return text + ")";
 }
 
-std::string joined(const std::vector<std::string>& parts, std::string_view last) {
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (i > 0) text += i + 1 == parts.size() ? fmt::format(" {} ", last) : "; ";
-    text += parts[i];
-  }
-  return text;
-}
-
 std::vector<std::string> bad_ones(const Diagnosis& d) {
   std::vector<std::string> result;
   for (const Outlier& bad : d.outliers) {

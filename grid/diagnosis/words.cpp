@@ -22,15 +22,6 @@ std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& pa
   return text + ")";
 }
 
-std::string joined(const std::vector<std::string>& parts, std::string_view last) {
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (i > 0) text += i + 1 == parts.size() ? fmt::format(" {} ", last) : "; ";
-    text += parts[i];
-  }
-  return text;
-}
-
 /// What is held out: distances where no chain was read at marks.
 bool speaks_of_distances(const Diagnosis& d) { return d.observations == Observations::distances; }
 

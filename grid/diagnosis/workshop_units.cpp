@@ -156,6 +156,15 @@ std::string side_words(const CauseId& cause) {
   return "";
 }
 
+std::string joined(const std::vector<std::string>& parts, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) text += i + 1 == parts.size() ? fmt::format(" {} ", last) : "; ";
+    text += parts[i];
+  }
+  return text;
+}
+
 std::string reading_words(std::string_view what, std::string_view side) {
   if (what == "motor_spacing_mm") return "the distance between the motors' axes, with a tape";
   if (what == "beam_rise_mm")

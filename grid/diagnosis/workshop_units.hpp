@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
 
@@ -24,6 +25,9 @@ namespace chaintrue::grid::diagnosis {
 
 /// "87 %", "99.6 %", "above 99.9 %": a probability, alike in sentences and in tables.
 [[nodiscard]] std::string percent(double probability);
+
+/// "a; b and c": `last` stands before the last one.
+[[nodiscard]] std::string joined(const std::vector<std::string>& parts, std::string_view last);
 
 /// "the distance between the motors' axes, with a tape" for motor_spacing_mm.
 [[nodiscard]] std::string reading_words(std::string_view what, std::string_view side);

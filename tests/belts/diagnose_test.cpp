@@ -10,6 +10,7 @@
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/effects/belt_effect.hpp"
+#include "tests/belts/frame.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -19,21 +20,8 @@ using diagnosis::Verdict;
 using model::Belt;
 using testing::AnyOf;
 using testing::HasSubstr;
-
-model::BeltMachine stated() {
-  model::BeltMachine machine;
-  machine.anchors_known = true;
-  machine.anchors = {
-      {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
-  return machine;
-}
-
-model::BeltMachine truth() {
-  model::BeltMachine machine = stated();
-  machine.anchors.tl.x_mm += 12.0;
-  machine.anchors.br.x_mm -= 9.0;
-  return machine;
-}
+using testing_support::stated;
+using testing_support::truth;
 
 struct Session {
   std::vector<model::AppliedEffect> hidden;

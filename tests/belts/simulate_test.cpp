@@ -7,6 +7,7 @@
 #include "grid/files/belts_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/effects/belt_effect.hpp"
+#include "tests/belts/frame.hpp"
 #include "tests/cli/command_fixture.hpp"
 
 namespace chaintrue::grid {
@@ -15,21 +16,8 @@ namespace {
 using model::Belt;
 using testing::AllOf;
 using testing::HasSubstr;
-
-model::BeltMachine stated() {
-  model::BeltMachine machine;
-  machine.anchors_known = true;
-  machine.anchors = {
-      {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
-  return machine;
-}
-
-model::BeltMachine truth() {
-  model::BeltMachine machine = stated();
-  machine.anchors.tl.x_mm += 12.0;
-  machine.anchors.br.x_mm -= 9.0;
-  return machine;
-}
+using testing_support::stated;
+using testing_support::truth;
 
 TEST(SimulatedBelts, WithoutNoiseTheTrueAnchorsAreFound) {
   synthetic::BeltsSpec spec;
