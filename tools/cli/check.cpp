@@ -2,7 +2,6 @@
 /// \file
 /// chaintrue check: a few new points tell whether a map still holds.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <iterator>
@@ -91,28 +90,28 @@ int run_check(const CheckCommand& command) {
 
 }  // namespace
 
-void add_check(CLI::App& app, Run& run) {
+void add_check(Verb app, Run& run) {
   auto command = std::make_shared<CheckCommand>();
-  CLI::App* verb = app.add_subcommand(
+  Verb verb = app.add_verb(
       "check", "A few new points: is the map still valid, does re-zeroing mend it, or not");
-  add_input(*verb, "map", command->map, "A chaintrue_map file")->required();
-  add_grid_options(*verb, command->input);
-  add_tape_options(*verb, command->tape);
-  verb->add_option("--with",
-                   command->with,
-                   "More new points, or holes and distances: all are held against the map");
-  verb->add_flag("--json", command->json, "All numbers, for scripts");
+  add_input(verb, "map", command->map, "A chaintrue_map file").required();
+  add_grid_options(verb, command->input);
+  add_tape_options(verb, command->tape);
+  verb.add_option("--with",
+                  command->with,
+                  "More new points, or holes and distances: all are held against the map");
+  verb.add_flag("--json", command->json, "All numbers, for scripts");
   add_output(
-      *verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")
-      ->capture_default_str();
-  verb->footer(
+      verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")
+      .shows_default();
+  verb.footer(
       "Three to five points far from each other will do, or holes and distances between them;\n"
       "chaintrue plan --check sets those points that tell best.\n"
       "The exit code is 1 where the map is not valid as it is.\n\n"
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue check map.json fixtures/grids/five_new_points.json");
-  verb->callback([command, &run] { run = [command] { return run_check(*command); }; });
+  verb.when_chosen([command, &run] { run = [command] { return run_check(*command); }; });
 }
 
 }  // namespace chaintrue::cli

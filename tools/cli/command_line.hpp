@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/cli_fwd.hpp"
+#include "tools/cli/arguments.hpp"
 
 namespace chaintrue::cli {
 

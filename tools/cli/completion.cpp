@@ -251,17 +251,14 @@ int print_manual(const CLI::App& app, const std::vector<std::string>& words) {
 
 }  // namespace
 
-void add_completion(CLI::App& app, Run& run) {
+void add_completion(Verb app, Run& run) {
   auto shell = std::make_shared<std::string>();
-  CLI::App* verb =
-      app.add_subcommand("completion", "Print what bash, zsh or fish need to complete commands");
-  verb->add_option("shell", *shell, "bash, zsh or fish")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  verb->footer("Example:\n  build/chaintrue completion bash > chaintrue.bash");
-  verb->callback([shell, &app, &run] {
-    run = [shell, &app] {
-      const std::vector<Command> commands = commands_of(app);
+  Verb verb = app.add_verb("completion", "Print what bash, zsh or fish need to complete commands");
+  verb.add_option("shell", *shell, "bash, zsh or fish").required().one_of({"bash", "zsh", "fish"});
+  verb.footer("Example:\n  build/chaintrue completion bash > chaintrue.bash");
+  verb.when_chosen([shell, app, &run] {
+    run = [shell, app] {
+      const std::vector<Command> commands = commands_of(app.app());
       fmt::print("{}",
                  *shell == "bash"  ? bash(commands)
                  : *shell == "zsh" ? zsh(commands)
@@ -271,13 +268,13 @@ void add_completion(CLI::App& app, Run& run) {
   });
 }
 
-void add_man(CLI::App& app, Run& run) {
+void add_man(Verb app, Run& run) {
   auto words = std::make_shared<std::vector<std::string>>();
-  CLI::App* verb = app.add_subcommand("man", "Print a manual page (troff), as man -l - shows it");
-  verb->add_option("verb", *words, "Of which verb; of the command itself where unsaid");
-  verb->footer("Example:\n  build/chaintrue man gcode verify > chaintrue-gcode-verify.1");
-  verb->callback(
-      [words, &app, &run] { run = [words, &app] { return print_manual(app, *words); }; });
+  Verb verb = app.add_verb("man", "Print a manual page (troff), as man -l - shows it");
+  verb.add_option("verb", *words, "Of which verb; of the command itself where unsaid");
+  verb.footer("Example:\n  build/chaintrue man gcode verify > chaintrue-gcode-verify.1");
+  verb.when_chosen(
+      [words, app, &run] { run = [words, app] { return print_manual(app.app(), *words); }; });
 }
 
 }  // namespace chaintrue::cli

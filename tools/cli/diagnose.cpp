@@ -3,7 +3,6 @@
 /// chaintrue diagnose: what the simulation gets wrong on these points, why, what naming the cause
 /// gains, and what to measure next.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -272,12 +271,13 @@ Outcome diagnosed_belts(const DiagnoseCommand& command) {
   // Twice as many take four times as long (docs/maslow4.md).
   constexpr std::size_t kMostPlaces = 2000;
   if (read.belts.points.size() > kMostPlaces) {
-    return tl::unexpected(fmt::format(
-        "{}: {} places are more than a diagnosis takes ({}): leave some out, evenly over the sheet; "
-        "chaintrue fit takes them all",
-        file,
-        read.belts.points.size(),
-        kMostPlaces));
+    return tl::unexpected(
+        fmt::format("{}: {} places are more than a diagnosis takes ({}): leave some out, evenly "
+                    "over the sheet; "
+                    "chaintrue fit takes them all",
+                    file,
+                    read.belts.points.size(),
+                    kMostPlaces));
   }
   grid::diagnosis::DiagnosisOptions options;
   options.seed = command.seed;
@@ -295,8 +295,7 @@ int run_diagnose(DiagnoseCommand command) {
   command.input.text = files::read_whole_file(command.input.grid);
   const bool of_belts = files::looks_like_belts(*command.input.text);
   grid::Measured input;
-  if (!of_belts)
-    input = read_measured(command.input, command.tape, command.with, MeasuredUse::fit);
+  if (!of_belts) input = read_measured(command.input, command.tape, command.with, MeasuredUse::fit);
   auto found = of_belts ? diagnosed_belts(command) : diagnosed(command, input);
   if (!found) {
     fmt::print(stderr, "{}\n", found.error());
@@ -329,7 +328,7 @@ int run_diagnose(DiagnoseCommand command) {
   return kDone;
 }
 
-void add_diagnose_outputs(CLI::App& verb, DiagnoseCommand& command) {
+void add_diagnose_outputs(Verb verb, DiagnoseCommand& command) {
   add_output(verb,
              "-o,--output",
              command.output,
@@ -356,41 +355,41 @@ void add_diagnose_outputs(CLI::App& verb, DiagnoseCommand& command) {
 
 }  // namespace
 
-void add_diagnose(CLI::App& app, Run& run) {
+void add_diagnose(Verb app, Run& run) {
   auto command = std::make_shared<DiagnoseCommand>();
-  CLI::App* verb = app.add_subcommand(
-      "diagnose", "What the simulation gets wrong, why, and what naming the cause gains");
-  add_grid_options(*verb, command->input);
-  add_tape_options(*verb, command->tape);
-  add_input(*verb,
+  Verb verb = app.add_verb("diagnose",
+                           "What the simulation gets wrong, why, and what naming the cause gains");
+  add_grid_options(verb, command->input);
+  add_tape_options(verb, command->tape);
+  add_input(verb,
             "--with",
             command->with,
             "More grids and holes of the same machine: all are weighed in one estimate");
-  add_diagnose_outputs(*verb, *command);
-  add_input(*verb,
+  add_diagnose_outputs(verb, *command);
+  add_input(verb,
             "--held-out",
             command->held_out,
             "Another grid of the same machine: how well what was found foretells it");
-  add_input(*verb,
+  add_input(verb,
             "--before",
             command->before,
             "An earlier diagnosis of the same machine (JSON): says what changed since");
-  verb->add_option("--assume-order",
-                   command->assume_order,
-                   "Visiting order of points that bear none, lines from the top left; opens drift, "
-                   "skips and hysteresis, and the verdict says that it was assumed")
-      ->check(CLI::IsMember({"rows", "columns", "serpentine_rows", "serpentine_columns"}));
-  verb->add_flag("--accept-class",
-                 command->accept_class,
-                 "Where points cannot tell a long chain from a long tape: take it to be the chain, "
-                 "without a reading of its links");
-  add_number(*verb,
+  verb.add_option("--assume-order",
+                  command->assume_order,
+                  "Visiting order of points that bear none, lines from the top left; opens drift, "
+                  "skips and hysteresis, and the verdict says that it was assumed")
+      .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"});
+  verb.add_flag("--accept-class",
+                command->accept_class,
+                "Where points cannot tell a long chain from a long tape: take it to be the chain, "
+                "without a reading of its links");
+  add_number(verb,
              "--seed",
              command->seed,
              {"", 0.0, 9e15},
              "Of the simulated chances; the same seed, the same answer")
-      ->capture_default_str();
-  verb->footer(
+      .shows_default();
+  verb.footer(
       "Any answer is an answer: the exit code is 0 also where nothing was found.\n\n"
       "Example:\n"
       "  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x5 --repeats 6 "
@@ -403,7 +402,7 @@ void add_diagnose(CLI::App& app, Run& run) {
       "  build/chaintrue diagnose fixtures/holes/nine_holes.json --report holes.html\n"
       "  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o belts_diagnosis.json\n"
       "  build/chaintrue diagnose worn.json --before diagnosis.json");
-  verb->callback([command, &run] { run = [command] { return run_diagnose(*command); }; });
+  verb.when_chosen([command, &run] { run = [command] { return run_diagnose(*command); }; });
 }
 
 }  // namespace chaintrue::cli

@@ -2,7 +2,6 @@
 /// \file
 /// chaintrue effects: the catalogue for a person, and what one effect does to a machine.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -319,35 +318,32 @@ int run_effects(const EffectsOptions& options) {
 
 }  // namespace
 
-void add_effects(CLI::App& app, Run& run) {
+void add_effects(Verb app, Run& run) {
   auto options = std::make_shared<EffectsOptions>();
-  CLI::App* verb = app.add_subcommand(
+  Verb verb = app.add_verb(
       "effects", "List the catalogue of effects, or show what one of them does to a machine");
-  verb->add_option("id", options->id, "Effect; without it the catalogue is listed");
-  auto* machine =
-      add_input(*verb, "--machine", options->machine, "chaintrue_machine file to show it on");
-  verb->add_option(
-          "--side", options->side, "left, right, both, x or y; default: the effect's first")
-      ->needs(machine);
-  verb->add_option("--set", options->values, "parameter=number instead of the usual size")
-      ->needs(machine);
+  verb.add_option("id", options->id, "Effect; without it the catalogue is listed");
+  auto machine =
+      add_input(verb, "--machine", options->machine, "chaintrue_machine file to show it on");
+  verb.add_option("--side", options->side, "left, right, both, x or y; default: the effect's first")
+      .needs(machine);
+  verb.add_option("--set", options->values, "parameter=number instead of the usual size")
+      .needs(machine);
+  add_number(verb, "--length-noise-mm", options->length_noise_mm, {"mm", 1e-6, 100.0}, "One sigma");
   add_number(
-      *verb, "--length-noise-mm", options->length_noise_mm, {"mm", 1e-6, 100.0}, "One sigma");
-  add_number(
-      *verb, "--position-noise-mm", options->position_noise_mm, grid::files::kNoiseMm, "One sigma");
-  add_output(
-      *verb, "--draw", options->drawing, {Origin::drawing}, "Also draw it into this SVG file")
-      ->needs(machine);
-  verb->add_flag("--json", options->json, "For programs");
-  verb->add_flag("--markdown", options->markdown, "The catalogue as docs/effects.md");
-  verb->footer(
+      verb, "--position-noise-mm", options->position_noise_mm, grid::files::kNoiseMm, "One sigma");
+  add_output(verb, "--draw", options->drawing, {Origin::drawing}, "Also draw it into this SVG file")
+      .needs(machine);
+  verb.add_flag("--json", options->json, "For programs");
+  verb.add_flag("--markdown", options->markdown, "The catalogue as docs/effects.md");
+  verb.footer(
       "Examples:\n"
       "  build/chaintrue effects\n"
       "  build/chaintrue effects chain_stretch --machine fixtures/machines/classic.json --draw "
       "stretch.svg");
-  add_option_check(*verb,
+  add_option_check(verb,
                    [options](OptionProblems& problems) { check_options(*options, problems); });
-  verb->callback([options, &run] { run = [options] { return run_effects(*options); }; });
+  verb.when_chosen([options, &run] { run = [options] { return run_effects(*options); }; });
 }
 
 }  // namespace chaintrue::cli

@@ -3,7 +3,6 @@
 /// chaintrue export: a machine, or what was measured of it, as the numbers that another program
 /// wants typed in.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -121,59 +120,58 @@ int export_maslow4(const ExportCommand& command) {
   return kDone;
 }
 
-void add_maslow4(CLI::App& verb, Run& run) {
+void add_maslow4(Verb verb, Run& run) {
   auto command = std::make_shared<ExportCommand>();
-  CLI::App* maslow4 =
-      verb.add_subcommand("maslow4", "The lines to paste into a Maslow 4's terminal");
-  add_input(*maslow4, "file", command->input, "A chaintrue_anchors file, as fit makes it")
-      ->required();
-  add_output(*maslow4,
+  Verb maslow4 = verb.add_verb("maslow4", "The lines to paste into a Maslow 4's terminal");
+  add_input(maslow4, "file", command->input, "A chaintrue_anchors file, as fit makes it")
+      .required();
+  add_output(maslow4,
              "-o,--output",
              command->output,
              {Origin::list},
              "Where they go; - is standard output")
-      ->capture_default_str();
-  maslow4->footer(
+      .shows_default();
+  maslow4.footer(
       "The anchors as fitted, in the belts' own millimetres; with a taped distance the scales, "
       "where "
       "they change.\n\n"
       "Example:\n"
       "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json\n"
       "  build/chaintrue export maslow4 anchors.json");
-  maslow4->callback([command, &run] { run = [command] { return export_maslow4(*command); }; });
+  maslow4.when_chosen([command, &run] { run = [command] { return export_maslow4(*command); }; });
 }
 
 }  // namespace
 
-void add_export(CLI::App& app, Run& run) {
-  CLI::App* verb = app.add_subcommand("export", "Turn a machine into settings for other programs");
-  verb->require_subcommand(1);
+void add_export(Verb app, Run& run) {
+  Verb verb = app.add_verb("export", "Turn a machine into settings for other programs");
+  verb.require_verb();
   constexpr const char* kExample =
       "Example:\n  build/chaintrue export groundcontrol fixtures/machines/groundcontrol.json";
-  verb->footer(kExample);
+  verb.footer(kExample);
   auto command = std::make_shared<ExportCommand>();
-  CLI::App* groundcontrol =
-      verb->add_subcommand("groundcontrol", "The numbers to type into GroundControl's settings");
-  add_input(*groundcontrol,
+  Verb groundcontrol =
+      verb.add_verb("groundcontrol", "The numbers to type into GroundControl's settings");
+  add_input(groundcontrol,
             "file",
             command->input,
             "A chaintrue_machine file, a chaintrue_map, or a chaintrue_diagnosis")
-      ->required();
-  add_output(*groundcontrol,
+      .required();
+  add_output(groundcontrol,
              "-o,--output",
              command->output,
              {Origin::list},
              "Where they go; - is standard output")
-      ->capture_default_str();
-  groundcontrol->footer(fmt::format(
+      .shows_default();
+  groundcontrol.footer(fmt::format(
       "Of a machine, or of the one that a diagnosis has found, the numbers that it says "
       "otherwise than its controller. Of a map the numbers with which the controller "
       "as it is comes nearest to it, and how near. All others come back as they "
       "came.\n\n{}",
       kExample));
-  groundcontrol->callback(
+  groundcontrol.when_chosen(
       [command, &run] { run = [command] { return export_groundcontrol(*command); }; });
-  add_maslow4(*verb, run);
+  add_maslow4(verb, run);
 }
 
 }  // namespace chaintrue::cli

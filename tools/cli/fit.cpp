@@ -2,7 +2,6 @@
 /// \file
 /// chaintrue fit: measured points become a compensation map, and the fit is told in words.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -216,40 +215,40 @@ int run_fit(FitCommand command) {
 
 }  // namespace
 
-void add_fit(CLI::App& app, Run& run) {
+void add_fit(Verb app, Run& run) {
   auto command = std::make_shared<FitCommand>();
-  CLI::App* verb =
-      app.add_subcommand("fit", "Measured points become a compensation map, belt lengths anchors");
-  add_grid_options(*verb, command->input);
-  add_tape_options(*verb, command->tape);
-  add_input(*verb,
+  Verb verb =
+      app.add_verb("fit", "Measured points become a compensation map, belt lengths anchors");
+  add_grid_options(verb, command->input);
+  add_tape_options(verb, command->tape);
+  add_input(verb,
             "--with",
             command->with,
             "More files of the same machine, grids or chaintrue_holes: all are fitted at once, "
             "in the frame of the first");
-  add_output(*verb,
+  add_output(verb,
              "-o,--output",
              command->output,
              {Origin::map, Origin::anchors},
              "The map file, of belts the anchors file; - is standard output")
-      ->required();
-  verb->add_option("--surface",
-                   command->surface,
-                   "residual: a smooth correction on the calibrated machine; direct: splines "
-                   "through the lengths "
-                   "themselves, no machine needed")
-      ->check(CLI::IsMember({"residual", "direct"}))
-      ->capture_default_str();
-  verb->add_option("--ends", command->ends, "How direct splines end at the edges")
-      ->check(CLI::IsMember({"not_a_knot", "natural", "parabolic", "clamped"}))
-      ->capture_default_str();
-  add_outside_options(*verb, command->outside, "continued where not said");
-  verb->add_flag("-v,--verbose",
-                 command->verbose,
-                 "Tell the tables as well: settings, errors of points left out, each distance, the "
-                 "mirror claim");
-  verb->add_flag("--json", command->json, "Print what the fit tells as JSON");
-  verb->footer(
+      .required();
+  verb.add_option("--surface",
+                  command->surface,
+                  "residual: a smooth correction on the calibrated machine; direct: splines "
+                  "through the lengths "
+                  "themselves, no machine needed")
+      .one_of({"residual", "direct"})
+      .shows_default();
+  verb.add_option("--ends", command->ends, "How direct splines end at the edges")
+      .one_of({"not_a_knot", "natural", "parabolic", "clamped"})
+      .shows_default();
+  add_outside_options(verb, command->outside, "continued where not said");
+  verb.add_flag("-v,--verbose",
+                command->verbose,
+                "Tell the tables as well: settings, errors of points left out, each distance, the "
+                "mirror claim");
+  verb.add_flag("--json", command->json, "Print what the fit tells as JSON");
+  verb.footer(
       "The fit is told on standard error.\n\nExample:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue fit fixtures/holes/nine_holes.json -o map.json\n"
@@ -257,13 +256,13 @@ void add_fit(CLI::App& app, Run& run) {
       "fixtures/holes/nine_holes.json "
       "-o map.json\n"
       "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json");
-  verb->callback([command, &run] {
+  verb.when_chosen([command, &run] {
     if (command->json && command->output == "-") {
-      throw CLI::ValidationError("fit", "--json and the map cannot both go to standard output");
+      usage_error("fit", "--json and the map cannot both go to standard output");
     }
     if (command->surface == "direct" && command->outside.way == "fade") {
-      throw CLI::ValidationError(
-          "fit", "--outside fade leaves the bare machine, which a direct surface does not have");
+      usage_error("fit",
+                  "--outside fade leaves the bare machine, which a direct surface does not have");
     }
     run = [command] { return run_fit(*command); };
   });

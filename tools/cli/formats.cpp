@@ -2,7 +2,6 @@
 /// \file
 /// chaintrue formats: the reference page and the JSON Schema of each file format.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -53,20 +52,20 @@ int run_formats(const FormatsCommand& command) {
 
 }  // namespace
 
-void add_formats(CLI::App& app, Run& run) {
+void add_formats(Verb app, Run& run) {
   auto command = std::make_shared<FormatsCommand>();
-  CLI::App* verb = app.add_subcommand(
+  Verb verb = app.add_verb(
       "formats", "Every key of a file format, with unit, range and default; or its JSON Schema");
-  verb->add_option("name", command->name, "Which; without it they are listed")
-      ->check(CLI::IsMember(files::described_formats()));
-  verb->add_flag("--schema", command->schema, "The JSON Schema, for editors");
-  verb->add_option(
+  verb.add_option("name", command->name, "Which; without it they are listed")
+      .one_of(files::described_formats());
+  verb.add_flag("--schema", command->schema, "The JSON Schema, for editors");
+  verb.add_option(
       "--all", command->all, "Write pages and schemas of all formats into this folder, anew");
-  verb->footer(
+  verb.footer(
       "Example:\n"
       "  build/chaintrue formats machine\n"
       "  build/chaintrue formats grid --schema");
-  verb->callback([command, &run] { run = [command] { return run_formats(*command); }; });
+  verb.when_chosen([command, &run] { run = [command] { return run_formats(*command); }; });
 }
 
 }  // namespace chaintrue::cli

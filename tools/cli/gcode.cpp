@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// chaintrue gcode: the verbs check, lengths, compensate, verify, explain and their options.
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
@@ -17,50 +16,50 @@ using Action = int (*)(const GcodeOptions&);
 
 constexpr grid::files::Range kToleranceMm{"mm", 1e-4, 100.0};
 
-CLI::App* add(CLI::App& parent,
-              Run& run,
-              const std::shared_ptr<GcodeOptions>& options,
-              const char* name,
-              const char* help,
-              Action action) {
-  CLI::App* verb = parent.add_subcommand(name, help);
-  verb->add_option(
-      "--home",
-      options->home,
-      "X,Y in mm that is added to the program's coordinates to get those of the sheet");
-  verb->add_flag(
+Verb add(Verb parent,
+         Run& run,
+         const std::shared_ptr<GcodeOptions>& options,
+         const char* name,
+         const char* help,
+         Action action) {
+  Verb verb = parent.add_verb(name, help);
+  verb.add_option("--home",
+                  options->home,
+                  "X,Y in mm that is added to the program's coordinates to get those of the sheet");
+  verb.add_flag(
       "--block-delete", options->skip_deletable, "Leave out lines that begin with a slash");
-  verb->add_flag("--tools-have-no-diameter",
-                 options->tools_have_no_diameter,
-                 "G41 and G42 change nothing; otherwise they are refused");
-  add_number(*verb,
+  verb.add_flag("--tools-have-no-diameter",
+                options->tools_have_no_diameter,
+                "G41 and G42 change nothing; otherwise they are refused");
+  add_number(verb,
              "--step-budget",
              options->step_budget,
              {"", 1.0, 1e12},
              "Steps in loops and subroutines until a program counts as endless");
-  add_option_check(*verb, [options](OptionProblems& problems) {
+  add_option_check(verb, [options](OptionProblems& problems) {
     problems.take_from([&options] { (void)options->home_mm(); });
   });
-  verb->callback([options, action, &run] { run = [options, action] { return action(*options); }; });
+  verb.when_chosen(
+      [options, action, &run] { run = [options, action] { return action(*options); }; });
   return verb;
 }
 
-void add_machine_options(CLI::App& verb, GcodeOptions& options, bool map_required) {
-  auto* map = add_input(verb, "--map", options.map, "The compensation map");
-  if (map_required) map->required();
+void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
+  const Option map = add_input(verb, "--map", options.map, "The compensation map");
+  if (map_required) map.required();
   add_input(
       verb,
       "--machine",
       options.machine,
       "A machine file: what the controller believes, if not the map's machine as it was stated");
   verb.add_option("--controller", options.controller, "In place of the machine file's")
-      ->check(CLI::IsMember({"maslow_classic", "holey", "fluidnc_wallplotter", "ideal"}));
+      .one_of({"maslow_classic", "holey", "fluidnc_wallplotter", "ideal"});
   verb.add_option("--frame", options.frame, "The program's zero: the marks' or the bed's")
-      ->check(CLI::IsMember({"marks", "bed"}))
-      ->capture_default_str();
+      .one_of({"marks", "bed"})
+      .shows_default();
 }
 
-void add_limits(CLI::App& verb, GcodeOptions& options) {
+void add_limits(Verb verb, GcodeOptions& options) {
   add_number(
       verb, "--tolerance-mm", options.tolerance_mm, kToleranceMm, "How far the tool may stray");
   add_number(verb, "--decimals", options.decimals, {"", 2.0, 6.0}, "Of the output's coordinates");
@@ -86,100 +85,100 @@ void add_limits(CLI::App& verb, GcodeOptions& options) {
 
 }  // namespace
 
-void add_gcode(CLI::App& app, Run& run) {
+void add_gcode(Verb app, Run& run) {
   auto options = std::make_shared<GcodeOptions>();
-  CLI::App* gcode = app.add_subcommand(
-      "gcode", "Check, explain and compensate G-code; chain lengths along its path");
-  gcode->require_subcommand(1);
+  Verb gcode =
+      app.add_verb("gcode", "Check, explain and compensate G-code; chain lengths along its path");
+  gcode.require_verb();
 
-  CLI::App* check = add(*gcode,
-                        run,
-                        options,
-                        "check",
-                        "What the program does, and what would go wrong, by line",
-                        run_gcode_check);
-  add_input(*check, "file", options->program, "G-code; - is standard input")->required();
-  add_machine_options(*check, *options, false);
-  add_limits(*check, *options);
-  check->add_flag("--json", options->json, "JSON in place of words");
-  check->footer(
+  Verb check = add(gcode,
+                   run,
+                   options,
+                   "check",
+                   "What the program does, and what would go wrong, by line",
+                   run_gcode_check);
+  add_input(check, "file", options->program, "G-code; - is standard input").required();
+  add_machine_options(check, *options, false);
+  add_limits(check, *options);
+  check.add_flag("--json", options->json, "JSON in place of words");
+  check.footer(
       "Example:\n"
       "  build/chaintrue gcode check fixtures/gcode/bracket.nc");
 
-  CLI::App* lengths =
-      add(*gcode, run, options, "lengths", "The chain lengths along the path", run_gcode_lengths);
-  add_input(*lengths, "file", options->program, "G-code; - is standard input")->required();
-  add_machine_options(*lengths, *options, true);
-  add_output(*lengths, "-o,--output", options->output, {Origin::table}, "CSV; - is standard output")
-      ->capture_default_str();
-  add_number(*lengths,
+  Verb lengths =
+      add(gcode, run, options, "lengths", "The chain lengths along the path", run_gcode_lengths);
+  add_input(lengths, "file", options->program, "G-code; - is standard input").required();
+  add_machine_options(lengths, *options, true);
+  add_output(lengths, "-o,--output", options->output, {Origin::table}, "CSV; - is standard output")
+      .shows_default();
+  add_number(lengths,
              "--every-mm",
              options->every_mm,
              {"mm", 1e-9, 1e5},
              "Places along a move are at most so far apart");
-  lengths->add_flag("--json", options->json, "One JSON object a line in place of CSV");
-  lengths->footer(
+  lengths.add_flag("--json", options->json, "One JSON object a line in place of CSV");
+  lengths.footer(
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue gcode lengths fixtures/gcode/bracket.nc --map map.json -o lengths.csv");
 
-  CLI::App* compensate = add(*gcode,
-                             run,
-                             options,
-                             "compensate",
-                             "Rewrite a program so that the tool goes where it says",
-                             run_gcode_compensate);
-  add_input(*compensate, "file", options->program, "G-code; - is standard input")->required();
-  add_machine_options(*compensate, *options, true);
-  add_output(*compensate,
+  Verb compensate = add(gcode,
+                        run,
+                        options,
+                        "compensate",
+                        "Rewrite a program so that the tool goes where it says",
+                        run_gcode_compensate);
+  add_input(compensate, "file", options->program, "G-code; - is standard input").required();
+  add_machine_options(compensate, *options, true);
+  add_output(compensate,
              "-o,--output",
              options->output,
              {Origin::program},
              "The compensated program; - is standard output")
-      ->required();
-  add_output(*compensate,
+      .required();
+  add_output(compensate,
              "--report",
              options->report,
              {Origin::page},
              "A page with the path before and after, coloured by the correction");
-  add_limits(*compensate, *options);
-  compensate->add_flag("--no-verify",
-                       options->no_verify,
-                       "Write the output without having run it on the simulated machine");
-  compensate->footer(
+  add_limits(compensate, *options);
+  compensate.add_flag("--no-verify",
+                      options->no_verify,
+                      "Write the output without having run it on the simulated machine");
+  compensate.footer(
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue gcode compensate fixtures/gcode/bracket.nc --map map.json -o "
       "bracket.true.nc");
 
-  CLI::App* verify =
-      add(*gcode,
+  Verb verify =
+      add(gcode,
           run,
           options,
           "verify",
           "Run a program on a simulated controller and machine; exit code 1 when the tool strays",
           run_gcode_verify);
-  add_input(*verify, "original", options->program, "Where the tool shall go")->required();
-  add_input(*verify, "run", options->other, "What the controller is given")->required();
-  add_machine_options(*verify, *options, true);
-  add_limits(*verify, *options);
-  verify->add_flag("--json", options->json, "JSON in place of words");
-  verify->footer(
+  add_input(verify, "original", options->program, "Where the tool shall go").required();
+  add_input(verify, "run", options->other, "What the controller is given").required();
+  add_machine_options(verify, *options, true);
+  add_limits(verify, *options);
+  verify.add_flag("--json", options->json, "JSON in place of words");
+  verify.footer(
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue gcode compensate fixtures/gcode/bracket.nc --map map.json -o "
       "bracket.true.nc\n"
       "  build/chaintrue gcode verify fixtures/gcode/bracket.nc bracket.true.nc --map map.json");
 
-  CLI::App* explain = add(*gcode,
-                          run,
-                          options,
-                          "explain",
-                          "State before and after a line, its moves and their corrections",
-                          run_gcode_explain);
-  explain->add_option("place", options->program, "FILE:LINE")->required();
-  add_machine_options(*explain, *options, false);
-  explain->footer(
+  Verb explain = add(gcode,
+                     run,
+                     options,
+                     "explain",
+                     "State before and after a line, its moves and their corrections",
+                     run_gcode_explain);
+  explain.add_option("place", options->program, "FILE:LINE").required();
+  add_machine_options(explain, *options, false);
+  explain.footer(
       "Example:\n"
       "  build/chaintrue gcode explain fixtures/gcode/bracket.nc:12");
 }

@@ -2,7 +2,6 @@
 #include "tools/cli/grid_input.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 
@@ -18,12 +17,12 @@
 
 namespace chaintrue::cli {
 
-void add_grid_options(CLI::App& verb, GridInput& input) {
+void add_grid_options(Verb verb, GridInput& input) {
   add_input(verb,
             "grid",
             input.grid,
             "The measured points: a chaintrue_grid file, or CSV; - is standard input")
-      ->required();
+      .required();
   add_input(
       verb, "--machine", input.machine, "A chaintrue_machine file, in place of the grid's own");
   add_number(verb,
@@ -79,7 +78,7 @@ std::optional<model::Machine> machine_of(const GridInput& input) {
 
 }  // namespace
 
-void add_tape_options(CLI::App& verb, TapeInput& input) {
+void add_tape_options(Verb verb, TapeInput& input) {
   add_number(verb,
              "--tape-sigma-mm",
              input.sigma_mm,

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "grid/measured.hpp"
-#include "tools/cli/cli_fwd.hpp"
+#include "tools/cli/arguments.hpp"
 
 namespace chaintrue::cli {
 
@@ -33,13 +33,13 @@ struct TapeInput {
 };
 
 /// Adds GRID, --machine and the --noise options to a verb.
-void add_grid_options(CLI::App& verb, GridInput& input);
+void add_grid_options(Verb verb, GridInput& input);
 
 /// Reads it all; warnings go to standard error. \throws files::InputError.
 [[nodiscard]] grid::MeasuredGrid read_grid_input(const GridInput& input);
 
 /// Adds --tape-sigma-mm, --hook-offset-mm, --hook-sigma-mm and --hole-sigma-mm to a verb.
-void add_tape_options(CLI::App& verb, TapeInput& input);
+void add_tape_options(Verb verb, TapeInput& input);
 
 /// Enough for a fit, or for a check of what a map says.
 enum class MeasuredUse { fit, check };

@@ -2,7 +2,6 @@
 /// \file
 /// chaintrue import: what other programs wrote becomes a machine, a grid or belts.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <memory>
@@ -63,40 +62,37 @@ int import_optical(const OpticalCommand& command) {
   return kDone;
 }
 
-void add_optical(CLI::App& import, Run& run) {
+void add_optical(Verb import, Run& run) {
   auto command = std::make_shared<OpticalCommand>();
-  CLI::App* verb = import.add_subcommand("optical",
-                                         "A scan by WebControl's or GroundControl's optical "
-                                         "calibration becomes a grid of commanded positions");
-  add_input(*verb,
+  Verb verb = import.add_verb("optical",
+                              "A scan by WebControl's or GroundControl's optical "
+                              "calibration becomes a grid of commanded positions");
+  add_input(verb,
             "file",
             command->input,
             "The scan: 15 lines of 31 errors in x, an empty line, the same in y")
-      ->required();
+      .required();
   add_input(
-      *verb, "--machine", command->machine, "The machine, with the controller in force at the scan")
-      ->required();
-  add_number(*verb,
-             "--pitch-mm",
-             command->pitch_mm,
-             grid::files::kOpticalPitchMm,
-             "From square to square");
-  verb->add_option(
+      verb, "--machine", command->machine, "The machine, with the controller in force at the scan")
+      .required();
+  add_number(
+      verb, "--pitch-mm", command->pitch_mm, grid::files::kOpticalPitchMm, "From square to square");
+  verb.add_option(
           "--order", command->order, "In which order the squares were visited, if you know it")
-      ->check(CLI::IsMember({"rows", "columns", "serpentine_rows", "serpentine_columns"}));
-  add_output(*verb,
+      .one_of({"rows", "columns", "serpentine_rows", "serpentine_columns"});
+  add_output(verb,
              "-o,--output",
              command->output,
              {Origin::measured},
              "The grid file; - is standard output")
-      ->capture_default_str();
-  verb->footer(
+      .shows_default();
+  verb.footer(
       "A scan made with a compensation switched on shows what that one left and cannot be imported "
       "this way.\n\n"
       "Example:\n"
       "  build/chaintrue import optical fixtures/good/optical_scan.csv \\\n"
       "    --machine fixtures/machines/groundcontrol.json -o grid.json");
-  verb->callback([command, &run] { run = [command] { return import_optical(*command); }; });
+  verb.when_chosen([command, &run] { run = [command] { return import_optical(*command); }; });
 }
 
 struct GroundcontrolCommand {
@@ -117,42 +113,42 @@ int import_groundcontrol(const GroundcontrolCommand& command) {
   return kDone;
 }
 
-void add_groundcontrol(CLI::App& import, Run& run) {
+void add_groundcontrol(Verb import, Run& run) {
   auto command = std::make_shared<GroundcontrolCommand>();
-  CLI::App* verb = import.add_subcommand(
-      "groundcontrol", "GroundControl's settings become a machine and its controller");
-  add_input(*verb, "file", command->input, "groundcontrol.ini")->required();
-  add_output(*verb,
+  Verb verb = import.add_verb("groundcontrol",
+                              "GroundControl's settings become a machine and its controller");
+  add_input(verb, "file", command->input, "groundcontrol.ini").required();
+  add_output(verb,
              "-o,--output",
              command->output,
              {Origin::machine},
              "The machine file; - is standard output")
-      ->capture_default_str();
-  verb->add_flag("--nominal-pitch",
-                 command->nominal_pitch,
-                 "Do not take the chain tolerances for the pitch of the chains: nobody knows where "
-                 "they come from, or they were tuned to take up something else");
-  verb->footer(
+      .shows_default();
+  verb.add_flag("--nominal-pitch",
+                command->nominal_pitch,
+                "Do not take the chain tolerances for the pitch of the chains: nobody knows where "
+                "they come from, or they were tuned to take up something else");
+  verb.footer(
       "What the settings do not say is assumed, and said so here and in the file.\n\n"
       "Example:\n"
       "  build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \\\n"
       "    -o machine.json");
-  verb->callback([command, &run] { run = [command] { return import_groundcontrol(*command); }; });
+  verb.when_chosen([command, &run] { run = [command] { return import_groundcontrol(*command); }; });
 }
 
 }  // namespace
 
-void add_import(CLI::App& app, Run& run) {
-  CLI::App* verb =
-      app.add_subcommand("import", "Turn files of other programs into machine, grid and belts files");
-  verb->require_subcommand(1);
-  verb->footer(
+void add_import(Verb app, Run& run) {
+  Verb verb =
+      app.add_verb("import", "Turn files of other programs into machine, grid and belts files");
+  verb.require_verb();
+  verb.footer(
       "Example:\n"
       "  build/chaintrue import groundcontrol fixtures/good/groundcontrol_ring.ini \\\n"
       "    -o machine.json");
-  add_optical(*verb, run);
-  add_groundcontrol(*verb, run);
-  add_import_maslow4(*verb, run);
+  add_optical(verb, run);
+  add_groundcontrol(verb, run);
+  add_import_maslow4(verb, run);
 }
 
 }  // namespace chaintrue::cli

@@ -2,7 +2,6 @@
 #include "tools/cli/import_maslow4.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <memory>
@@ -93,42 +92,41 @@ int import_maslow4(const Maslow4Command& command) {
 
 }  // namespace
 
-void add_import_maslow4(CLI::App& import, Run& run) {
+void add_import_maslow4(Verb import, Run& run) {
   auto command = std::make_shared<Maslow4Command>();
-  CLI::App* verb = import.add_subcommand(
+  Verb verb = import.add_verb(
       "maslow4", "What a Maslow 4 prints while it finds its anchors becomes a belts file");
-  add_input(*verb,
+  add_input(verb,
             "file",
             command->input,
             "The log, or a list of readings {bl:.., br:.., tr:.., tl:..}; - is standard input")
-      ->required();
-  add_input(*verb, "--settings", command->settings, "The machine's maslow.yaml");
-  verb->add_option("--points",
-                   command->points,
-                   "First and last point to take, counted from 0 over all runs, as in 0:98");
+      .required();
+  add_input(verb, "--settings", command->settings, "The machine's maslow.yaml");
+  verb.add_option("--points",
+                  command->points,
+                  "First and last point to take, counted from 0 over all runs, as in 0:98");
   add_number(
-      *verb, "--run", command->run, {"", 1.0, 10000.0}, "Which run to take; the last if unsaid");
-  verb->add_option(
-          "--lengths",
-          command->lengths,
-          "What a length counts: the belt alone, slanting; the belt with its extension and "
-          "arm, as printed before October 2024; or the level span from anchor to tool, as "
-          "since")
-      ->check(CLI::IsMember({"belt", "belt_and_arm", "span"}));
-  verb->add_option("--orientation", command->orientation, "How the frame stands")
-      ->check(CLI::IsMember({"upright", "flat"}));
-  add_output(*verb,
+      verb, "--run", command->run, {"", 1.0, 10000.0}, "Which run to take; the last if unsaid");
+  verb.add_option("--lengths",
+                  command->lengths,
+                  "What a length counts: the belt alone, slanting; the belt with its extension and "
+                  "arm, as printed before October 2024; or the level span from anchor to tool, as "
+                  "since")
+      .one_of({"belt", "belt_and_arm", "span"});
+  verb.add_option("--orientation", command->orientation, "How the frame stands")
+      .one_of({"upright", "flat"});
+  add_output(verb,
              "-o,--output",
              command->output,
              {Origin::measured},
              "The belts file; - is standard output")
-      ->capture_default_str();
-  verb->footer(
+      .shows_default();
+  verb.footer(
       "What the log does not say is assumed, and said so here and in the file.\n\n"
       "Example:\n"
       "  build/chaintrue import maslow4 fixtures/good/maslow4_log.txt \\\n"
       "    --settings fixtures/machines/maslow.yaml -o belts.json");
-  verb->callback([command, &run] { run = [command] { return import_maslow4(*command); }; });
+  verb.when_chosen([command, &run] { run = [command] { return import_maslow4(*command); }; });
 }
 
 }  // namespace chaintrue::cli

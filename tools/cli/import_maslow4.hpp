@@ -7,6 +7,6 @@
 
 namespace chaintrue::cli {
 
-void add_import_maslow4(CLI::App& import, Run& run);
+void add_import_maslow4(Verb import, Run& run);
 
 }  // namespace chaintrue::cli

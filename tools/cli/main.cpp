@@ -120,7 +120,7 @@ int main_with_exit_code(int argc, char** argv) {
   app.footer("chaintrue help VERB, or VERB --help, says what a verb takes, with an example.");
   app.set_help_all_flag("--help-all", "The help of every verb");
   Run run;
-#define CHAINTRUE_VERB(id) add_##id(app, run);
+#define CHAINTRUE_VERB(id) add_##id(Verb(app), run);
 #include "tools/cli/verbs.def"
 #undef CHAINTRUE_VERB
   let_verbs_pass_on(app);

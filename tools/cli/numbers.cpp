@@ -2,7 +2,6 @@
 #include "tools/cli/numbers.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <utility>
@@ -30,13 +29,13 @@ std::string expected(const files::Range& range, bool is_whole) {
 
 namespace detail {
 
-CLI::Option* add_number(CLI::App& verb,
-                        const std::string& names,
-                        const files::Range& range,
-                        bool is_whole,
-                        const std::string& help,
-                        std::function<void(double)> take,
-                        std::optional<double> shown_default) {
+Option add_number(Verb verb,
+                  const std::string& names,
+                  const files::Range& range,
+                  bool is_whole,
+                  const std::string& help,
+                  std::function<void(double)> take,
+                  std::optional<double> shown_default) {
   const auto read =
       [name = names, range, is_whole, take = std::move(take)](const std::string& text) {
         const auto number = files::number_of(text);
@@ -47,9 +46,8 @@ CLI::Option* add_number(CLI::App& verb,
                        expected(range, is_whole) +
                            (files::looks_like_decimal_comma(text) ? ", with a decimal point" : ""));
       };
-  CLI::Option* option = verb.add_option_function<std::string>(names, read, help)
-                            ->type_name(is_whole ? "INT" : "FLOAT");
-  if (shown_default) option->default_str(fmt::format("{}", *shown_default));
+  Option option = verb.add_option(names, read, help).value_word(is_whole ? "INT" : "FLOAT");
+  if (shown_default) option.shows_default(fmt::format("{}", *shown_default));
   return option;
 }
 

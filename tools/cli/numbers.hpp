@@ -5,7 +5,7 @@
 /// are no numbers.
 ///
 /// \code
-///   add_number(*verb, "--noise-dof", input.noise_dof, files::kNoiseDof, "How well known");
+///   add_number(verb, "--noise-dof", input.noise_dof, files::kNoiseDof, "How well known");
 /// \endcode
 #pragma once
 
@@ -15,28 +15,28 @@
 #include <type_traits>
 
 #include "grid/files/number_text.hpp"
-#include "tools/cli/cli_fwd.hpp"
+#include "tools/cli/arguments.hpp"
 
 namespace chaintrue::cli {
 
 namespace detail {
 /// `take` gets a number of the range.
-CLI::Option* add_number(CLI::App& verb,
-                        const std::string& names,
-                        const grid::files::Range& range,
-                        bool is_whole,
-                        const std::string& help,
-                        std::function<void(double)> take,
-                        std::optional<double> shown_default = {});
+Option add_number(Verb verb,
+                  const std::string& names,
+                  const grid::files::Range& range,
+                  bool is_whole,
+                  const std::string& help,
+                  std::function<void(double)> take,
+                  std::optional<double> shown_default = {});
 }  // namespace detail
 
 /// `value` is double, a whole number, or optional of either; its default is shown where it has one.
 template <class T>
-CLI::Option* add_number(CLI::App& verb,
-                        const std::string& names,
-                        T& value,
-                        const grid::files::Range& range,
-                        const std::string& help) {
+Option add_number(Verb verb,
+                  const std::string& names,
+                  T& value,
+                  const grid::files::Range& range,
+                  const std::string& help) {
   return detail::add_number(
       verb,
       names,
@@ -47,11 +47,11 @@ CLI::Option* add_number(CLI::App& verb,
       static_cast<double>(value));
 }
 template <class T>
-CLI::Option* add_number(CLI::App& verb,
-                        const std::string& names,
-                        std::optional<T>& value,
-                        const grid::files::Range& range,
-                        const std::string& help) {
+Option add_number(Verb verb,
+                  const std::string& names,
+                  std::optional<T>& value,
+                  const grid::files::Range& range,
+                  const std::string& help) {
   return detail::add_number(
       verb, names, range, std::is_integral_v<T>, help, [&value](double number) {
         value = static_cast<T>(number);

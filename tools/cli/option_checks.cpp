@@ -11,7 +11,7 @@ namespace chaintrue::cli {
 namespace {
 
 struct OptionCheck {
-  const CLI::App* verb;
+  Verb verb;
   std::function<void(OptionProblems&)> check;
 };
 
@@ -23,15 +23,15 @@ std::vector<OptionCheck>& checks() {
 
 }  // namespace
 
-void add_option_check(const CLI::App& verb, std::function<void(OptionProblems&)> check) {
-  checks().push_back({&verb, std::move(check)});
+void add_option_check(Verb verb, std::function<void(OptionProblems&)> check) {
+  checks().push_back({verb, std::move(check)});
 }
 
 void check_command_line() {
   OptionProblems problems;
   problems.take_from(check_numbers);
   for (const OptionCheck& one : checks()) {
-    if (one.verb->parsed()) one.check(problems);
+    if (one.verb.is_chosen()) one.check(problems);
   }
   problems.take_from(check_places);
   problems.throw_if_any();

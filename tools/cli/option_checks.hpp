@@ -5,22 +5,22 @@
 /// (places.hpp). What depends on what a file says the verb finds by itself, later.
 ///
 /// \code
-///   add_option_check(*verb, [options](OptionProblems& problems) {
+///   add_option_check(verb, [options](OptionProblems& problems) {
 ///     (void)parse_model(options->model, problems);
 ///   });
 /// \endcode
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
+#include "tools/cli/arguments.hpp"
 #include "tools/cli/effect_argument.hpp"
 
 namespace chaintrue::cli {
 
 /// `check` is asked where the verb was chosen. It finds numbers out of their range at their
 /// defaults.
-void add_option_check(const CLI::App& verb, std::function<void(OptionProblems&)> check);
+void add_option_check(Verb verb, std::function<void(OptionProblems&)> check);
 
 /// For the verb that was chosen, before its work. \throws files::InputError with all that is wrong.
 void check_command_line();

@@ -4,7 +4,6 @@
 #include "tools/cli/numbers.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <map>
 
@@ -23,13 +22,13 @@ const std::map<std::string, grid::Outside>& ways() {
 
 }  // namespace
 
-void add_outside_options(CLI::App& verb, OutsideOption& option, const std::string& usual) {
+void add_outside_options(Verb verb, OutsideOption& option, const std::string& usual) {
   verb.add_option("--outside",
                   option.way,
                   "Beyond the measured points: continued (smoothly), refuse, fade (to the bare "
                   "machine), linear or clamp; " +
                       usual)
-      ->check(CLI::IsMember({"continued", "refuse", "fade", "linear", "clamp"}));
+      .one_of({"continued", "refuse", "fade", "linear", "clamp"});
   add_number(verb,
              "--fade-mm",
              option.fade_width_mm,

@@ -16,7 +16,7 @@ struct OutsideOption {
 };
 
 /// \param usual what happens without the option, in words
-void add_outside_options(CLI::App& verb, OutsideOption& option, const std::string& usual);
+void add_outside_options(Verb verb, OutsideOption& option, const std::string& usual);
 /// The rule that was asked for, or the given one.
 [[nodiscard]] grid::OutsideRule rule_of(const OutsideOption& option,
                                         const grid::OutsideRule& usual);

@@ -2,7 +2,6 @@
 /// \file
 /// chaintrue passes: cut, measure, correct, and again, until the next pass would not pay.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <iterator>
@@ -191,52 +190,52 @@ int run_passes(const PassesCommand& command) {
 
 }  // namespace
 
-void add_passes(CLI::App& app, Run& run) {
+void add_passes(Verb app, Run& run) {
   auto command = std::make_shared<PassesCommand>();
   grid::SimulatedPassesRequest& request = command->request;
-  CLI::App* verb = app.add_subcommand(
-      "passes", "Cut, measure, correct, and again, until the next pass would not pay");
-  add_input(*verb,
+  Verb verb =
+      app.add_verb("passes", "Cut, measure, correct, and again, until the next pass would not pay");
+  add_input(verb,
             "sets",
             command->sets,
             "chaintrue_holes files, in the order of the passes; none: simulated");
-  add_input(*verb,
+  add_input(verb,
             "--machine",
             command->machine,
             "A chaintrue_machine file: simulated on it, or in place of the sets' own");
-  add_number(*verb, "--passes", request.most, {"", 1.0, 100.0}, "Simulated: at most so many");
-  add_number(*verb,
+  add_number(verb, "--passes", request.most, {"", 1.0, 100.0}, "Simulated: at most so many");
+  add_number(verb,
              "--holes",
              request.plan.holes,
              {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles},
              "Simulated: holes of a pass");
-  add_number(*verb,
+  add_number(verb,
              "--tape-sigma-mm",
              request.plan.tape_sigma_mm,
              grid::files::kTapeSigmaMm,
              "Simulated: of a tape reading");
-  add_number(*verb,
+  add_number(verb,
              "--hole-sigma-mm",
              request.plan.hole_sigma_mm,
              grid::files::kHoleSigmaMm,
              "Simulated: of a hole");
-  add_number(*verb,
+  add_number(verb,
              "--worthwhile-mm",
              request.worthwhile_mm,
              {"mm", 0.0, 100.0},
              "A pass that takes less off the expected error is not asked for");
-  add_number(*verb, "--seed", request.seed, {"", 0.0, 9e15}, "Simulated: same seed, same bytes");
-  verb->add_flag("--json", command->json, "All digits, for scripts");
+  add_number(verb, "--seed", request.seed, {"", 0.0, 9e15}, "Simulated: same seed, same bytes");
+  verb.add_flag("--json", command->json, "All digits, for scripts");
   add_output(
-      *verb, "-o,--output", command->map, {Origin::map}, "Write the last pass's map to this file");
-  verb->footer(
+      verb, "-o,--output", command->map, {Origin::map}, "Write the last pass's map to this file");
+  verb.footer(
       "What one pass learnt of the machine is where the next one begins. Between passes the "
       "controller's\nsettings may change, the machine as first stated may not.\n\n"
       "Examples:\n"
       "  build/chaintrue passes --machine fixtures/machines/classic.json --passes 4 --seed 1\n"
       "  build/chaintrue passes fixtures/holes/nine_holes.json -o map.json");
-  verb->callback([command, &run] {
-    if (command->sets.empty() && command->machine.empty()) throw CLI::RequiredError("--machine");
+  verb.when_chosen([command, &run] {
+    if (command->sets.empty() && command->machine.empty()) missing_option("--machine");
     run = [command] { return run_passes(*command); };
   });
 }

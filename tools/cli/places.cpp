@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -23,7 +22,7 @@ namespace fs = std::filesystem;
 
 /// An option that names files; what it names is known once the command line is parsed.
 struct Place {
-  const CLI::App* verb = nullptr;
+  Verb verb;
   const std::string* one = nullptr;
   const std::vector<std::string>* many = nullptr;
   std::vector<Origin> kinds;  ///< of an output; none for an input
@@ -34,22 +33,10 @@ struct Place {
   }
 };
 
-/// The verb that an option stands under, groups of options left out.
-const CLI::App& verb_of(const CLI::App& app) {
-  const CLI::App* verb = &app;
-  while (verb->get_name().empty() && verb->get_parent() != nullptr) verb = verb->get_parent();
-  return *verb;
-}
-
 /// Of all verbs; one command line a process.
 std::vector<Place>& places() {
   static std::vector<Place> all;
   return all;
-}
-
-bool is_forced(const CLI::App& verb) {
-  const CLI::Option* force = verb.get_option_no_throw("--force");
-  return force != nullptr && force->count() > 0;
 }
 
 bool is_standard_output(const fs::path& path) {
@@ -109,7 +96,7 @@ class PlaceCheck {
       return add(path, "a file that is read here", "another name: what is read is never replaced");
     if (is_standard_output(path)) return;
     look_at_folder(path);
-    if (!identity || is_forced(*place.verb)) return;
+    if (!identity || place.verb.is_given("--force")) return;
     const std::string old = beginning_of(path);
     if (old.empty()) return;
     const Origin origin = files::origin_of(old);
@@ -151,7 +138,7 @@ class PlaceCheck {
 std::vector<Place> chosen_places() {
   std::vector<Place> chosen;
   for (const Place& place : places()) {
-    if (place.verb->parsed()) chosen.push_back(place);
+    if (place.verb.is_chosen()) chosen.push_back(place);
   }
   return chosen;
 }
@@ -186,59 +173,50 @@ std::vector<files::OutputFile> looked_at(const std::vector<files::OutputFile>& o
   return result;
 }
 
-void add_force(CLI::App& verb) {
-  if (verb.get_option_no_throw("--force") != nullptr) return;
-  verb.add_flag("--force")->description(
-      "Replace files that chaintrue did not make, or that were changed since");
+void add_force(Verb verb) {
+  if (verb.has_option("--force")) return;
+  verb.add_flag("--force", "Replace files that chaintrue did not make, or that were changed since");
 }
 
 }  // namespace
 
-CLI::Option* add_input(CLI::App& verb,
-                       const std::string& names,
-                       std::string& path,
-                       const std::string& help) {
-  places().push_back({&verb_of(verb), &path, nullptr, {}});
+Option add_input(Verb verb, const std::string& names, std::string& path, const std::string& help) {
+  places().push_back({verb.with_name(), &path, nullptr, {}});
   return verb.add_option(names, path, help);
 }
 
-CLI::Option* add_input(CLI::App& verb,
-                       const std::string& names,
-                       std::vector<std::string>& paths,
-                       const std::string& help) {
-  places().push_back({&verb_of(verb), nullptr, &paths, {}});
+Option add_input(Verb verb,
+                 const std::string& names,
+                 std::vector<std::string>& paths,
+                 const std::string& help) {
+  places().push_back({verb.with_name(), nullptr, &paths, {}});
   return verb.add_option(names, paths, help);
 }
 
-CLI::Option* add_output(CLI::App& verb,
-                        const std::string& names,
-                        std::string& path,
-                        std::vector<Origin> kinds,
-                        const std::string& help) {
-  places().push_back({&verb_of(verb), &path, nullptr, std::move(kinds)});
-  CLI::Option* option = verb.add_option(names, path, help);
-  option->check(CLI::Validator(
-      [](std::string& text) {
-        return text.empty() ? std::string("an empty name, expected the name of a file")
-                            : std::string();
-      },
-      ""));
+Option add_output(Verb verb,
+                  const std::string& names,
+                  std::string& path,
+                  std::vector<Origin> kinds,
+                  const std::string& help) {
+  places().push_back({verb.with_name(), &path, nullptr, std::move(kinds)});
+  Option option = verb.add_option(names, path, help);
+  option.refuses([](const std::string& text) {
+    return text.empty() ? std::string("an empty name, expected the name of a file") : std::string();
+  });
   add_force(verb);
   return option;
 }
 
-CLI::Option* add_output_folder(CLI::App& verb,
-                               const std::string& names,
-                               std::string& path,
-                               const std::string& help) {
-  CLI::Option* option = verb.add_option(names, path, help);
+Option add_output_folder(Verb verb,
+                         const std::string& names,
+                         std::string& path,
+                         const std::string& help) {
+  Option option = verb.add_option(names, path, help);
   add_force(verb);
   return option;
 }
 
-void write_folder(const CLI::App& verb,
-                  const std::string& folder,
-                  const std::vector<FolderFile>& contents) {
+void write_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents) {
   std::error_code error;
   const bool is_new = fs::create_directories(folder, error);
   if (error)
@@ -249,7 +227,7 @@ void write_folder(const CLI::App& verb,
     std::vector<files::OutputFile> outputs;
     for (const FolderFile& file : contents) {
       const fs::path path = fs::path(folder) / file.name;
-      check.look_at(path.string(), {&verb, nullptr, nullptr, {file.kind}});
+      check.look_at(path.string(), {verb, nullptr, nullptr, {file.kind}});
       outputs.push_back({path, files::signed_text(file.text, file.kind)});
     }
     check.throw_if_any();

@@ -10,8 +10,8 @@
 /// again, with what other files named as their machine among the inputs.
 ///
 /// \code
-///   add_input(*verb, "map", command->map, "A chaintrue_map file")->required();
-///   add_output(*verb, "-o,--output", command->output, {Origin::table}, "- is standard output");
+///   add_input(verb, "map", command->map, "A chaintrue_map file").required();
+///   add_output(verb, "-o,--output", command->output, {Origin::table}, "- is standard output");
 ///   ...
 ///   write_output(command->output, text);
 /// \endcode
@@ -23,34 +23,31 @@
 #include "grid/files/origin.hpp"
 #include "grid/files/pending_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/cli_fwd.hpp"
+#include "tools/cli/arguments.hpp"
 
 namespace chaintrue::cli {
 
 using grid::files::Origin;
 
 /// An option or argument that names a file to read.
-CLI::Option* add_input(CLI::App& verb,
-                       const std::string& names,
-                       std::string& path,
-                       const std::string& help);
-CLI::Option* add_input(CLI::App& verb,
-                       const std::string& names,
-                       std::vector<std::string>& paths,
-                       const std::string& help);
+Option add_input(Verb verb, const std::string& names, std::string& path, const std::string& help);
+Option add_input(Verb verb,
+                 const std::string& names,
+                 std::vector<std::string>& paths,
+                 const std::string& help);
 /// An option that names a file to write; adds --force to the verb. \param kinds what is written
 /// there: a file of these kinds that this program made is replaced without being asked
-CLI::Option* add_output(CLI::App& verb,
-                        const std::string& names,
-                        std::string& path,
-                        std::vector<Origin> kinds,
-                        const std::string& help);
+Option add_output(Verb verb,
+                  const std::string& names,
+                  std::string& path,
+                  std::vector<Origin> kinds,
+                  const std::string& help);
 
 /// A folder that is made where it is not there yet; adds --force to the verb.
-CLI::Option* add_output_folder(CLI::App& verb,
-                               const std::string& names,
-                               std::string& path,
-                               const std::string& help);
+Option add_output_folder(Verb verb,
+                         const std::string& names,
+                         std::string& path,
+                         const std::string& help);
 
 /// A file of such a folder, and what it is.
 struct FolderFile {
@@ -59,9 +56,7 @@ struct FolderFile {
   Origin kind;
 };
 /// All or none, held to the rules of outputs. \throws files::InputError
-void write_folder(const CLI::App& verb,
-                  const std::string& folder,
-                  const std::vector<FolderFile>& contents);
+void write_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents);
 
 /// For the verb that was chosen, before its work. \throws files::InputError with all that is wrong.
 void check_places();

@@ -3,7 +3,6 @@
 /// chaintrue plan: where to measure, as a list for the workshop, and how good the map will be; and
 /// after a diagnosis, what to measure next.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -152,96 +151,98 @@ int run_plan(PlanOptions options) {
 
 }  // namespace
 
-void add_plan(CLI::App& app, Run& run) {
+void add_plan(Verb app, Run& run) {
   auto options = std::make_shared<PlanOptions>();
-  CLI::App* verb = app.add_subcommand(
+  Verb verb = app.add_verb(
       "plan", "Where to measure: a list for the workshop, and how good the map will be");
-  add_input(*verb,
+  add_input(verb,
             "--machine",
             options->machine,
             "chaintrue_machine file; - is standard input. With --after only where the grid "
             "names none, with --check not at all");
-  auto* grid = add_input(*verb,
-                         "grid",
-                         options->follow_up.file,
-                         "With --after: the points, or the holes, measured so far");
-  auto* after = add_input(*verb,
-                          "--after",
-                          options->follow_up.after,
-                          "A chaintrue_diagnosis of them: what to measure next, and the lines to "
-                          "add to the file");
-  after->needs(grid);
-  add_input(*verb,
+  const Option grid = add_input(verb,
+                                "grid",
+                                options->follow_up.file,
+                                "With --after: the points, or the holes, measured so far");
+  const Option after =
+      add_input(verb,
+                "--after",
+                options->follow_up.after,
+                "A chaintrue_diagnosis of them: what to measure next, and the lines to "
+                "add to the file");
+  after.needs(grid);
+  add_input(verb,
             "--with",
             options->follow_up.with,
             "With --after: the other files of the same diagnosis, as diagnose --with had them")
-      ->needs(after);
+      .needs(after);
   const grid::PlanRequest usual;
   const grid::CheckPlanRequest usual_check;
-  auto* points = add_number(*verb,
-                            "--points",
-                            options->points,
-                            {"", 1.0, 1000.0},
-                            fmt::format("How many, {} to {}; {} where unsaid. With --check {} "
-                                        "to {}; {} where unsaid",
-                                        grid::kFewestPlanned,
-                                        grid::kMostPlanned,
-                                        usual.points,
-                                        grid::kFewestCheckPoints,
-                                        grid::kMostCheckPoints,
-                                        usual_check.points));
-  add_input(*verb,
+  const Option points =
+      add_number(verb,
+                 "--points",
+                 options->points,
+                 {"", 1.0, 1000.0},
+                 fmt::format("How many, {} to {}; {} where unsaid. With --check {} "
+                             "to {}; {} where unsaid",
+                             grid::kFewestPlanned,
+                             grid::kMostPlanned,
+                             usual.points,
+                             grid::kFewestCheckPoints,
+                             grid::kMostCheckPoints,
+                             usual_check.points));
+  add_input(verb,
             "--check",
             options->check.map,
             "Plan the few points that tell best, later, whether this chaintrue_map still "
             "holds")
-      ->excludes("--after");
-  add_number(*verb,
+      .excludes(after);
+  add_number(verb,
              "--margin-mm",
              options->margin_mm,
              {"mm", 0.0, 10000.0},
              fmt::format("From the bed's edge to the outermost marks; {:g} where unsaid: nearer, a "
                          "sled hangs over the edge",
                          kReachableMm));
-  add_plan_holes_options(*verb, options->holes, points);
+  add_plan_holes_options(verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {
     return fmt::format("Noise of {}, one sigma; {:g} where unsaid, with --check {:g}",
                        what,
                        usually_mm,
                        in_check_mm);
   };
-  add_number(*verb,
+  add_number(verb,
              "--length-noise-mm",
              options->length_noise_mm,
              {"mm", 0.001, 50.0},
              noise_words("a chain length", usual.noise.length_mm, usual_check.length_mm));
-  add_number(*verb,
+  add_number(verb,
              "--position-noise-mm",
              options->position_noise_mm,
              {"mm", 0.0, 50.0},
              noise_words("a mark's position", usual.noise.position_mm, usual_check.position_mm));
-  add_measure_option(*verb, options->measure);
-  add_output(*verb,
+  add_measure_option(verb, options->measure);
+  add_output(verb,
              "-o,--output",
              options->output,
              {Origin::list, Origin::measured},
              "The list with empty cells to fill in: CSV, or JSON where the file is called so; - is "
              "standard output")
-      ->capture_default_str();
-  verb->add_flag("--json", options->json, "The list as JSON, with the machine in it");
-  add_output(*verb,
+      .shows_default();
+  verb.add_flag("--json", options->json, "The list as JSON, with the machine in it");
+  add_output(verb,
              "--page",
              options->page,
              {Origin::page},
              "Write a page to print: the bed drawn, what to do, and lines to write on");
-  add_drill_options(*verb, options->gcode, options->drill);
-  add_output(*verb,
+  add_drill_options(verb, options->gcode, options->drill);
+  add_output(verb,
              "--svg",
              options->drawing,
              {Origin::drawing},
              "Draw the points over the expected error of the map, or the holes and their "
              "distances, into this SVG file");
-  verb->footer(
+  verb.footer(
       "The list goes row by row from the bottom left, turning round at the end of each row;\n"
       "chaintrue simulate --marks takes it. The expected error is told on standard error.\n"
       "Fill in the list (in an editor or a spreadsheet) and hand it to chaintrue fit, diagnose or\n"
@@ -257,11 +258,11 @@ void add_plan(CLI::App& app, Run& run) {
       "--tape-sigma-mm 0.5 -o holes.csv --gcode holes.nc --svg holes.svg\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue plan --check map.json -o five.csv --svg five.svg");
-  verb->callback([options, &run] {
+  verb.when_chosen([options, &run] {
     if (options->follow_up.after.empty() && !options->follow_up.file.empty())
-      throw CLI::RequiredError("--after");
+      missing_option("--after");
     if (options->follow_up.after.empty() && options->check.map.empty() && options->machine.empty())
-      throw CLI::RequiredError("--machine");
+      missing_option("--machine");
     run = [options] { return run_plan(*options); };
   });
 }

@@ -2,7 +2,6 @@
 #include "tools/cli/plan_holes.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -49,7 +48,7 @@ void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& reque
   problems.require("--hole-sigma-mm", request.hole_sigma_mm, 0.0, 100.0);
 }
 
-void add_plan_holes_options(CLI::App& verb, HolesPlanOptions& options, CLI::Option* points) {
+void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points) {
   grid::HolesPlanRequest& request = options.request;
   add_number(verb,
              "--holes",
@@ -58,15 +57,15 @@ void add_plan_holes_options(CLI::App& verb, HolesPlanOptions& options, CLI::Opti
              fmt::format("Plan holes and tape distances instead: how many holes, {} to {}",
                          grid::kFewestPlannedHoles,
                          grid::kMostPlannedHoles))
-      ->default_str("")
-      ->excludes(points);
+      .shows_default("")
+      .excludes(points);
   add_number(verb,
              "--distances",
              request.distances,
              {"", 1.0, 10000.0},
              "Of --holes: how many to measure; where unsaid twice the holes and two more, "
              "with --edges six more")
-      ->default_str("");
+      .shows_default("");
   verb.add_flag("--edges",
                 request.edges,
                 "Of --holes: measure to the sheet's edges as well, so that jobs come out where "

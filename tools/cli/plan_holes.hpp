@@ -6,7 +6,7 @@
 #include <string>
 
 #include "grid/holes/holes_plan.hpp"
-#include "tools/cli/cli_fwd.hpp"
+#include "tools/cli/arguments.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/plan_outputs.hpp"
 
@@ -20,7 +20,7 @@ struct HolesPlanOptions {
 /// The numbers of holes and distances and their sigmas, as every verb that plans holes has them.
 void require_sound(OptionProblems& problems, const grid::HolesPlanRequest& request);
 
-void add_plan_holes_options(CLI::App& verb, HolesPlanOptions& options, CLI::Option* points);
+void add_plan_holes_options(Verb verb, HolesPlanOptions& options, Option points);
 
 /// Writes the list, the drawing and the program; returns the exit code. \throws files::InputError
 /// for values out of range.

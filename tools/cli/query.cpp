@@ -2,7 +2,6 @@
 /// \file
 /// chaintrue query: chain lengths for points, and the point for chain lengths.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -180,51 +179,49 @@ int run_query(const QueryCommand& command) {
 void check_usage(const QueryCommand& command) {
   const int ways = (command.coordinates.empty() ? 0 : 1) + (command.points.empty() ? 0 : 1) +
                    (command.inverse.empty() ? 0 : 1);
-  if (ways != 1)
-    throw CLI::ValidationError("query",
-                               "give points as X Y ..., or --points FILE, or --inverse L R");
+  if (ways != 1) usage_error("query", "give points as X Y ..., or --points FILE, or --inverse L R");
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(command.coordinates.begin(), command.coordinates.end(), finite) ||
       !std::all_of(command.inverse.begin(), command.inverse.end(), finite)) {
-    throw CLI::ValidationError("query", "coordinates and lengths are numbers in mm");
+    usage_error("query", "coordinates and lengths are numbers in mm");
   }
   if (command.coordinates.size() % 2 != 0) {
-    throw CLI::ValidationError(
-        "query", fmt::format("{} numbers are no pairs of X and Y", command.coordinates.size()));
+    usage_error("query",
+                fmt::format("{} numbers are no pairs of X and Y", command.coordinates.size()));
   }
 }
 
 }  // namespace
 
-void add_query(CLI::App& app, Run& run) {
+void add_query(Verb app, Run& run) {
   auto command = std::make_shared<QueryCommand>();
-  CLI::App* verb = app.add_subcommand(
-      "query", "Chain lengths for points of the bed, or the point for chain lengths");
-  add_input(*verb, "map", command->map, "A chaintrue_map file; - is standard input")->required();
-  verb->add_option("coordinates", command->coordinates, "X Y, in mm, as many pairs as you like");
-  add_input(*verb,
+  Verb verb =
+      app.add_verb("query", "Chain lengths for points of the bed, or the point for chain lengths");
+  add_input(verb, "map", command->map, "A chaintrue_map file; - is standard input").required();
+  verb.add_option("coordinates", command->coordinates, "X Y, in mm, as many pairs as you like");
+  add_input(verb,
             "--points",
             command->points,
             "A CSV with the columns x_mm and y_mm; - is standard input");
-  verb->add_option("--inverse", command->inverse, "Chain lengths L R in mm: where is the tool?")
-      ->expected(2);
-  verb->add_option("--frame",
-                   command->frame,
-                   "marks: coordinates as on the measured sheet; bed: as in the machine file, the "
-                   "sheet's placement taken out")
-      ->check(CLI::IsMember({"marks", "bed"}))
-      ->capture_default_str();
-  add_output(*verb, "-o,--output", command->output, {Origin::table}, "- is standard output")
-      ->capture_default_str();
-  add_outside_options(*verb, command->outside, "as the map says where not said");
-  verb->add_flag("--json", command->json, "JSON in place of CSV");
-  verb->footer(
+  verb.add_option("--inverse", command->inverse, "Chain lengths L R in mm: where is the tool?")
+      .takes(2);
+  verb.add_option("--frame",
+                  command->frame,
+                  "marks: coordinates as on the measured sheet; bed: as in the machine file, the "
+                  "sheet's placement taken out")
+      .one_of({"marks", "bed"})
+      .shows_default();
+  add_output(verb, "-o,--output", command->output, {Origin::table}, "- is standard output")
+      .shows_default();
+  add_outside_options(verb, command->outside, "as the map says where not said");
+  verb.add_flag("--json", command->json, "JSON in place of CSV");
+  verb.footer(
       "status: inside the measured points, at their edge, extrapolated beyond them, or outside the "
       "bed (exit code 4).\n"
       "Sigmas are one standard deviation of the map at that point.\n\nExample:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue query map.json 100 200 -1000 -450");
-  verb->callback([command, &run] {
+  verb.when_chosen([command, &run] {
     check_usage(*command);
     run = [command] { return run_query(*command); };
   });

@@ -2,7 +2,6 @@
 /// \file
 /// chaintrue report: a map or a diagnosis as one HTML page that needs no network.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <array>
 #include <cstdio>
@@ -130,27 +129,27 @@ int run_report(const ReportCommand& command) {
 
 }  // namespace
 
-void add_report(CLI::App& app, Run& run) {
+void add_report(Verb app, Run& run) {
   auto command = std::make_shared<ReportCommand>();
-  CLI::App* verb = app.add_subcommand(
+  Verb verb = app.add_verb(
       "report", "A map or a diagnosis as a page for a browser, to be read without a network");
-  add_input(*verb,
+  add_input(verb,
             "file",
             command->input,
             "A chaintrue_map or chaintrue_diagnosis file; - is standard input")
-      ->required();
+      .required();
   add_output(
-      *verb, "-o,--output", command->output, {Origin::page}, "The HTML file; - is standard output")
-      ->required();
-  verb->add_flag("--certificate", command->certificate, "One page of a map, to print");
-  verb->add_option("--date", command->date, "A date to print below the title, as in 2026-11-22");
-  verb->footer(
+      verb, "-o,--output", command->output, {Origin::page}, "The HTML file; - is standard output")
+      .required();
+  verb.add_flag("--certificate", command->certificate, "One page of a map, to print");
+  verb.add_option("--date", command->date, "A date to print below the title, as in 2026-11-22");
+  verb.footer(
       "Examples:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue report map.json -o report.html\n"
       "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
       "  build/chaintrue report diagnosis.json -o diagnosis.html");
-  verb->callback([command, &run] { run = [command] { return run_report(*command); }; });
+  verb.when_chosen([command, &run] { run = [command] { return run_report(*command); }; });
 }
 
 }  // namespace chaintrue::cli

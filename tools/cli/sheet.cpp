@@ -2,7 +2,6 @@
 #include "tools/cli/sheet.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <iterator>
 
@@ -25,14 +24,14 @@ SheetOf sheet_of(const std::string& word, const model::Machine* machine) {
   return is_told ? SheetOf::lengths : SheetOf::places;
 }
 
-void add_measure_option(CLI::App& verb, std::string& word) {
+void add_measure_option(Verb verb, std::string& word) {
   verb.add_option("--measure",
                   word,
                   "What the list has empty cells for. places: the controller is sent to each mark, "
                   "and you measure where the tool stood. lengths: the tool is brought to each "
                   "mark, and you read both chains. Where unsaid, places if the machine names its "
                   "controller, else lengths")
-      ->check(CLI::IsMember({"places", "lengths"}));
+      .one_of({"places", "lengths"});
 }
 
 std::string sheet_csv(const Sheet& sheet) {
@@ -66,7 +65,7 @@ std::string sheet_json(const Sheet& sheet,
   return grid::files::write_grid_sheet(grid);
 }
 
-void add_drill_options(CLI::App& verb, std::string& gcode, DrillOptions& options) {
+void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options) {
   add_output(verb,
              "--gcode",
              gcode,

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "grid/measured_grid.hpp"
-#include "tools/cli/cli_fwd.hpp"
+#include "tools/cli/arguments.hpp"
 
 namespace chaintrue::cli {
 
@@ -28,7 +28,7 @@ inline constexpr double kReachableMm = 100.0;
 /// The words of --measure, and what a machine's owner can do: a controller that knows only settings
 /// tells no lengths.
 [[nodiscard]] SheetOf sheet_of(const std::string& word, const model::Machine* machine);
-void add_measure_option(CLI::App& verb, std::string& word);
+void add_measure_option(Verb verb, std::string& word);
 
 struct Sheet {
   std::vector<model::BedPoint> marks;  ///< in driving order
@@ -46,7 +46,7 @@ struct DrillOptions {
   double depth_mm = 3.0;
   double clearance_mm = 5.0;
 };
-void add_drill_options(CLI::App& verb, std::string& gcode, DrillOptions& options);
+void add_drill_options(Verb verb, std::string& gcode, DrillOptions& options);
 
 /// A place of a program, and what it is called in its comments: "hole A".
 struct DrillPlace {

@@ -3,7 +3,6 @@
 /// chaintrue simulate: a grid as a person would measure it on a machine with hidden effects, or the
 /// bare readings at given places.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <memory>
@@ -115,23 +114,22 @@ int run_simulate(const SimulateOptions& options) {
                                 : simulate_places(options, machine);
 }
 
-void add_design_options(CLI::App& verb, SimulateOptions& o) {
-  auto* where = verb.add_option_group("where");
-  where->add_option("--grid", o.grid, "Columns x rows of marks, as in 7x4");
-  add_number(*where, "--random", o.random_points, {"", 1.0, 1e6}, "So many marks anywhere")
-      ->default_str("");
-  add_input(*where, "--marks", o.marks, "CSV of marks (x_mm, y_mm), such as a plan's");
+void add_design_options(Verb verb, SimulateOptions& o) {
+  auto where = verb.add_choice("where");
+  where.add_option("--grid", o.grid, "Columns x rows of marks, as in 7x4");
+  add_number(where, "--random", o.random_points, {"", 1.0, 1e6}, "So many marks anywhere")
+      .shows_default("");
+  add_input(where, "--marks", o.marks, "CSV of marks (x_mm, y_mm), such as a plan's");
   add_input(
-      *where, "--points", o.points, "CSV of true places: readings there without noise, all digits");
-  add_number(*where,
+      where, "--points", o.points, "CSV of true places: readings there without noise, all digits");
+  add_number(where,
              "--holes",
              o.holes.plan.holes,
              {"", grid::kFewestPlannedHoles, grid::kMostPlannedHoles},
              "So many holes, as chaintrue plan --holes sets them, and a tape")
-      ->default_str("");
-  where->require_option(1);
+      .shows_default("");
   verb.add_option("--spacing", o.spacing, "Of --grid: regular or chebyshev (denser at the edges)")
-      ->capture_default_str();
+      .shows_default();
   add_number(verb,
              "--margin-mm",
              o.margin_mm,
@@ -139,11 +137,11 @@ void add_design_options(CLI::App& verb, SimulateOptions& o) {
              "From the bed's edge to the outermost marks; default: bed rounded down to 100 mm");
   verb.add_flag("--without-corners", o.without_corners, "Leave the four corners out");
   verb.add_option("--region", o.region, "Marks on this part only: whole, left, right, top, bottom")
-      ->capture_default_str();
+      .shows_default();
   verb.add_option("--order",
                   o.order,
                   "Of visits: rows, columns, serpentine_rows, serpentine_columns, random")
-      ->capture_default_str();
+      .shows_default();
   add_number(verb,
              "--repeats",
              o.repeats,
@@ -156,7 +154,7 @@ void add_design_options(CLI::App& verb, SimulateOptions& o) {
              "The sled is put down up to this far beside a mark");
 }
 
-void add_noise_options(CLI::App& verb, SimulateOptions& o) {
+void add_noise_options(Verb verb, SimulateOptions& o) {
   add_number(verb,
              "--length-noise-mm",
              o.noise.length_mm,
@@ -198,13 +196,13 @@ void add_noise_options(CLI::App& verb, SimulateOptions& o) {
   add_number(verb, "--bad-size-mm", o.bad.size_mm, {"mm", 0.0, 10000.0}, "How far off those are");
 }
 
-void add_holes_options(CLI::App& verb, HolesOptions& o) {
+void add_holes_options(Verb verb, HolesOptions& o) {
   add_number(verb,
              "--distances",
              o.plan.distances,
              {"", 1.0, 10000.0},
              "Of --holes: how many are measured")
-      ->default_str("");
+      .shows_default("");
   verb.add_flag("--edges", o.plan.edges, "Of --holes: some of them to the sheet's edges");
   add_number(verb,
              "--tape-sigma-mm",
@@ -228,7 +226,7 @@ void add_holes_options(CLI::App& verb, HolesOptions& o) {
              "Of --holes: read to whole multiples");
 }
 
-void add_truth_options(CLI::App& verb, SimulateOptions& o) {
+void add_truth_options(Verb verb, SimulateOptions& o) {
   verb.add_option(
       "--effect",
       o.effects,
@@ -251,40 +249,39 @@ void add_truth_options(CLI::App& verb, SimulateOptions& o) {
   verb.add_option("--model",
                   o.model,
                   "straight, wrap, firmware, one_shot, inextensible, elastic, elastic_3d")
-      ->capture_default_str();
+      .shows_default();
   add_number(verb, "--seed", o.seed, {"", 0.0, 9e15}, "Same seed, same bytes");
 }
 
 }  // namespace
 
-void add_simulate(CLI::App& app, Run& run) {
+void add_simulate(Verb app, Run& run) {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App* verb = app.add_subcommand(
+  Verb verb = app.add_verb(
       "simulate", "Make a grid as a person would measure it on a machine with hidden effects");
-  auto* machine = verb->add_option_group("machine");
+  auto machine = verb.add_choice("machine");
   add_input(
-      *machine, "--machine", options->machine, "chaintrue_machine file, as its owner states it");
-  add_input(*machine,
+      machine, "--machine", options->machine, "chaintrue_machine file, as its owner states it");
+  add_input(machine,
             "--belts",
             options->belts,
             "A router on four belts instead, which finds its anchors: a "
             "chaintrue_belts or chaintrue_anchors file with its settings");
-  machine->require_option(1);
-  add_design_options(*verb, *options);
-  add_noise_options(*verb, *options);
-  add_holes_options(*verb, options->holes);
-  add_truth_options(*verb, *options);
-  verb->add_option("--name", options->name, "Name of the grid");
-  add_output(*verb,
+  add_design_options(verb, *options);
+  add_noise_options(verb, *options);
+  add_holes_options(verb, options->holes);
+  add_truth_options(verb, *options);
+  verb.add_option("--name", options->name, "Name of the grid");
+  add_output(verb,
              "-o,--output",
              options->output,
              {Origin::measured},
              "chaintrue_grid (of --holes: chaintrue_holes, of --belts: chaintrue_belts) file; - is "
              "standard output")
-      ->capture_default_str();
+      .shows_default();
   add_output(
-      *verb, "--answer", options->answer, {Origin::answer}, "Write what was hidden to this file");
-  verb->footer(
+      verb, "--answer", options->answer, {Origin::answer}, "Write what was hidden to this file");
+  verb.footer(
       "Examples:\n"
       "  build/chaintrue simulate --machine fixtures/machines/classic.json --grid 7x4 --jitter-mm "
       "8 "
@@ -299,10 +296,10 @@ void add_simulate(CLI::App& app, Run& run) {
       "--tape-sigma-mm 0.5 --draw-settings --seed 1 -o holes.json\n"
       "  build/chaintrue simulate --belts fixtures/belts/thirty_one_places.json --grid 9x9 "
       "--effect belt_stretch:-:elongation=0.004 --offset tl_x_mm=12 --seed 1 -o belts.json");
-  add_option_check(*verb, [options](OptionProblems& problems) { check_words(*options, problems); });
-  verb->callback([options, &run] {
+  add_option_check(verb, [options](OptionProblems& problems) { check_words(*options, problems); });
+  verb.when_chosen([options, &run] {
     if (!options->belts.empty() && options->grid.empty()) {
-      throw CLI::ValidationError("simulate", "--belts goes with --grid, columns x rows of places");
+      usage_error("simulate", "--belts goes with --grid, columns x rows of places");
     }
     run = [options] { return run_simulate(*options); };
   });

@@ -4,7 +4,6 @@
 /// when the controller believes one machine and the machine is another; and the program that cuts
 /// it.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <array>
 #include <cmath>
@@ -213,47 +212,47 @@ int run_square(const SquareOptions& options) {
 
 }  // namespace
 
-void add_square(CLI::App& app, Run& run) {
+void add_square(Verb app, Run& run) {
   auto options = std::make_shared<SquareOptions>();
-  CLI::App* verb = app.add_subcommand(
+  Verb verb = app.add_verb(
       "square",
       "A test square: sides, diagonals and bows as a ruler will show them, and its program");
-  auto* map = add_input(
-      *verb, "--map", options->map, "The compensation map of the machine that will cut it");
-  auto* machine =
-      add_input(*verb,
+  const Option map = add_input(
+      verb, "--map", options->map, "The compensation map of the machine that will cut it");
+  const Option machine =
+      add_input(verb,
                 "--machine",
                 options->machine,
                 "Without a map, a chaintrue_machine file: what the machine is, with its "
                 "effects");
-  machine->excludes(map);
-  add_input(*verb,
+  machine.excludes(map);
+  add_input(verb,
             "--controller-machine",
             options->controller_machine,
             "chaintrue_machine file: what the controller believes; of a map its own machine as it "
             "was stated");
-  add_number(*verb, "--size-mm", options->size_mm, {"mm", 1.0, 5000.0}, "Length of a side");
-  verb->add_option(
+  add_number(verb, "--size-mm", options->size_mm, {"mm", 1.0, 5000.0}, "Length of a side");
+  verb.add_option(
           "--at", options->at, "X Y of the lower left corner, mm; default: around the bed's middle")
-      ->expected(2);
-  verb->add_flag(
+      .takes(2);
+  verb.add_flag(
       "--below", options->below, "The square hangs below --at, which is its upper left corner");
-  verb->add_flag("--json", options->json, "JSON, all digits, instead of a table");
+  verb.add_flag("--json", options->json, "JSON, all digits, instead of a table");
   add_output(
-      *verb, "-o,--output", options->drawing, {Origin::drawing}, "Draw it into this SVG file");
-  add_output(*verb, "--gcode", options->program, {Origin::program}, "The program that cuts it");
-  add_number(*verb, "--depth-mm", options->depth_mm, {"mm", 0.1, 100.0}, "Of --gcode: how deep");
-  verb->footer(
+      verb, "-o,--output", options->drawing, {Origin::drawing}, "Draw it into this SVG file");
+  add_output(verb, "--gcode", options->program, {Origin::program}, "The program that cuts it");
+  add_number(verb, "--depth-mm", options->depth_mm, {"mm", 0.1, 100.0}, "Of --gcode: how deep");
+  verb.footer(
       "Examples:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue square --map map.json --size-mm 500 --gcode square.nc\n"
       "  build/chaintrue square --machine fixtures/machines/classic.json --controller-machine "
       "fixtures/machines/believed_straight.json --size-mm 100 --at -1040 535 --below -o "
       "square.svg");
-  verb->callback([options, &run] {
+  verb.when_chosen([options, &run] {
     if (options->map.empty()) {
-      if (options->machine.empty()) throw CLI::RequiredError("--map, or --machine,");
-      if (options->controller_machine.empty()) throw CLI::RequiredError("--controller-machine");
+      if (options->machine.empty()) missing_option("--map, or --machine,");
+      if (options->controller_machine.empty()) missing_option("--controller-machine");
     }
     run = [options] { return run_square(*options); };
   });

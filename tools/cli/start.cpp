@@ -2,7 +2,6 @@
 /// \file
 /// chaintrue start: a folder with the machine, what to do next, and the sheets to print.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -98,7 +97,7 @@ std::vector<FolderFile> sheets_of(const model::Machine& machine, const Plans& pl
   };
 }
 
-int start_template(const CLI::App& verb, const std::string& folder) {
+int start_template(Verb verb, const std::string& folder) {
   const std::string path = (fs::path(folder) / "machine.json").string();
   write_folder(verb,
                folder,
@@ -117,7 +116,7 @@ bool names_a_folder(const std::string& word) {
   return fs::is_directory(word) || (!fs::exists(word) && fs::path(word).extension().empty());
 }
 
-int run_start(const CLI::App& verb, const StartCommand& command) {
+int run_start(Verb verb, const StartCommand& command) {
   if (command.file.empty()) return start_template(verb, command.folder);
   if (command.file != "-" && names_a_folder(command.file))
     return start_template(verb, command.file);
@@ -131,7 +130,7 @@ int run_start(const CLI::App& verb, const StartCommand& command) {
   }
   // Sheets of a machine file of ours go beside it.
   std::string folder = command.folder;
-  if (started.is_ours && verb.get_option("folder")->count() == 0)
+  if (started.is_ours && !verb.is_given("folder"))
     folder = fs::path(command.file).parent_path().string();
   if (folder.empty()) folder = ".";
   std::vector<FolderFile> contents = sheets_of(machine, *plans);
@@ -158,22 +157,22 @@ int run_start(const CLI::App& verb, const StartCommand& command) {
 
 }  // namespace
 
-void add_start(CLI::App& app, Run& run) {
+void add_start(Verb app, Run& run) {
   auto command = std::make_shared<StartCommand>();
-  CLI::App* verb = app.add_subcommand(
+  Verb verb = app.add_verb(
       "start", "A folder for your machine: its file, what to do next, and the sheets to print");
-  add_input(*verb,
+  add_input(verb,
             "file",
             command->file,
             "groundcontrol.ini, webcontrol.json, FluidNC's yaml, or a chaintrue_machine; without "
             "one a machine file to fill in is written");
-  add_output_folder(*verb, "folder", command->folder, "Where it all goes")->capture_default_str();
-  verb->footer(
+  add_output_folder(verb, "folder", command->folder, "Where it all goes").shows_default();
+  verb.footer(
       "Example:\n"
       "  build/chaintrue start fixtures/good/groundcontrol_ring.ini my-machine\n"
       "  build/chaintrue start");
-  verb->callback(
-      [command, verb, &run] { run = [command, verb] { return run_start(*verb, *command); }; });
+  verb.when_chosen(
+      [command, verb, &run] { run = [command, verb] { return run_start(verb, *command); }; });
 }
 
 }  // namespace chaintrue::cli

@@ -3,7 +3,6 @@
 /// chaintrue sweep: accuracy against the simulator over any product of factors; stopped, resumed,
 /// split and merged at will.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <exception>
@@ -149,25 +148,24 @@ int run_sweep_verb(const SweepOptions& options) {
 
 }  // namespace
 
-void add_sweep(CLI::App& app, Run& run) {
+void add_sweep(Verb app, Run& run) {
   auto options = std::make_shared<SweepOptions>();
-  CLI::App* verb =
-      app.add_subcommand("sweep", "Accuracy against the simulator over any product of factors");
-  add_input(*verb, "specification", options->specification, "chaintrue_sweep file")->required();
-  verb->add_option("-o,--output", options->directory, "Folder for the parts and the results")
-      ->required();
-  verb->add_option("--shard", options->shard, "Only this share of the cells, as in 3/16");
-  verb->add_flag("--resume",
-                 options->resume,
-                 "Go on with the finished cells that the folder holds; merges shards too");
-  add_number(*verb, "--threads", options->threads, {"", 0.0, 4096.0}, "0: all cores");
-  verb->footer(
+  Verb verb = app.add_verb("sweep", "Accuracy against the simulator over any product of factors");
+  add_input(verb, "specification", options->specification, "chaintrue_sweep file").required();
+  verb.add_option("-o,--output", options->directory, "Folder for the parts and the results")
+      .required();
+  verb.add_option("--shard", options->shard, "Only this share of the cells, as in 3/16");
+  verb.add_flag("--resume",
+                options->resume,
+                "Go on with the finished cells that the folder holds; merges shards too");
+  add_number(verb, "--threads", options->threads, {"", 0.0, 4096.0}, "0: all cores");
+  verb.footer(
       "Over several machines: mpirun -n 4 build/chaintrue sweep SPEC.json -o DIR\n\n"
       "Example:\n"
       "  build/chaintrue sweep fixtures/sweeps/quick.json -o sweep");
-  add_option_check(*verb,
+  add_option_check(verb,
                    [options](OptionProblems& problems) { check_options(*options, problems); });
-  verb->callback([options, &run] { run = [options] { return run_sweep_verb(*options); }; });
+  verb.when_chosen([options, &run] { run = [options] { return run_sweep_verb(*options); }; });
 }
 
 }  // namespace chaintrue::cli

@@ -4,18 +4,18 @@
 /// one line in verbs.def.
 ///
 /// \code
-///   void add_fit(CLI::App& app, Run& run) {
+///   void add_fit(Verb app, Run& run) {
 ///     auto options = std::make_shared<FitOptions>();
-///     CLI::App* verb = app.add_subcommand("fit", "...");
-///     verb->footer("Example:\n  chaintrue fit grid.json -o map.json");
-///     verb->callback([options, &run] { run = [options] { return run_fit(*options); }; });
+///     Verb verb = app.add_verb("fit", "...");
+///     verb.footer("Example:\n  chaintrue fit grid.json -o map.json");
+///     verb.when_chosen([options, &run] { run = [options] { return run_fit(*options); }; });
 ///   }
 /// \endcode
 #pragma once
 
 #include <functional>
 
-#include "tools/cli/cli_fwd.hpp"
+#include "tools/cli/arguments.hpp"
 
 namespace chaintrue::cli {
 
@@ -32,7 +32,7 @@ enum ExitCode {
 /// What the chosen verb will do; throws files::InputError for bad input.
 using Run = std::function<int()>;
 
-#define CHAINTRUE_VERB(id) void add_##id(CLI::App& app, Run& run);
+#define CHAINTRUE_VERB(id) void add_##id(Verb app, Run& run);
 #include "tools/cli/verbs.def"
 #undef CHAINTRUE_VERB
 

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/arguments.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <utility>
+
+namespace chaintrue::cli {
+
+Option Option::required() const {
+  option_->required();
+  return *this;
+}
+
+Option Option::one_of(const std::vector<std::string>& words) const {
+  option_->check(CLI::IsMember(words));
+  return *this;
+}
+
+Option Option::needs(Option other) const {
+  option_->needs(other.option_);
+  return *this;
+}
+
+Option Option::excludes(Option other) const {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Option Option::takes(int values) const {
+  option_->expected(values);
+  return *this;
+}
+
+Option Option::shows_default() const {
+  option_->capture_default_str();
+  return *this;
+}
+
+Option Option::shows_default(const std::string& text) const {
+  option_->default_str(text);
+  return *this;
+}
+
+Option Option::value_word(const std::string& word) const {
+  option_->type_name(word);
+  return *this;
+}
+
+Option Option::refuses(std::function<std::string(const std::string&)> fault) const {
+  option_->check(
+      CLI::Validator([fault = std::move(fault)](std::string& text) { return fault(text); }, ""));
+  return *this;
+}
+
+Verb Verb::add_verb(const std::string& name, const std::string& help) const {
+  return Verb(*app_->add_subcommand(name, help));
+}
+
+Verb Verb::add_choice(const std::string& name) const {
+  CLI::App* group = app_->add_option_group(name);
+  group->require_option(1);
+  return Verb(*group);
+}
+
+void Verb::require_verb() const { app_->require_subcommand(1); }
+
+Option Verb::add_option(const std::string& names,
+                        std::string& value,
+                        const std::string& help) const {
+  return Option(*app_->add_option(names, value, help));
+}
+
+Option Verb::add_option(const std::string& names,
+                        std::vector<std::string>& values,
+                        const std::string& help) const {
+  return Option(*app_->add_option(names, values, help));
+}
+
+Option Verb::add_option(const std::string& names,
+                        std::vector<double>& values,
+                        const std::string& help) const {
+  return Option(*app_->add_option(names, values, help));
+}
+
+Option Verb::add_option(const std::string& names,
+                        std::function<void(const std::string&)> take,
+                        const std::string& help) const {
+  return Option(*app_->add_option_function<std::string>(names, std::move(take), help));
+}
+
+Option Verb::add_flag(const std::string& names, bool& value, const std::string& help) const {
+  return Option(*app_->add_flag(names, value, help));
+}
+
+void Verb::add_flag(const std::string& name, const std::string& help) const {
+  app_->add_flag(name)->description(help);
+}
+
+void Verb::footer(const std::string& text) const { app_->footer(text); }
+
+void Verb::when_chosen(std::function<void()> act) const { app_->callback(std::move(act)); }
+
+Option Verb::option(const std::string& name) const { return Option(*app_->get_option(name)); }
+
+bool Verb::has_option(const std::string& name) const {
+  return app_->get_option_no_throw(name) != nullptr;
+}
+
+bool Verb::is_given(const std::string& name) const {
+  const CLI::Option* option = app_->get_option_no_throw(name);
+  return option != nullptr && option->count() > 0;
+}
+
+bool Verb::is_chosen() const { return app_->parsed(); }
+
+Verb Verb::with_name() const {
+  CLI::App* verb = app_;
+  while (verb->get_name().empty() && verb->get_parent() != nullptr) verb = verb->get_parent();
+  return Verb(*verb);
+}
+
+void usage_error(const std::string& verb, const std::string& sentence) {
+  throw CLI::ValidationError(verb, sentence);
+}
+
+void missing_option(const std::string& names) { throw CLI::RequiredError(names); }
+
+}  // namespace chaintrue::cli

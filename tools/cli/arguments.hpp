@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a command line may hold: verbs, and their options, each bound to the variable that takes
+/// it. Handles, copied as pointers are; what they stand for lives as long as the command line's
+/// parser. CLI11 is behind them and not in this header, since it costs each file that includes it
+/// eight seconds of compiling.
+///
+/// \code
+///   Verb verb = app.add_verb("square", "Predict a test square");
+///   verb.add_option("--at", options->at, "X Y of the lower left corner, mm").takes(2);
+///   verb.add_flag("--json", options->json, "JSON, all digits");
+///   verb.footer("Example:\n  chaintrue square --map map.json");
+///   verb.when_chosen([options, &run] { run = [options] { return run_square(*options); }; });
+/// \endcode
+///
+/// A name or a set of names that CLI11 does not take throws its exception when the verb is added.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace chaintrue::cli {
+
+class Option {
+ public:
+  Option() = default;
+  explicit Option(CLI::Option& option) : option_(&option) {}
+
+  Option required() const;
+  Option one_of(const std::vector<std::string>& words) const;
+  /// Usage of this without `other` is an error; `excludes`: with it.
+  Option needs(Option other) const;
+  Option excludes(Option other) const;
+  Option takes(int values) const;
+  /// The variable's value as it is now stands in the help, or `text` in its place.
+  Option shows_default() const;
+  Option shows_default(const std::string& text) const;
+  /// The word for a value in the help.
+  Option value_word(const std::string& word) const;
+  /// `fault` says what is wrong with a value; nothing where it is right.
+  Option refuses(std::function<std::string(const std::string&)> fault) const;
+
+ private:
+  CLI::Option* option_ = nullptr;
+};
+
+class Verb {
+ public:
+  Verb() = default;
+  explicit Verb(CLI::App& app) : app_(&app) {}
+
+  Verb add_verb(const std::string& name, const std::string& help) const;
+  /// Options of which exactly one is to be given.
+  Verb add_choice(const std::string& name) const;
+  /// One of the verbs below is to be given.
+  void require_verb() const;
+  Option add_option(const std::string& names, std::string& value, const std::string& help) const;
+  Option add_option(const std::string& names,
+                    std::vector<std::string>& values,
+                    const std::string& help) const;
+  Option add_option(const std::string& names,
+                    std::vector<double>& values,
+                    const std::string& help) const;
+  /// `take` gets the text of each occurrence.
+  Option add_option(const std::string& names,
+                    std::function<void(const std::string&)> take,
+                    const std::string& help) const;
+  Option add_flag(const std::string& names, bool& value, const std::string& help) const;
+  /// A flag that is_given() tells.
+  void add_flag(const std::string& name, const std::string& help) const;
+  void footer(const std::string& text) const;
+  void when_chosen(std::function<void()> act) const;
+
+  [[nodiscard]] Option option(const std::string& name) const;
+  [[nodiscard]] bool has_option(const std::string& name) const;
+  [[nodiscard]] bool is_given(const std::string& name) const;
+  /// On the command line that was parsed.
+  [[nodiscard]] bool is_chosen() const;
+  /// The verb that a choice of options stands under; of a verb, itself.
+  [[nodiscard]] Verb with_name() const;
+  /// For those that list what the command has.
+  [[nodiscard]] CLI::App& app() const { return *app_; }
+
+ private:
+  CLI::App* app_ = nullptr;
+};
+
+/// For when_chosen(): ends the command with what is wrong with its usage, exit code 2.
+[[noreturn]] void usage_error(const std::string& verb, const std::string& sentence);
+[[noreturn]] void missing_option(const std::string& names);
+
+}  // namespace chaintrue::cli
