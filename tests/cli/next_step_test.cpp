@@ -35,6 +35,11 @@ class NextStep : public testing_support::CommandFixture {
                  "/grids/five_new_points.json five.json && cp " + fixtures +
                  "/holes/nine_holes.json holes.json");
     ASSERT_EQ(copied.code, 0) << copied.err;
+    write("few.csv", "x_mm,y_mm\n0,0\n");
+    std::string many = "x_mm,y_mm\n";
+    for (const char* x : {"-900", "-300", "300", "900"})
+      for (const char* y : {"-400", "0", "400"}) many += std::string(x) + "," + y + "\n";
+    write("many.csv", many);
   }
 };
 
@@ -45,6 +50,9 @@ TEST_F(NextStep, OfEveryVerbWorks) {
       "simulate --machine machine.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
       "--effect ring_radius:-:offset_mm=2 --seed 1 -o simulated.json",
       "simulate --machine machine.json --holes 9 --seed 1 -o simulated.holes.json",
+      "simulate --machine machine.json --points few.csv -o few.json",
+      "simulate --machine machine.json --points many.csv -o many.json",
+      "sweep " CHAINTRUE_FIXTURES "/sweeps/quick.json -o sweep",
       "query map.json 100 200",
       "check map.json five.json",
       "passes holes.json",

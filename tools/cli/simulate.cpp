@@ -14,6 +14,7 @@
 #include "grid/files/points_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
+#include "grid/map/measurement_plan.hpp"
 #include "model/calibration/setting.hpp"
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"
@@ -81,7 +82,14 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
         model::explain(reason));
   }
   write_output(options.output, files::write_grid(read.grid));
-  return read.unreachable.empty() ? kDone : kNotSupportedOrOutside;
+  if (!read.unreachable.empty()) return kNotSupportedOrOutside;
+  // Few readings are for looking at; a map wants as many as a plan has at least.
+  if (static_cast<int>(read.grid.points.size()) >= grid::kFewestPlanned) {
+    say_next_of(options);
+  } else {
+    say_next({"simulate", "--machine", options.machine, "--grid", "7x4", "-o", "grid.json"});
+  }
+  return kDone;
 }
 
 int run_simulate(const SimulateOptions& options) {

@@ -101,6 +101,7 @@ int assemble(const sweep::SweepSpec& spec,
              "{} cells: {}/results.csv, summary.json, report.html (open it in any browser)\n",
              store.cells(),
              options.directory);
+  say_next({"start"});
   return kDone;
 }
 
