@@ -29,6 +29,8 @@ class RegressorColumns {
   /// factor times what was added last.
   void add_multiple(double factor);
 
+  /// Column k is factor(k) times column index(k) of these.
+  [[nodiscard]] auto distinct() const { return distinct_.leftCols(count_); }
   [[nodiscard]] Eigen::Index rows() const { return distinct_.rows(); }
   [[nodiscard]] Eigen::Index cols() const { return static_cast<Eigen::Index>(of_.size()); }
   [[nodiscard]] auto col(Eigen::Index k) const { return distinct_.col(index(k)) * factor(k); }
@@ -57,8 +59,6 @@ class RegressorColumns {
   /// cols()
   [[nodiscard]] Eigen::VectorXd squared_norms() const;
 
-  /// Column k is factor(k) times column index(k) of these.
-  [[nodiscard]] auto distinct() const { return distinct_.leftCols(count_); }
   [[nodiscard]] Eigen::Index index(Eigen::Index k) const {
     return of_[static_cast<std::size_t>(k)].index;
   }

@@ -86,6 +86,67 @@ TEST_F(ReportCommand, ACertificateBearsTheDateThatItIsGiven) {
   EXPECT_THAT(text_of("page.html"), HasSubstr("<h2>The machine's settings</h2>"));
 }
 
+struct Paper {
+  const char* name;
+  double width_mm, height_mm;  ///< ISO 216; ANSI Y14.1 size A
+};
+constexpr Paper kPapers[] = {{"A4", 210.0, 297.0}, {"Letter", 215.9, 279.4}};
+constexpr double kMarginMm = 14.0;  // @page of page.css
+constexpr double kPxPerMm = 96.0 / 25.4;
+
+/// What @media print lays down, for a window as wide as the paper between its margins.
+std::string as_printed(std::string html) {
+  constexpr std::string_view kPrint = "@media print";
+  std::size_t rules = 0;
+  for (std::size_t at = html.find(kPrint); at != std::string::npos; at = html.find(kPrint, at)) {
+    html.replace(at, kPrint.size(), "@media all");
+    ++rules;
+  }
+  EXPECT_GT(rules, 0U) << "the page has no rules for print";
+  return html;
+}
+
+TEST_F(ReportCommand, OnPaperNoChartIsSplitAndNothingIsCutAtTheSide) {
+  if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
+  fit_demo_grid();
+  ASSERT_EQ(run(fmt::format("diagnose '{}/grids/seven_by_four.json' -o '{}'",
+                            CHAINTRUE_FIXTURES,
+                            path("diagnosis.json"))),
+            0)
+      << text_of("log");
+  ASSERT_EQ(run(fmt::format("report '{}' -o '{}'", path("map.json"), path("map.html"))), 0);
+  ASSERT_EQ(run(fmt::format("report '{}' -o '{}'", path("diagnosis.json"), path("diagnosis.html"))),
+            0);
+  ASSERT_EQ(run(fmt::format(
+                "report '{}' --certificate -o '{}'", path("map.json"), path("certificate.html"))),
+            0);
+  for (const Paper& paper : kPapers) {
+    const Window window{static_cast<int>((paper.width_mm - 2.0 * kMarginMm) * kPxPerMm),
+                        static_cast<int>((paper.height_mm - 2.0 * kMarginMm) * kPxPerMm)};
+    // What must not be split fits a page; the certificate is one page as a whole.
+    const std::string probe = fmt::format(
+        R"(
+        for (const folded of document.querySelectorAll("details")) folded.open = true;
+        await new Promise((done) => setTimeout(done, 300));
+        const page = document.documentElement;
+        const tall = [...document.querySelectorAll("figure, tr, .figures > div, .one-sheet")].filter(
+            (part) => part.getBoundingClientRect().height > {});
+        page.dataset.tall = tall.length + ": " + tall.map((part) => part.tagName + " " +
+            Math.round(part.getBoundingClientRect().height)).join("; ");
+        page.dataset.cut = page.scrollWidth - page.clientWidth;
+        )",
+        window.height_px);
+    for (const char* name : {"map.html", "diagnosis.html", "certificate.html"}) {
+      SCOPED_TRACE(::testing::Message() << name << " on " << paper.name);
+      const Visit visited = visit(as_printed(text_of(name)), probe, window);
+      EXPECT_THAT(problems_of(visited), IsEmpty());
+      EXPECT_THAT(visited.dom, HasSubstr("data-tall=\"0: \""))
+          << visited.dom.substr(0, visited.dom.find('>', visited.dom.find("<html")));
+      EXPECT_THAT(visited.dom, HasSubstr("data-cut=\"0\""));
+    }
+  }
+}
+
 TEST_F(ReportCommand, OfAFileThatIsNoMapWritesNothing) {
   EXPECT_EQ(
       run(fmt::format(
