@@ -15,8 +15,8 @@ export const fixtures = filesBelow(join(root, "fixtures")).sort();
 const of = (folder, pattern) => fixtures.filter((path) => path.startsWith(folder) && pattern.test(path)).map((path) => `fixtures/${path}`);
 
 const CLASSIC = ["--machine", "fixtures/machines/classic.json"];
-/** Command lines one after the other; a later one may read what an earlier one has written. */
-export const jobs = [
+/** Every verb, one after the other; a later one may read what an earlier one has written. */
+const verbs = [
   ["--help-all"],
   ["--version"],
   ["formats", "--all", "formats"],
@@ -48,6 +48,13 @@ export const jobs = [
   ["import", "optical", "fixtures/good/optical_scan.csv", ...CLASSIC, "-o", "optical.json"],
   ["plan", ...CLASSIC, "--points", "28", "-o", "plan.csv", "--page", "plan.html", "--gcode", "plan.nc"],
   ["plan", ...CLASSIC, "--holes", "9", "-o", "holes.csv"],
+  ["gcode", "compensate", "fixtures/gcode/bracket.nc", "--map", "map.json", "-o", "bracket.true.nc", "--report", "bracket.html"],
+  ["gcode", "verify", "fixtures/gcode/bracket.nc", "bracket.true.nc", "--map", "map.json"],
+  ["gcode", "explain", "fixtures/gcode/bracket.nc:14", "--map", "map.json"],
+];
+
+/** On each file of a kind; none writes what another reads. */
+const onFiles = [
   ...of("machines/", /\.json$/).flatMap((path) => [["effects", "chain_sag", "--machine", path],
     ["simulate", "--machine", path, "--grid", "3x3", "-o", "-"]]),
   ...of("good/", /groundcontrol_.*\.ini$/).map((path) => ["import", "groundcontrol", path, "-o", "-"]),
@@ -63,7 +70,32 @@ export const jobs = [
   ...of("bad/", /(anchors|diagnosis|points)_/).map((path) => ["report", path, "-o", "-"]),
   ...of("gcode/corpus/", /\.(nc|ngc|gcode|tap)$/).flatMap((path) => [["gcode", "check", path, "--map", "map.json"],
     ["gcode", "lengths", path, "--map", "map.json"], ["gcode", "compensate", path, "--map", "map.json", "-o", "-"]]),
-  ["gcode", "compensate", "fixtures/gcode/bracket.nc", "--map", "map.json", "-o", "bracket.true.nc", "--report", "bracket.html"],
-  ["gcode", "verify", "fixtures/gcode/bracket.nc", "bracket.true.nc", "--map", "map.json"],
-  ["gcode", "explain", "fixtures/gcode/bracket.nc:14", "--map", "map.json"],
 ];
+
+export const jobs = [...verbs, ...onFiles];
+
+/** What a command line is about: its words with the kinds of files in place of their names. */
+function kindOf(words) {
+  return words.map((word) => {
+    const file = /^fixtures\/(gcode\/corpus\/\w+|.*\/[a-z0-9]+)(?:[_/].*)?\.(\w+)$/.exec(word);
+    return file ? `${file[1]}.${file[2]}` : word;
+  }).join(" ");
+}
+
+/** One file in so many of a kind. */
+const EVERY = 12;
+
+/** "all" of them; "few": every verb, and one file in twelve of each kind; "FROM-TO": those of these numbers, and every verb. */
+export function chosenJobs(which) {
+  if (which === "all") return jobs;
+  const range = /^(\d+)-(\d+)$/.exec(which);
+  if (range) return jobs.filter((_, number) => number < verbs.length || (number >= Number(range[1]) && number < Number(range[2])));
+  if (which !== "few") throw new Error(`ANSWERS: found ${which}, expected all, few, or two numbers as in 200-400`);
+  const seen = new Map();
+  return jobs.filter((words, number) => {
+    if (number < verbs.length) return true;
+    const kind = kindOf(words);
+    seen.set(kind, (seen.get(kind) ?? 0) + 1);
+    return seen.get(kind) % EVERY === 1;
+  });
+}
