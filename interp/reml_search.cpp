@@ -137,15 +137,17 @@ double largest_free_gradient(const Eigen::VectorXd& gradient, const std::vector<
 // gradient falls, where a minimum is near.
 void polish(const Marginal& marginal, const Limits& limits, Eigen::VectorXd& theta, State& state) {
   constexpr int kMostSteps = 4;
-  constexpr double kNear = 1e-2;  // longer steps creep along a V that is flat, or leave another one's minimum
+  constexpr double kNear =
+      1e-2;  // longer steps creep along a V that is flat, or leave another one's minimum
   for (int i = 0; i < kMostSteps; ++i) {
     const std::vector<bool> held = held_at_limit(theta, state.gradient, limits);
     const Eigen::VectorXd step = newton_step(state, held);
     if (step.cwiseAbs().maxCoeff() > kNear) return;
     const Eigen::VectorXd next = (theta + step).cwiseMax(limits.low).cwiseMin(limits.high);
     auto there = marginal.evaluate(next, Order::hessian);
-    if (!there || largest_free_gradient(there->gradient, held_at_limit(next, there->gradient, limits)) >=
-                      largest_free_gradient(state.gradient, held)) {
+    if (!there ||
+        largest_free_gradient(there->gradient, held_at_limit(next, there->gradient, limits)) >=
+            largest_free_gradient(state.gradient, held)) {
       return;
     }
     theta = next;

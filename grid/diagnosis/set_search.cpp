@@ -48,7 +48,8 @@ class SetSearch::Search {
     std::array<double, kMostCauses + 1> last{};
     for (const WeighedSet& s : scored_) {
       const std::size_t size = s.set.size();
-      if (size < 2 || (taken[size] >= kSetsBesideDiscrepancy && !tied(s.weight, last[size]))) continue;
+      if (size < 2 || (taken[size] >= kSetsBesideDiscrepancy && !tied(s.weight, last[size])))
+        continue;
       if (taken[size] < kSetsBesideDiscrepancy) last[size] = s.weight;
       ++taken[size];
       std::vector<int> regressors;

@@ -50,7 +50,8 @@ HeldOutError summarise(const std::vector<HeldOutResidual>& residuals) {
 void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy) {
   constexpr int kColumns = 25;
   constexpr int kRows = 13;
-  constexpr double kWorse = 1.0 + 1e-6;  // by less than that a place's mirror image differs in rounding: the first stays
+  constexpr double kWorse =
+      1.0 + 1e-6;  // by less than that a place's mirror image differs in rounding: the first stays
   const interp::Rectangle& domain = map.contents().domain;
   Tally tool;
   double worst = -1.0;

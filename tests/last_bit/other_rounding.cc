@@ -32,23 +32,27 @@ std::uint64_t seed() {
 
 double rounded(long double exact, double a, double b, std::uint64_t function) {
   const auto nearest = static_cast<double>(exact);
-  if (!std::isfinite(nearest) || nearest == 0.0 || static_cast<long double>(nearest) == exact) return nearest;
+  if (!std::isfinite(nearest) || nearest == 0.0 || static_cast<long double>(nearest) == exact)
+    return nearest;
   const std::uint64_t hash =
-      mixed(std::bit_cast<std::uint64_t>(a) + mixed(std::bit_cast<std::uint64_t>(b) + mixed(100 * seed() + function)));
+      mixed(std::bit_cast<std::uint64_t>(a) +
+            mixed(std::bit_cast<std::uint64_t>(b) + mixed(100 * seed() + function)));
   if (hash % 2 == 0) return nearest;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return std::nextafter(nearest, static_cast<long double>(nearest) < exact ? kInfinity : -kInfinity);
+  return std::nextafter(nearest,
+                        static_cast<long double>(nearest) < exact ? kInfinity : -kInfinity);
 }
 
 }  // namespace
 
-#define CHAINTRUE_OF_ONE(name, number)                          \
-  extern "C" double name(double x) noexcept {                   \
+#define CHAINTRUE_OF_ONE(name, number)                                    \
+  extern "C" double name(double x) noexcept {                             \
     return rounded(name##l(static_cast<long double>(x)), x, 0.0, number); \
   }
-#define CHAINTRUE_OF_TWO(name, number)                                                            \
-  extern "C" double name(double x, double y) noexcept {                                           \
-    return rounded(name##l(static_cast<long double>(x), static_cast<long double>(y)), x, y, number); \
+#define CHAINTRUE_OF_TWO(name, number)                                                    \
+  extern "C" double name(double x, double y) noexcept {                                   \
+    return rounded(                                                                       \
+        name##l(static_cast<long double>(x), static_cast<long double>(y)), x, y, number); \
   }
 CHAINTRUE_OF_ONE(acos, 1)
 CHAINTRUE_OF_ONE(asin, 2)

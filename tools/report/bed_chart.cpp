@@ -26,8 +26,9 @@ double share_within(double from, double way, double low, double high) {
 /// Of an arrow the share that is drawn: that of a good point whole, that of a bad one up to the frame.
 double shown_of(const Arrow& arrow, const Outline& view, double magnification) {
   if (!arrow.is_bad) return 1.0;
-  return std::min(share_within(arrow.x_mm, magnification * arrow.dx_mm, view.x_min_mm, view.x_max_mm),
-                  share_within(arrow.y_mm, magnification * arrow.dy_mm, view.y_min_mm, view.y_max_mm));
+  return std::min(
+      share_within(arrow.x_mm, magnification * arrow.dx_mm, view.x_min_mm, view.x_max_mm),
+      share_within(arrow.y_mm, magnification * arrow.dy_mm, view.y_min_mm, view.y_max_mm));
 }
 
 }  // namespace
@@ -90,7 +91,8 @@ std::string cut_off_at_frame(const Outline& sheet,
   std::vector<std::string> names;
   for (const Arrow& arrow : arrows) {
     if (shown_of(arrow, view, magnification) == 1.0) continue;
-    names.push_back(fmt::format("{} ({:.2f} mm)", arrow.name, std::hypot(arrow.dx_mm, arrow.dy_mm)));
+    names.push_back(
+        fmt::format("{} ({:.2f} mm)", arrow.name, std::hypot(arrow.dx_mm, arrow.dy_mm)));
   }
   return names.empty() ? "" : fmt::format(" Cut off at the frame: {}.", fmt::join(names, ", "));
 }
@@ -100,9 +102,10 @@ Chart arrows_chart(const Outline& sheet,
                    double magnification,
                    const char* color) {
   Chart chart{.specification = "bed_arrows"};
-  DataTable table{"arrows",
-                  {"name", "x_mm", "y_mm", "dx_mm", "dy_mm", "is_bad", "noise_x_mm", "noise_y_mm", "shown"},
-                  {}};
+  DataTable table{
+      "arrows",
+      {"name", "x_mm", "y_mm", "dx_mm", "dy_mm", "is_bad", "noise_x_mm", "noise_y_mm", "shown"},
+      {}};
   const Outline view = view_of(sheet, arrows);
   for (const Arrow& arrow : arrows) {
     table.rows.push_back({arrow.name,
