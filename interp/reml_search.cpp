@@ -133,6 +133,28 @@ double largest_free_gradient(const Eigen::VectorXd& gradient, const std::vector<
   return largest;
 }
 
+// V tells theta to the root of its rounding only; its gradient tells it to its own. Newton's steps go on as long as the
+// gradient falls, where a minimum is near.
+void polish(const Marginal& marginal, const Limits& limits, Eigen::VectorXd& theta, State& state) {
+  constexpr int kMostSteps = 4;
+  constexpr double kNear =
+      1e-2;  // longer steps creep along a V that is flat, or leave another one's minimum
+  for (int i = 0; i < kMostSteps; ++i) {
+    const std::vector<bool> held = held_at_limit(theta, state.gradient, limits);
+    const Eigen::VectorXd step = newton_step(state, held);
+    if (step.cwiseAbs().maxCoeff() > kNear) return;
+    const Eigen::VectorXd next = (theta + step).cwiseMax(limits.low).cwiseMin(limits.high);
+    auto there = marginal.evaluate(next, Order::hessian);
+    if (!there ||
+        largest_free_gradient(there->gradient, held_at_limit(next, there->gradient, limits)) >=
+            largest_free_gradient(state.gradient, held)) {
+      return;
+    }
+    theta = next;
+    state = *std::move(there);
+  }
+}
+
 }  // namespace
 
 tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
@@ -179,6 +201,7 @@ tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
       settled = before - state->value < 1e-10;
     }
   }
+  polish(marginal, limits, result.theta, *state);
   for (Eigen::Index k = 0; k < marginal.penalties(); ++k) {
     result.ends.push_back(
         end_of(result.theta(k), limits.low(k), limits.high(k), state->hessian(k, k)));

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "grid/diagnosis/discrepancy_basis.hpp"
+#include "grid/diagnosis/ties.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -47,14 +48,11 @@ class Scout {
       all.emplace_back(prior_[k] + share + single(d, static_cast<Eigen::Index>(k)),
                        plain_.columns[k]);
     }
-    const auto most = std::min(all.size(), kSinglesBesideDiscrepancy);
-    std::partial_sort(all.begin(),
-                      all.begin() + static_cast<std::ptrdiff_t>(most),
-                      all.end(),
-                      [](const auto& a, const auto& b) {
-                        return a.first != b.first ? a.first > b.first : a.second < b.second;
-                      });
-    all.resize(most);
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    all.resize(count_with_ties(
+        all, kSinglesBesideDiscrepancy, [](const auto& single) { return single.first; }));
     if (!all.empty()) result.weight = std::max(result.weight, all.front().first);
     result.singles = std::move(all);
     for (const std::vector<int>& set : leading_) {
@@ -127,7 +125,7 @@ class Search {
     for (std::size_t size = 2; size <= kMostCauses; ++size) {
       std::stable_sort(parents.begin(), parents.end(), heavier);
       if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
-      parents.resize(std::min(parents.size(), kBeamBesideDiscrepancy));
+      parents.resize(count_with_ties(parents, kBeamBesideDiscrepancy, weight_of));
       for (const WeighedSet& parent : parents) extend(parent.set, alone);
       parents = grown_[size];
     }
@@ -167,17 +165,41 @@ class Search {
   std::array<std::vector<WeighedSet>, kMostCauses + 1> grown_;
 };
 
+/// Counts the places of each cause in a list that is sorted by score.
+class PlacesOfCauses {
+ public:
+  PlacesOfCauses(const LinearisedSystem& system, int most) : system_(system), most_(most) {}
+
+  /// Whether this one is among the first `most` of its cause, or ties with the last of these.
+  [[nodiscard]] bool takes(int regressor, double score) {
+    const CauseId& cause = system_.regressors[static_cast<std::size_t>(regressor)].cause;
+    const auto known = std::find_if(
+        taken_.begin(), taken_.end(), [&](const Taken& own) { return own.cause == cause; });
+    Taken& own = known != taken_.end() ? *known : taken_.emplace_back(Taken{cause, 0, 0.0});
+    if (own.count == most_) return tied(score, own.last_score);
+    ++own.count;
+    own.last_score = score;
+    return true;
+  }
+
+ private:
+  struct Taken {
+    CauseId cause;
+    int count = 0;
+    double last_score = 0.0;
+  };
+  const LinearisedSystem& system_;
+  int most_;
+  std::vector<Taken> taken_;
+};
+
 /// Of each cause its best places alone.
 std::vector<int> worth_trying(const LinearisedSystem& system, const Scouted& scouted) {
-  constexpr int kPlacesOfACause = 2;
+  PlacesOfCauses places(system, 2);
   std::vector<int> result;
-  std::vector<CauseId> taken;
   for (const auto& [weight, k] : scouted.singles) {
     if (weight < scouted.weight - kNegligibleModel) break;
-    const CauseId& cause = system.regressors[static_cast<std::size_t>(k)].cause;
-    if (std::count(taken.begin(), taken.end(), cause) == kPlacesOfACause) continue;
-    taken.push_back(cause);
-    result.push_back(k);
+    if (places.takes(k, weight)) result.push_back(k);
   }
   return result;
 }
@@ -186,7 +208,7 @@ std::vector<int> worth_trying(const LinearisedSystem& system, const Scouted& sco
 std::vector<int> columns_to_scout(const LinearisedSystem& system,
                                   const NormalEquations& plain,
                                   const std::vector<std::vector<int>>& leading) {
-  constexpr int kPlacesOfACause = 4;
+  PlacesOfCauses places(system, 4);
   std::vector<std::pair<double, int>> order;
   for (std::size_t k = 0; k < plain.columns.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
@@ -197,12 +219,8 @@ std::vector<int> columns_to_scout(const LinearisedSystem& system,
   }
   std::sort(order.begin(), order.end());
   std::vector<int> result;
-  std::vector<CauseId> taken;
   for (const auto& [gain, k] : order) {
-    const CauseId& cause = system.regressors[static_cast<std::size_t>(k)].cause;
-    if (std::count(taken.begin(), taken.end(), cause) == kPlacesOfACause) continue;
-    taken.push_back(cause);
-    result.push_back(k);
+    if (places.takes(k, gain)) result.push_back(k);
   }
   for (const auto& set : leading) result.insert(result.end(), set.begin(), set.end());
   std::sort(result.begin(), result.end());
@@ -215,10 +233,11 @@ std::vector<int> worth_searching(std::vector<Scouted> scouted) {
   std::stable_sort(scouted.begin(), scouted.end(), [](const Scouted& a, const Scouted& b) {
     return a.weight > b.weight;
   });
+  scouted.resize(count_with_ties(
+      scouted, kMostDiscrepanciesSearched, [](const Scouted& own) { return own.weight; }));
   std::vector<int> result;
   for (const Scouted& one : scouted) {
     if (one.weight < scouted.front().weight - kDiscrepanciesWithin) break;
-    if (result.size() == kMostDiscrepanciesSearched) break;
     result.push_back(one.discrepancy);
   }
   return result;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "grid/diagnosis/leading.hpp"
+#include "grid/diagnosis/ties.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -20,6 +21,8 @@ constexpr std::size_t kMostModels = 160;
 /// Share of the probability from which a discrepancy is followed, and the most of them.
 constexpr double kDiscrepancyShare = 0.01;
 constexpr std::size_t kMostDiscrepancies = 4;
+/// Share of a column's square below which what is left of it is rounding: that of one whitened row is 1e-13 of it.
+constexpr double kNothingLeft = 1e-9;
 
 using FactorisationKey = std::pair<std::size_t, int>;  ///< marginalised system, discrepancy
 
@@ -47,11 +50,13 @@ std::map<FactorisationKey, std::vector<CandidateModel>> followed(
   std::map<FactorisationKey, std::vector<CauseId>> alone;
   std::set<std::size_t> marginalised_systems;
   std::size_t taken = 0;
+  double last = best;
   // Best first, so that a marginalised system is known before the rest of what is asked for in it.
   for (const CandidateModel& model : comparison.models) {
     const FactorisationKey key{model.marginalised, model.discrepancy};
     if (!is_followed(key)) continue;
-    const bool leads = model.log_weight > best - kNegligible && taken < kMostModels;
+    const bool leads = model.log_weight > best - kNegligible &&
+                       (taken < kMostModels || tied(model.log_weight, last));
     bool first_alone = model.regressors.empty();
     if (model.regressors.size() == 1) {
       const CauseId& cause = system.regressors[static_cast<std::size_t>(model.regressors[0])].cause;
@@ -60,11 +65,22 @@ std::map<FactorisationKey, std::vector<CandidateModel>> followed(
       if (first_alone) known.push_back(cause);
     }
     if (!leads && !(first_alone && marginalised_systems.contains(key.first))) continue;
+    if (leads && taken < kMostModels) last = model.log_weight;
     taken += leads ? 1 : 0;
     marginalised_systems.insert(key.first);
     result[key].push_back(model);
   }
   return result;
+}
+
+/// Columns that lay in the rows left out alone are nothing, and not what rounding makes of the difference.
+void clear_unseen_columns(const NormalEquations& before, NormalEquations& equations) {
+  for (Eigen::Index i = 0; i < equations.gg.rows(); ++i) {
+    if (equations.gg(i, i) > kNothingLeft * before.gg(i, i)) continue;
+    equations.gg.row(i).setZero();
+    equations.gg.col(i).setZero();
+    equations.ge(i) = 0.0;
+  }
 }
 
 /// Rows of these units in a marginalised system.
@@ -179,6 +195,7 @@ NormalEquations Downdating::downdated_equations(const Factorisation& factorised,
   equations.ee -= seen.col(0).squaredNorm();
   equations.ge.noalias() -= seen.rightCols(c).transpose() * seen.col(0);
   equations.gg.noalias() -= seen.rightCols(c).transpose() * seen.rightCols(c);
+  clear_unseen_columns(factorised.equations, equations);
   equations.log_det += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
   // Beside a discrepancy the sizes are expected as of all points.
   if (factorised.discrepancy < 0) equations.prior_square = equations.gg.diagonal();

@@ -18,6 +18,7 @@ struct WeighedSet {
 [[nodiscard]] inline bool heavier(const WeighedSet& a, const WeighedSet& b) {
   return a.weight > b.weight;
 }
+[[nodiscard]] inline double weight_of(const WeighedSet& one) { return one.weight; }
 
 /// May two regressors act together: one cause acts at one place, and an effect that acts on both
 /// chains alike not also on one of them.

@@ -48,7 +48,7 @@ class RegressorColumns {
   template <typename Map>
   [[nodiscard]] RegressorColumns mapped(const Map& map) const {
     RegressorColumns result;
-    result.distinct_ = map(distinct());
+    result.distinct_ = map(distinct_.leftCols(count_));
     result.count_ = count_;
     result.of_ = of_;
     return result;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "grid/diagnosis/beside_discrepancies.hpp"
+#include "grid/diagnosis/ties.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
@@ -44,9 +45,13 @@ class SetSearch::Search {
     std::stable_sort(scored_.begin(), scored_.end(), heavier);
     std::vector<std::vector<int>> leading;
     std::array<std::size_t, kMostCauses + 1> taken{};
+    std::array<double, kMostCauses + 1> last{};
     for (const WeighedSet& s : scored_) {
-      if (s.set.size() < 2 || taken[s.set.size()] >= kSetsBesideDiscrepancy) continue;
-      ++taken[s.set.size()];
+      const std::size_t size = s.set.size();
+      if (size < 2 || (taken[size] >= kSetsBesideDiscrepancy && !tied(s.weight, last[size])))
+        continue;
+      if (taken[size] < kSetsBesideDiscrepancy) last[size] = s.weight;
+      ++taken[size];
       std::vector<int> regressors;
       for (const Eigen::Index i : s.set) {
         regressors.push_back(equations_.columns[static_cast<std::size_t>(i)]);
@@ -81,10 +86,10 @@ class SetSearch::Search {
       return kept;
     }
     std::vector<int> leading = kept;
-    std::stable_sort(leading.begin(), leading.end(), [&](int a, int b) {
-      return c(a) * c(a) / square(a) > c(b) * c(b) / square(b);
-    });
-    leading.resize(std::min<std::size_t>(leading.size(), 8));
+    const auto explained = [&](int k) { return c(k) * c(k) / square(k); };
+    std::stable_sort(
+        leading.begin(), leading.end(), [&](int a, int b) { return explained(a) > explained(b); });
+    leading.resize(count_with_ties(leading, 8, explained));
     const RegressorColumns& g = marginalised_.g;
     const Eigen::MatrixXd cross = g.distinct().transpose() * g.dense(leading);
     std::vector<std::pair<double, int>> gains;
@@ -99,7 +104,8 @@ class SetSearch::Search {
       gains.emplace_back(-best, k);
     }
     std::sort(gains.begin(), gains.end());
-    for (std::size_t i = 0; i < kKeptFixed; ++i) kept.push_back(gains[i].second);
+    gains.resize(count_with_ties(gains, kKeptFixed, [](const auto& gain) { return gain.first; }));
+    for (const auto& [gain, k] : gains) kept.push_back(k);
     return kept;
   }
 
@@ -163,8 +169,10 @@ class SetSearch::Search {
     }
     std::stable_sort(
         quick.begin(), quick.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    quick.resize(
+        count_with_ties(quick, kMostPairs + 1, [](const auto& pair) { return pair.first; }));
     for (std::size_t k = 0; k < quick.size(); ++k) {
-      if (quick[k].first < best - kPairsWithin || k > kMostPairs) break;
+      if (quick[k].first < best - kPairsWithin) break;
       const std::vector<Eigen::Index> set = {quick[k].second.first, quick[k].second.second};
       scored_.push_back({consider(set), set});
     }
@@ -178,7 +186,7 @@ class SetSearch::Search {
       }
       std::stable_sort(parents.begin(), parents.end(), heavier);
       if (parents.empty() || parents.front().weight < collector_.best() - kGrowWithin) return;
-      if (parents.size() > kBeam) parents.resize(kBeam);
+      parents.resize(count_with_ties(parents, kBeam, weight_of));
       std::set<std::vector<Eigen::Index>> seen;
       for (const WeighedSet& parent : parents) extend(parent.set, seen);
     }
@@ -202,9 +210,10 @@ class SetSearch::Search {
       order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);
     }
     std::sort(order.begin(), order.end());
-    for (std::size_t k = 0; k < std::min(order.size(), kChildren); ++k) {
+    order.resize(count_with_ties(order, kChildren, [](const auto& own) { return own.first; }));
+    for (const auto& [score, own] : order) {
       std::vector<Eigen::Index> set = parent;
-      set.push_back(order[k].second);
+      set.push_back(own);
       std::sort(set.begin(), set.end());
       if (!seen.insert(set).second) continue;
       scored_.push_back({consider(set), set});

@@ -17,8 +17,9 @@ using Holes = std::vector<const PlannedPlace*>;
 
 /// A tape is laid square to an edge by eye, to a degree: 0.15 mm at this length.
 constexpr double kLongestToEdgeMm = 1000.0;
-/// What two choices of the same worth differ by in rounding; the first one stays.
-constexpr double kBetter = 1.0 + 1e-9;
+/// Two choices of the same worth, each other's mirror image say, differ by rounding, which many updates let grow to
+/// 1e-9; the first one stays.
+constexpr double kBetter = 1.0 + 1e-6;
 
 std::vector<BedPoint> marks_of(const Holes& holes) {
   std::vector<BedPoint> marks;

@@ -57,6 +57,7 @@ bool is_free(const Holes& holes, std::size_t moving, BedPoint place) {
 Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
   Holes holes = {&places.front()};
   while (holes.size() < count) {
+    constexpr double kSameWayMm = 1e-6;  // as far but for rounding: the first one stays
     const PlannedPlace* best = nullptr;
     double best_way = -1.0;
     for (const PlannedPlace& candidate : places) {
@@ -66,7 +67,7 @@ Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
                        std::hypot(hole->place.x_mm - candidate.place.x_mm,
                                   hole->place.y_mm - candidate.place.y_mm));
       }
-      if (way <= best_way) continue;
+      if (way <= best_way + kSameWayMm) continue;
       best_way = way;
       best = &candidate;
     }

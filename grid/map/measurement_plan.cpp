@@ -26,6 +26,8 @@ constexpr double kCertainDof = 1e6;
 /// Cells of the raster on which the largest expected error is looked for.
 constexpr int kRasterColumns = 48;
 constexpr int kRasterRows = 24;
+/// By less than that a place's mirror image differs in rounding; the first one stays.
+constexpr double kWorse = 1.0 + 1e-6;
 
 class Planner {
  public:
@@ -84,7 +86,7 @@ class Planner {
         return std::hypot(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm) <=
                2.0 * kRepeatDistanceMm;
       });
-      if (taken || errors[i] <= largest) continue;
+      if (taken || errors[i] <= kWorse * largest) continue;
       largest = errors[i];
       worst = place;
     }

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "tests/report/sample_report.hpp"
+#include "tools/report/bed_chart.hpp"
 #include "tools/report/embedded.hpp"
 
 namespace chaintrue::report::testing {
@@ -204,6 +205,24 @@ TEST(Page, RefusesAChartThatDoesNotExist) {
   std::get<Chart>(page.sections[0].blocks[0]).specification = "pie";
   EXPECT_EQ(message_of([&page] { (void)render(page); }),
             "no chart named \"pie\" is embedded in the report library");
+}
+
+TEST(BedChart, TheArrowOfABadPointEndsAtTheFrame) {
+  const Outline sheet{-1000.0, 1000.0, -500.0, 500.0};
+  const Arrow good{.name = "point 1", .x_mm = -500.0, .y_mm = 0.0, .dx_mm = 0.3, .dy_mm = 0.0};
+  const Arrow bad{
+      .name = "point 9", .x_mm = 500.0, .y_mm = 100.0, .dx_mm = 25.4, .dy_mm = 0.0, .is_bad = true};
+  const double magnification = magnification_of(sheet, {good, bad});
+  const Chart chart = arrows_chart(sheet, {good, bad}, magnification, kAfterColor);
+  const DataTable& table = chart.data.front();
+  ASSERT_EQ(table.fields.back(), "shown");
+  EXPECT_EQ(std::get<double>(table.rows[0].back()), 1.0);
+  const double frame_mm = 1100.0;  // a twentieth of the sheet's width beyond it
+  EXPECT_DOUBLE_EQ(bad.x_mm + std::get<double>(table.rows[1].back()) * magnification * bad.dx_mm,
+                   frame_mm);
+  EXPECT_EQ(cut_off_at_frame(sheet, {good, bad}, magnification),
+            " Cut off at the frame: point 9 (25.40 mm).");
+  EXPECT_EQ(cut_off_at_frame(sheet, {good}, magnification), "");
 }
 
 TEST(MapReportPage, RefusesASheetWithoutExtent) {

@@ -160,18 +160,22 @@ std::vector<report::ChartRow> arrow_charts(const Diagnosis& found) {
   first.title = "Before: the machine calibrated";
   first.caption =
       "From where the tool should be to where it was. Grey: one sigma of the noise at that mark. "
-      "Ringed: bad points.";
+      "Ringed: bad points." +
+      report::cut_off_at_frame(sheet, before, coarse);
   if (found.causes.empty()) return {{{std::move(first)}}};
   Chart second = report::arrows_chart(sheet, after, coarse, report::kAfterColor);
   second.title = "After: with what was named, same scale";
   second.caption =
       "Arrows of the size of their grey ellipse, in all directions, are noise; neighbours that "
-      "point the same way are something not explained.";
+      "point the same way are something not explained." +
+      report::cut_off_at_frame(sheet, after, coarse);
   std::vector<report::ChartRow> rows = {{{std::move(first), std::move(second)}}};
   if (fine >= 2.0 * coarse) {
     Chart close = report::arrows_chart(sheet, after, fine, report::kAfterColor);
     close.title = "After, under the magnifying glass";
-    close.caption = fmt::format("The same arrows, {:g} times larger.", fine / coarse);
+    close.caption = fmt::format("The same arrows, {:g} times larger.{}",
+                                fine / coarse,
+                                report::cut_off_at_frame(sheet, after, fine));
     rows.push_back({{std::move(close)}});
   }
   return rows;

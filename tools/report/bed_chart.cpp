@@ -17,6 +17,20 @@ constexpr double kLongestArrow = 0.12;
 
 double width_mm(const Outline& outline) { return outline.x_max_mm - outline.x_min_mm; }
 
+/// Of a way from `from` by `way` the share up to the first of two borders; 1 where it ends before.
+double share_within(double from, double way, double low, double high) {
+  if (way == 0.0) return 1.0;
+  return std::clamp(((way > 0.0 ? high : low) - from) / way, 0.0, 1.0);
+}
+
+/// Of an arrow the share that is drawn: that of a good point whole, that of a bad one up to the frame.
+double shown_of(const Arrow& arrow, const Outline& view, double magnification) {
+  if (!arrow.is_bad) return 1.0;
+  return std::min(
+      share_within(arrow.x_mm, magnification * arrow.dx_mm, view.x_min_mm, view.x_max_mm),
+      share_within(arrow.y_mm, magnification * arrow.dy_mm, view.y_min_mm, view.y_max_mm));
+}
+
 }  // namespace
 
 double round_down_125(double value) {
@@ -70,14 +84,29 @@ double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows) 
   return longest_mm > 0.0 ? round_down_125(kLongestArrow * width_mm(sheet) / longest_mm) : 1.0;
 }
 
+std::string cut_off_at_frame(const Outline& sheet,
+                             const std::vector<Arrow>& arrows,
+                             double magnification) {
+  const Outline view = view_of(sheet, arrows);
+  std::vector<std::string> names;
+  for (const Arrow& arrow : arrows) {
+    if (shown_of(arrow, view, magnification) == 1.0) continue;
+    names.push_back(
+        fmt::format("{} ({:.2f} mm)", arrow.name, std::hypot(arrow.dx_mm, arrow.dy_mm)));
+  }
+  return names.empty() ? "" : fmt::format(" Cut off at the frame: {}.", fmt::join(names, ", "));
+}
+
 Chart arrows_chart(const Outline& sheet,
                    const std::vector<Arrow>& arrows,
                    double magnification,
                    const char* color) {
   Chart chart{.specification = "bed_arrows"};
-  DataTable table{"arrows",
-                  {"name", "x_mm", "y_mm", "dx_mm", "dy_mm", "is_bad", "noise_x_mm", "noise_y_mm"},
-                  {}};
+  DataTable table{
+      "arrows",
+      {"name", "x_mm", "y_mm", "dx_mm", "dy_mm", "is_bad", "noise_x_mm", "noise_y_mm", "shown"},
+      {}};
+  const Outline view = view_of(sheet, arrows);
   for (const Arrow& arrow : arrows) {
     table.rows.push_back({arrow.name,
                           arrow.x_mm,
@@ -86,7 +115,8 @@ Chart arrows_chart(const Outline& sheet,
                           arrow.dy_mm,
                           arrow.is_bad,
                           arrow.noise_x_mm,
-                          arrow.noise_y_mm});
+                          arrow.noise_y_mm,
+                          shown_of(arrow, view, magnification)});
   }
   chart.data.push_back(std::move(table));
   chart.signals = bed_signals(sheet, arrows);

@@ -49,10 +49,15 @@ struct Arrow {
 /// How much to magnify, so that the longest arrow of a good point spans an eighth of the bed; once
 /// where all are of no length.
 [[nodiscard]] double magnification_of(const Outline& sheet, const std::vector<Arrow>& arrows);
-/// charts/bed_arrows without title and caption; the scale is printed in the picture.
+/// charts/bed_arrows without title and caption; the scale is printed in the picture. The arrow of a bad point, which no
+/// scale is chosen for, ends at the frame.
 [[nodiscard]] Chart arrows_chart(const Outline& sheet,
                                  const std::vector<Arrow>& arrows,
                                  double magnification,
                                  const char* color);
+/// Which arrows end at the frame, and how long they are: " Cut off at the frame: point 9 (25.40 mm).", or nothing.
+[[nodiscard]] std::string cut_off_at_frame(const Outline& sheet,
+                                           const std::vector<Arrow>& arrows,
+                                           double magnification);
 
 }  // namespace chaintrue::report

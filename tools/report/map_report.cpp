@@ -61,10 +61,12 @@ Section before_after_section(const MapReport& report) {
   before.title = "Before: " + report.before_what;
   before.caption =
       "Each arrow runs from where the tool should be to where it lands. Hover or tap a point for "
-      "its values.";
+      "its values." +
+      cut_off_at_frame(report.sheet, arrows_before, coarse);
   Chart after = arrows_chart(report.sheet, arrows_after, coarse, kAfterColor);
   after.title = "After: with the map, same scale";
-  after.caption = "What is left at the points that the map was made from.";
+  after.caption = "What is left at the points that the map was made from." +
+                  cut_off_at_frame(report.sheet, arrows_after, coarse);
   section.blocks.push_back(ChartRow{{std::move(before), std::move(after)}});
   if (fine >= 2.0 * coarse) {
     Chart close = arrows_chart(report.sheet, arrows_after, fine, kAfterColor);
@@ -72,8 +74,9 @@ Section before_after_section(const MapReport& report) {
     close.caption = fmt::format(
         "The same arrows, {:g} times larger. Random directions are noise; neighbours that point "
         "the same way would be "
-        "something that the map has missed.",
-        fine / coarse);
+        "something that the map has missed.{}",
+        fine / coarse,
+        cut_off_at_frame(report.sheet, arrows_after, fine));
     section.blocks.push_back(std::move(close));
   }
   return section;

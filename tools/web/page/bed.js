@@ -15,7 +15,7 @@ export function bedPicture(bed, sheet, pick) {
   picture.append(svg("rect", {class: "board", x: -width / 2, y: -height / 2, width, height}));
   picture.append(svg("path", {class: "axes", d: `M ${-width / 2} 0 H ${width / 2} M 0 ${-height / 2} V ${height / 2}`}));
   const named = Object.fromEntries(sheet.places.map((place) => [place.name, place]));
-  const isDistances = sheet.columns[0] === "from";
+  const isDistances = !sheet.isOfPoints;
   const items = sheet.rows.map((row, index) =>
     isDistances ? distance(named[row.cells[0]], named[row.cells[1]], index) : mark(sheet.places[index], index));
   for (const [index, item] of items.entries()) {

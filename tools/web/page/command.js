@@ -29,6 +29,11 @@ export function sentencesOf(result) {
   return result.stderr.split("\n").filter((line) => line !== "" && !line.startsWith("Next: "));
 }
 
+/** The same of a run on a list: points that they name by number with their rows. */
+export function sentencesAbout(list, result) {
+  return sentencesOf(result).map((sentence) => list?.withRows(sentence) ?? sentence);
+}
+
 /** {place, text} of a problem with a file: `marks.csv: line 5, column 10: found ...`. */
 export function problemOf(sentence, file) {
   if (!sentence.startsWith(`${file}: `)) return null;

@@ -62,7 +62,7 @@ export function cutStep(page) {
       none.hidden = Boolean(folder["map.json"]);
       all.hidden = !folder["map.json"];
       const programs = Object.keys(folder).filter((path) => /\.(nc|gcode|ngc|tap|cnc)$/i.test(path) && !/\.true\.nc$/.test(path) &&
-        !["marks.nc", "holes.nc", "lengths.nc"].includes(path));
+        !["marks.nc", "holes.nc", "lengths.nc", "five.nc"].includes(path));
       jobs.replaceChildren(...programs.map((path) => h("button", {type: "button", onclick: () => compensate(path)}, `Compensate ${path}`)));
     },
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The second step: sheets to print, readings to type, and the fit as they are typed.
-import {DONE, problemOf, runVerb, sentenceList, sentencesOf} from "./command.js";
+import {CHECK_FAILED, DONE, problemOf, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {bytesOf, download, h, textOf} from "./dom.js";
 import {reportFrame} from "./frame.js";
 import {Readings} from "./readings.js";
@@ -11,6 +11,9 @@ const WAYS = [
   ["holes.csv", "Holes: distances between them, with a tape"],
   ["lengths.csv", "Chain lengths: read off the machine at each mark"],
 ];
+/** New points that the map is held against, once there is one; they are no readings to fit. */
+export const NEW_POINTS = "five.csv";
+const CHECK = [NEW_POINTS, "New points: does the map still hold?"];
 /** Between the last key and a run of the command: as long as a person takes from key to key. */
 const PAUSE_MS = 350;
 
@@ -23,7 +26,7 @@ export function measureStep(page) {
   const print = h("div");
   const odd = h("p", {class: "hint", hidden: true}, "This list is not in the form that the command writes lists in. It is used as " +
     "it is; to change it, edit it in a spreadsheet and open it again.");
-  const way = h("select", {id: "way", onchange: () => chooseWay(page, way.value)}, WAYS.map(([path, label]) => h("option", {value: path}, label)));
+  const way = h("select", {id: "way", onchange: () => chooseWay(page, way.value)}, [...WAYS, CHECK].map(([path, label]) => h("option", {value: path}, label)));
   const unit = h("select", {id: "unit", onchange: () => page.store.show({unit: unit.value})},
     h("option", {value: "mm"}, "millimetres"), h("option", {value: "in"}, "inches"));
   const program = h("button", {type: "button", onclick: () => {
@@ -44,7 +47,7 @@ export function measureStep(page) {
 
   function fitSoon() {
     clearTimeout(timer);
-    timer = setTimeout(() => fit(page, readings, said), PAUSE_MS);
+    timer = setTimeout(() => judge(page, readings, said), PAUSE_MS);
   }
 
   function showSheet() {
@@ -61,6 +64,7 @@ export function measureStep(page) {
     update() {
       const {folder, view} = page.store;
       way.value = view.sheet;
+      way.lastChild.disabled = !folder["map.json"];
       unit.value = view.unit;
       program.hidden = !folder[programOf(view.sheet)];
       sheetButton.hidden = !folder[view.sheet.replace(/\.csv$/, ".html")];
@@ -89,18 +93,22 @@ export function bedOf(folder) {
   }
 }
 
-async function chooseWay(page, path) {
+/** The list of readings that the map is made from: the one shown, or the last one that was. */
+export const fittedList = ({sheet, fitted}) => (sheet === NEW_POINTS ? fitted ?? WAYS[0][0] : sheet);
+
+export async function chooseWay(page, path) {
   if (!page.store.folder[path] && page.store.folder["machine.json"]) {
-    const result = await runVerb(page, ["plan", "--machine", "machine.json", "--measure", "lengths", "-o", path,
+    const what = path === NEW_POINTS ? ["--check", "map.json"] : ["--machine", "machine.json", "--measure", "lengths"];
+    const result = await runVerb(page, ["plan", ...what, "-o", path,
       "--page", path.replace(/\.csv$/, ".html"), "--gcode", programOf(path), "--force"]);
     if (result?.code === DONE) page.store.derive(result.files);
     else if (result) page.alert(sentencesOf(result).join(" "));
   }
-  page.store.show({sheet: path});
+  page.store.show({sheet: path, fitted: fittedList({...page.store.view, sheet: path === NEW_POINTS ? page.store.view.sheet : path})});
 }
 
-/** The fit of what is typed so far; its sentences stand below, and at the rows that they are about. */
-async function fit(page, readings, said) {
+/** What the command says of what is typed so far; its sentences stand below, and at the rows that they are about. */
+async function judge(page, readings, said) {
   const {sheet: path} = page.store.view;
   const text = page.store.folder[path];
   if (!text) return;
@@ -110,17 +118,32 @@ async function fit(page, readings, said) {
     said.replaceChildren(h("p", {class: "hint"}, "Nothing is typed in yet."));
     return;
   }
-  const words = ["fit", path, "--machine", "machine.json", "-o", "map.json", "--force", "--verbose"];
-  const result = await runVerb(page, words, {quiet: true, supersede: "fit"});
+  const isCheck = path === NEW_POINTS;
+  const words = isCheck ? ["check", "map.json", path, "--machine", "machine.json"]
+    : ["fit", path, "--machine", "machine.json", "-o", "map.json", "--force", "--verbose"];
+  const result = await runVerb(page, words, {quiet: true, supersede: "judge"});
   if (!result || page.store.folder[path] !== text) return;
   const sentences = sentencesOf(result);
   const problems = new Map();
   for (const sentence of sentences) markRow(problems, list, sentence, path);
   readings.mark(problems);
+  const withRows = (sentence) => list?.withRows(sentence) ?? sentence;
+  if (isCheck) {
+    showVerdict(said, result, sentences.map(withRows), withRows);
+    return;
+  }
   if (result.code === DONE) page.store.derive({...result.files, "diagnosis.json": null, "diagnosis.html": null});
   else if (page.store.folder["map.json"]) page.store.derive({"map.json": null, "diagnosis.json": null, "diagnosis.html": null});
   said.className = result.code === DONE ? "said" : "said problem";
-  said.replaceChildren(...outcome(page, sentences, result.code));
+  said.replaceChildren(...outcome(page, sentences.map(withRows), result.code));
+}
+
+/** What a check prints: the verdict on the first line, the numbers below. */
+function showVerdict(said, {code, stdout}, sentences, withRows) {
+  const [verdict, ...numbers] = withRows(stdout).split("\n").filter((line) => line !== "");
+  said.className = code === DONE ? "said" : "said problem";
+  said.replaceChildren(sentenceList([verdict, ...sentences].filter(Boolean)),
+    code === DONE || code === CHECK_FAILED ? h("pre", {tabindex: "0", "aria-label": "Measured less map"}, numbers.join("\n")) : "");
 }
 
 function outcome(page, sentences, code) {
@@ -149,5 +172,5 @@ function markRow(problems, list, sentence, path) {
   const between = /\b([A-Z]\d*)-([A-Z]\d*)\b/.exec(sentence);
   const row = point ? list.rowOfPoint(Number(point[1]))
     : between ? list.rows.findIndex(({cells}) => cells[0] === between[1] && cells[1] === between[2]) : -1;
-  if (row >= 0) problems.set(row, {column: null, text: sentence});
+  if (row >= 0) problems.set(row, {column: null, text: list.withRows(sentence)});
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The third step: the map's report, why the machine errs, better numbers, what to measure next.
-import {DONE, printed, runVerb, sentenceList, sentencesOf} from "./command.js";
+import {DONE, printed, runVerb, sentenceList, sentencesAbout, sentencesOf} from "./command.js";
 import {bytesOf, download, h, textOf} from "./dom.js";
 import {reportFrame} from "./frame.js";
+import {chooseWay, fittedList, NEW_POINTS} from "./measure.js";
+import {Sheet} from "./sheet.js";
 
 export function resultStep(page) {
   const map = h("div");
@@ -21,7 +23,10 @@ export function resultStep(page) {
     h("section", {}, h("h2", {}, "Better numbers"),
       h("p", {}, "Typed into the controller once, they take off what settings can. Or compensate each program, which is truer."),
       h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => exportNumbers(page, numbers)}, "Show the numbers to type in")),
-      numbers));
+      numbers),
+    h("section", {}, h("h2", {}, "Later: does it still hold?"),
+      h("p", {}, "Chains stretch and zeros slip. A few new points, set where they tell most, say whether the map is still valid."),
+      h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => planCheck(page)}, "Set new points"))));
   const seen = {};
 
   /** Draws `box` anew where `path` of the folder has changed. */
@@ -70,7 +75,7 @@ class NoiseFields {
   }
 
   update({folder, view}) {
-    this.element.hidden = view.sheet === "holes.csv";
+    this.element.hidden = fittedList(view) === "holes.csv";
     for (const [index, input] of this.#inputs.entries()) {
       if (document.activeElement !== input) input.value = view.noise?.[index] ?? usual(folder, NOISE[index][0]);
     }
@@ -101,29 +106,29 @@ async function report(page, from, to, title, box) {
 }
 
 async function diagnose(page, noise) {
-  const words = ["diagnose", page.store.view.sheet, "--machine", "machine.json", ...noise, "-o", "diagnosis.json", "--report", "diagnosis.html", "--force"];
+  const words = ["diagnose", fittedList(page.store.view), "--machine", "machine.json", ...noise, "-o", "diagnosis.json", "--report", "diagnosis.html", "--force"];
   const result = await runVerb(page, words);
   if (!result) return;
   if (result.code !== DONE) {
-    page.alert(sentencesOf(result).join(" "));
+    page.alert(sentencesAbout(listOf(page), result).join(" "));
     return;
   }
   page.store.derive(result.files);
 }
 
 async function planNext(page, box) {
-  const result = await runVerb(page, ["plan", page.store.view.sheet, "--after", "diagnosis.json", "--machine", "machine.json", "-o", "next.csv", "--force"]);
+  const result = await runVerb(page, ["plan", fittedList(page.store.view), "--after", "diagnosis.json", "--machine", "machine.json", "-o", "next.csv", "--force"]);
   if (!result) return;
   const rows = result.files["next.csv"] ? textOf(result.files["next.csv"]).split("\n").slice(1).filter((line) => line && !line.startsWith("#")) : [];
-  box.replaceChildren(sentenceList(sentencesOf(result)),
-    rows.length > 0 && printed(textOf(result.files["next.csv"]), "Places to measure next"),
-    rows.length > 0 && h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => addRows(page, result.files["next.csv"])},
-      "Add them to the list")));
+  box.replaceChildren(sentenceList(sentencesAbout(listOf(page), result)), ...(rows.length === 0 ? [] : [
+    printed(textOf(result.files["next.csv"]), "Places to measure next"),
+    h("p", {class: "buttons"}, h("button", {type: "button", onclick: () => addRows(page, result.files["next.csv"])}, "Add them to the list")),
+  ]));
 }
 
 /** The new lines in the columns of the list; their numbers go on where the list ends. */
 function addRows(page, bytes) {
-  const path = page.store.view.sheet;
+  const path = fittedList(page.store.view);
   const list = textOf(page.store.folder[path]);
   const lines = list.split("\n").filter((line) => line !== "");
   const columns = lines.find((line) => !line.startsWith("#")).split(",");
@@ -132,7 +137,14 @@ function addRows(page, bytes) {
   const notes = lines.filter((line) => line.startsWith("#"));
   const kept = lines.filter((line) => !line.startsWith("#"));
   page.store.change({[path]: bytesOf(`${[...kept, ...rows, ...notes].join("\n")}\n`)});
-  page.store.show({step: "measure"});
+  page.store.show({step: "measure", sheet: path});
+}
+
+const listOf = (page) => Sheet.of(textOf(page.store.folder[fittedList(page.store.view)]));
+
+async function planCheck(page) {
+  await chooseWay(page, NEW_POINTS);
+  if (page.store.folder[NEW_POINTS]) page.store.show({step: "measure"});
 }
 
 async function exportNumbers(page, box) {

@@ -87,6 +87,24 @@ export class Sheet {
     return {row, column: null};
   }
 
+  /**
+   * The command counts the points that are filled in, a person the rows: where the two differ, the row is said beside the
+   * point's number in a sentence of the command.
+   */
+  withRows(sentence) {
+    if (!this.isOfPoints) return sentence;
+    const beside = (number) => {
+      const row = this.rowOfPoint(Number(number));
+      return row < 0 || row + 1 === Number(number) ? number : `${number} (row ${row + 1})`;
+    };
+    return sentence.replace(/\b[Pp]oints? \d+(?:(?:, | and )\d+)*(?![\d.])/g, (found) => found.replace(/\d+/g, beside));
+  }
+
+  /** Marks, whose rows are points; distances have the names of their holes. */
+  get isOfPoints() {
+    return this.columns[0] !== "from";
+  }
+
   /** The row of the n-th point, from 1, of those that are filled in. */
   rowOfPoint(number) {
     let seen = 0;

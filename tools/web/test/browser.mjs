@@ -4,6 +4,7 @@ import {spawnSync} from "node:child_process";
 import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {dirname, join} from "node:path";
+import {after} from "node:test";
 import {fileURLToPath, pathToFileURL} from "node:url";
 import puppeteer from "puppeteer-core";
 
@@ -21,8 +22,28 @@ const executableOf = (browser) => EXECUTABLES[browser].find((path) => existsSync
 /** The browsers that are installed. */
 export const browsers = Object.keys(EXECUTABLES).filter(executableOf);
 
+/** A browser that was told to close and does not is ended after this. */
+const CLOSING_MS = 10_000;
+
 const folders = [];
 process.on("exit", () => folders.forEach((folder) => rmSync(folder, {recursive: true, force: true})));
+
+/** Browsers that are open. One that is left over would keep node from its end. */
+const open = new Set();
+after(() => Promise.all([...open].map(closed)));
+
+async function closed(browser) {
+  open.delete(browser);
+  let timer = null;
+  const late = new Promise((resolve) => {
+    timer = setTimeout(() => {
+      browser.process()?.kill("SIGKILL");
+      resolve();
+    }, CLOSING_MS);
+  });
+  await Promise.race([browser.close().catch(() => browser.process()?.kill("SIGKILL")), late]);
+  clearTimeout(timer);
+}
 
 /** A folder that is gone with the process. */
 export function temporaryFolder() {
@@ -41,7 +62,7 @@ export function runNative(words, folder) {
 export class Visit {
   problems = [];
 
-  static async to(browserName, {width = 1280, height = 900, dark = false, prepare, url = pathToFileURL(join(built, "chaintrue.html")).href} = {}) {
+  static async to(browserName, {width = 1280, height = 900, dark = false, patience = PATIENCE_MS, prepare, url = pathToFileURL(join(built, "chaintrue.html")).href} = {}) {
     const visit = new Visit();
     visit.downloads = temporaryFolder();
     visit.browser = await puppeteer.launch({
@@ -55,10 +76,11 @@ export class Visit {
         "ui.systemUsesDarkTheme": dark ? 1 : 0, "layout.css.prefers-color-scheme.content-override": dark ? 0 : 1,
       },
     });
+    open.add(visit.browser);
     visit.page = await visit.browser.newPage();
     await visit.page.setViewport({width, height});
     if (browserName === "chrome") await visit.page.emulateMediaFeatures([{name: "prefers-color-scheme", value: dark ? "dark" : "light"}]);
-    visit.page.setDefaultTimeout(PATIENCE_MS);
+    visit.page.setDefaultTimeout(patience);
     visit.page.on("pageerror", (error) => visit.problems.push(error.message));
     visit.page.on("console", (message) => {
       if (message.type() === "error") visit.problems.push(message.text());
@@ -139,7 +161,7 @@ export class Visit {
   }
 
   close() {
-    return this.browser.close();
+    return closed(this.browser);
   }
 }
 

@@ -2,7 +2,7 @@
 // The table of readings, the machine's form, a log in place of them: in Chromium.
 import assert from "node:assert/strict";
 import {after, before, describe, test} from "node:test";
-import {fixture, Visit} from "./browser.mjs";
+import {fixture, runNative, temporaryFolder, Visit, writeFolder} from "./browser.mjs";
 
 describe("typing", () => {
   let visit = null;
@@ -87,6 +87,42 @@ describe("typing", () => {
     await visit.page.select("#way", "holes.csv");
     await visit.page.waitForSelector("svg.bed .distance");
     assert.equal((await visit.values()).length, 20);
+  });
+
+  test("a point that is set aside is named with its row where rows before it are empty", async () => {
+    if (await visit.page.$(".list")) await visit.click("Begin anew");
+    await visit.click("Try an example machine");
+    await visit.text(".said", "the map leaves 0.39 mm");
+    for (const column of [0, 1]) await visit.type(3, column, " ");
+    for (const column of [0, 1]) await visit.type(5, column, " ");
+    await visit.type(10, 1, "-230.5");
+    await visit.text("tr.note", "Point 9 (row 11) at (2, -230) was set aside");
+    assert.equal(await visit.page.$eval('tr[data-row="10"] input', (input) => input.getAttribute("aria-invalid")), "true");
+    await visit.text(".said", "Point 9 (row 11)");
+  });
+
+  test("new points are planned, and say whether the map still holds", async () => {
+    await visit.click("Begin anew");
+    await visit.click("Try an example machine");
+    await visit.text(".said", "the map leaves 0.39 mm");
+    await visit.click("See the map and the causes");
+    await visit.click("Set new points");
+    await visit.page.waitForFunction(() => document.querySelectorAll(".list input").length === 10);
+    const READ = [["-1113", "508"], ["1114", "507"], ["-1113", "254"], ["-1112", "-508"], ["1114", "-508"]];
+    for (const [row, [x, y]] of READ.entries()) {
+      await visit.type(row, 0, x);
+      await visit.type(row, 1, y);
+    }
+    const said = await visit.text(".said", "Measured less map");
+    await visit.click("Download");
+    const {folderOf} = await import("../page/zip.js");
+    const folder = temporaryFolder();
+    writeFolder(folder, folderOf(await visit.downloaded("my-machine.zip")));
+    const {stdout} = runNative(["check", "map.json", "five.csv", "--machine", "machine.json"], folder);
+    assert.match(stdout, /^The map /);
+    assert.ok(said.includes(stdout.split("\n")[0]), `${said} has the verdict ${stdout.split("\n")[0]}`);
+    await visit.page.select("#way", "marks.csv");
+    await visit.text(".said", "the map leaves 0.39 mm");
   });
 
   test("a number of the form that cannot be is said at its field", async () => {

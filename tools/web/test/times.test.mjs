@@ -7,10 +7,15 @@ import {test} from "node:test";
 import {pathToFileURL} from "node:url";
 import {built, fixture, root, runNative, temporaryFolder, Visit} from "./browser.mjs";
 
+/** What takes longer than this is not told: an owner would have closed the page. */
+const PATIENCE_MS = 30_000;
+const MOST_TIMES = 5;
+
 /** The shortest of a few, in seconds: what the work takes where nothing else runs. */
 async function shortest(times, work) {
   let best = Infinity;
-  for (let i = 0; i < times; ++i) {
+  const until = performance.now() + PATIENCE_MS;
+  for (let i = 0; i < times && performance.now() < until; ++i) {
     const begun = performance.now();
     await work();
     best = Math.min(best, (performance.now() - begun) / 1000);
@@ -18,9 +23,7 @@ async function shortest(times, work) {
   return best;
 }
 
-test("times", async (context) => {
-  const say = (what, seconds, beside = "") => context.diagnostic(`${what}: ${seconds.toFixed(2)} s${beside}`);
-
+test("times of the package", async (context) => {
   const {load} = await import(pathToFileURL(join(built, "chaintrue.mjs")).href);
   const chaintrue = await load();
   const folder = temporaryFolder();
@@ -29,28 +32,36 @@ test("times", async (context) => {
   const files = Object.fromEntries(["marks.csv", "machine.json"].map((name) => [name, new Uint8Array(readFileSync(join(folder, name)))]));
   for (const words of [["fit", "marks.csv", "--machine", "machine.json", "-o", "-"],
     ["diagnose", "marks.csv", "--machine", "machine.json", "--noise-length-mm", "0.1", "--noise-position-mm", "0.5", "-o", "-"]]) {
-    const native = await shortest(5, () => runNative(words, folder));
-    const here = await shortest(5, () => chaintrue.run(words, files));
-    say(`${words[0]} of 28 points`, here, `, natively ${native.toFixed(2)} s: ${(here / native).toFixed(1)} times`);
+    const native = await shortest(MOST_TIMES, () => runNative(words, folder));
+    const here = await shortest(MOST_TIMES, () => chaintrue.run(words, files));
+    context.diagnostic(`${words[0]} of 28 points: ${here.toFixed(2)} s, natively ${native.toFixed(2)} s: ${(here / native).toFixed(1)} times`);
   }
+});
 
-  const visit = await Visit.to("chrome");
-  say("from opening the file to usable", await shortest(3, () => visit.reload()));
-  await visit.upload("#settings", fixture("good/groundcontrol_ring.ini"));
-  await visit.cell(0, 0);
-  await visit.click("Download");
-  await visit.downloaded("my-machine.zip");
-  const begun = performance.now();
-  await visit.click("Machine");
-  await visit.click("Try an example machine");
-  await visit.text(".said", "the map leaves");
-  await visit.click("See the map and the causes");
-  await visit.report("The map");
-  say("from the example machine to the drawn report, with two clicks", (performance.now() - begun) / 1000);
-  await visit.click("Cut");
-  const dropped = performance.now();
-  await visit.upload("#program", join(root, "fixtures/gcode/bracket.nc"));
-  await visit.report("bracket.nc before and after");
-  say("from a program dropped to its report", (performance.now() - dropped) / 1000);
-  await visit.close();
+test("times of the page", async (context) => {
+  const say = (what, seconds) => context.diagnostic(`${what}: ${seconds.toFixed(2)} s`);
+  let visit = null;
+  const since = (begun) => (performance.now() - begun) / 1000;
+  try {
+    visit = await Visit.to("chrome", {patience: PATIENCE_MS});
+    say("from opening the file to usable", await shortest(3, () => visit.reload()));
+    let begun = performance.now();
+    await visit.click("Try an example machine");
+    await visit.text(".said", "the map leaves");
+    await visit.click("See the map and the causes");
+    await visit.report("The map");
+    say("from the example machine to the drawn report, with two clicks", since(begun));
+    await visit.click("Cut");
+    for (const what of ["from a program dropped to its report", "the same once more"]) {
+      begun = performance.now();
+      await visit.upload("#program", join(root, "fixtures/gcode/bracket.nc"));
+      await visit.report("bracket.nc before and after");
+      say(what, since(begun));
+      await visit.page.$eval('iframe[title="bracket.nc before and after"]', (frame) => frame.remove());
+    }
+  } catch (problem) {
+    context.diagnostic(`what follows was not reached within ${PATIENCE_MS / 1000} s a step: ${problem.message}`);
+  } finally {
+    await visit?.close();
+  }
 });
