@@ -66,6 +66,7 @@ SimulatedHoles simulate_with_holes(const HolesSimulation& simulation) {
   std::vector<BedPoint> at;
   for (const double y : {-450.0, 0.0, 450.0}) {
     for (const double x : {-1000.0, 0.0, 1000.0}) {
+      if (simulation.few_holes && (x == 0.0) != (y == 0.0)) continue;
       const model::FramePoint meant = model::to_frame(result.holes.machine, {x, y});
       const auto& believed = result.holes.machine.anchors;
       const BedPoint there = result.tool(span(believed.tl, meant.x_mm, meant.y_mm),
@@ -78,7 +79,7 @@ SimulatedHoles simulate_with_holes(const HolesSimulation& simulation) {
   for (std::size_t i = 0; i < at.size(); ++i) {
     for (std::size_t k = i + 1; k < at.size(); ++k) {
       // Neighbours and corners: 24 of 36.
-      if ((i + k) % 3 == 0) continue;
+      if (!simulation.few_holes && (i + k) % 3 == 0) continue;
       set.distances.push_back({.from = i,
                                .to = k,
                                .distance_mm = std::hypot(at[i].x_mm - at[k].x_mm,

@@ -24,6 +24,8 @@ struct HolesSimulation {
   double beside_mm = 0.0;
   double tape_mm = 0.5;
   double hole_mm = 0.3;
+  /// Five holes and their ten distances in place of nine and 24.
+  bool few_holes = false;
   /// One sigma of how far the stated anchors are off.
   double stated_off_mm = 20.0;
 };
