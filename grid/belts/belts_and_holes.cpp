@@ -266,8 +266,10 @@ std::optional<Eigen::Vector3d> sheet_by_edges(const TapedFrame& frame,
   const observation::SheetPrior measured = observation::sheet_measured(first);
   if (!measured.knows_x || !measured.knows_y || !measured.knows_rotation) return std::nullopt;
   const Eigen::MatrixXd c = frame.covariance(state.rows, state.noise, state.counting);
-  return belts::sheet_variance().asDiagonal() *
-         Eigen::Vector3d(state.rows.by_sheet.transpose() * c.llt().solve(state.rows.residual_mm));
+  const auto own = static_cast<Eigen::Index>(first.distances.size());
+  const Eigen::VectorXd weighed = c.llt().solve(state.rows.residual_mm).head(own);
+  const Eigen::Vector3d along = state.rows.by_sheet.topRows(own).transpose() * weighed;
+  return belts::sheet_variance().cwiseProduct(along);
 }
 
 void fill_distances(const TapedFrame& frame,

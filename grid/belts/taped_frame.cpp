@@ -43,7 +43,8 @@ std::optional<TapedRows> TapedFrame::rows(const FrameState& state) const {
   TapedRows all{Eigen::VectorXd(distances),
                 Eigen::MatrixXd(distances, kFrameUnknowns),
                 Eigen::MatrixXd::Zero(distances, 2 * holes),
-                Eigen::MatrixXd::Zero(distances, 3),
+                Eigen::MatrixXd(distances, 2),
+                Eigen::MatrixXd(distances, 3),
                 {}};
   const model::FramePoint centre = model::centre_of(sets_.front().machine);
   const double factor = std::exp(state.log_scale);
@@ -55,7 +56,8 @@ std::optional<TapedRows> TapedFrame::rows(const FrameState& state) const {
     all.by_mark.block(
         row, 2 * static_cast<Eigen::Index>(all.marks.size()), count, part.by_mark.cols()) =
         part.by_mark;
-    if (row == 0) all.by_sheet.topRows(count) = part.by_sheet;
+    all.by_size.middleRows(row, count) = part.by_size;
+    all.by_sheet.middleRows(row, count) = part.by_sheet;
     for (const model::FramePoint& at : part.frame_places)
       all.marks.push_back({factor * (at.x_mm - centre.x_mm), factor * (at.y_mm - centre.y_mm)});
     row += count;
@@ -76,10 +78,8 @@ Eigen::MatrixXd TapedFrame::covariance(const TapedRows& rows,
     HoleRows part;
     part.residual_mm = rows.residual_mm.segment(row, own);
     part.by_mark = rows.by_mark.block(row, 2 * hole, own, 2 * holes);
-    // Of size and sheet nothing changes with the state but in the second order.
-    const auto stated = hole_rows(set, anchors_of(set.machine), 0.0);
-    part.by_size = stated->by_size;
-    part.by_sheet = stated->by_sheet;
+    part.by_size = rows.by_size.middleRows(row, own);
+    part.by_sheet = rows.by_sheet.middleRows(row, own);
     covariance.block(row, row, own, own) = hole_covariance(set, part, noise.factor);
     row += own;
     hole += holes;

@@ -160,9 +160,6 @@ TEST(BeltsAndHoles, TheSheetsEdgesLayTheFrame) {
   }
   const auto laid = fit_belts_and_holes(set.belts, {set.holes});
   ASSERT_TRUE(laid && laid->holes.sheet);
-  std::cout << laid->holes.sheet->transpose() << " factor " << laid->holes.noise_factor << "\n";
-  for (const auto& d : laid->holes.distances)
-    std::cout << d.words << " " << d.off_mm << " " << d.left_out_mm << " " << d.set_aside << "\n";
   const BeltMap map(laid->belts, &laid->holes);
   const BedPoint moved = *map.tool(*unlaid.lengths({100.0, -50.0}));
   // Half a millimetre of sheet's size, which edges read along.
