@@ -112,6 +112,8 @@ struct BeltsFitFailure {
     not_determined,  ///< on a line, or in one spot
     no_frame,        ///< no anchors make sense of the lengths
     hole_without_anchors,
+    too_many_distances,
+    tape_contradicts,  ///< the belts, or itself
   } reason;
   std::string sentence;
 };

@@ -177,7 +177,12 @@ BeltsCandidates candidates(const MeasuredBelts& belts) {
   for (const model::belts::BeltEffect* effect : model::belts::belt_effects()) {
     for (const EffectSide side : effect->sides) {
       const CauseId cause{&model::belts::described(*effect), side};
-      if (effect == &model::belts::belt_scale && side == EffectSide::all) {
+      if (effect == &model::belts::anchor_moved && side == EffectSide::all) {
+        result.not_testable.emplace_back(
+            cause,
+            "a frame that stands elsewhere as a whole, with the places in it, changes no length: "
+            "measure a hole that the machine cut from two edges of the sheet");
+      } else if (effect == &model::belts::belt_scale && side == EffectSide::all) {
         result.not_testable.emplace_back(
             cause,
             belts.distances.empty()

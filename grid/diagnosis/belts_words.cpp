@@ -165,9 +165,6 @@ std::string not_proved(const Diagnosis& d) {
         side_words(*lead.rival),
         lead.rival_collinearity);
   }
-  text +=
-      " Where the frame stands as a whole, and how large it is, no belt sees: a hole that is "
-      "measured from the sheet's edges tells the one, a taped distance the other.";
   return text;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "grid/files/belt_holes_record.hpp"
 #include "grid/files/belts_record.hpp"
 #include "grid/files/schemas.hpp"
 
@@ -234,7 +235,10 @@ const Record<BeltsFit>& fit_record() {
 const Record<FittedAnchors>& anchors_record() {
   static const auto record = Record<FittedAnchors>("a chaintrue_anchors file", kAnchorsFormat)
                                  .sparse("name", &FittedAnchors::name, text())
-                                 .required("fit", &FittedAnchors::fit, object(fit_record()));
+                                 .required("fit", &FittedAnchors::fit, object(fit_record()))
+                                 .optional("holes",
+                                           &FittedAnchors::holes,
+                                           object(holes_beside_belts_record()));
   return record;
 }
 
@@ -244,6 +248,10 @@ Json anchors_schema() { return anchors_record().schema(); }
 
 FittedAnchors parse_anchors(const std::string& text, const std::string& file) {
   return read_document(anchors_record(), text, file);
+}
+
+bool looks_like_anchors(std::string_view text) {
+  return text.find("\"chaintrue_anchors\"") != std::string_view::npos;
 }
 
 std::string write_anchors(const FittedAnchors& anchors) {

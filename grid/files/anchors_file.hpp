@@ -15,7 +15,8 @@
 ///       "scale": {"factor": 0.9991, "sigma": 0.0003, "residuals_mm": [0.2]},
 ///       "bad": [ {"point": 17, "belt": "tl", "off_mm": 80.2} ], "bad_points": [],
 ///       "places": [ {"x_mm": .., "y_mm": .., "covariance_mm2": [xx, xy, yy],
-///                    "tl": {"off_mm": .., "counts": true, "sigmas": .., "beside_mm": ..}, ...} ] } }
+///                    "tl": {"off_mm": .., "counts": true, "sigmas": .., "beside_mm": ..}, ...} ] },
+///       "holes": { what holes that were cut and taped tell beside the belts } }
 ///
 /// `scale` is not there where it is not known. Lengths are in the belts' own millimetres.
 ///
@@ -25,10 +26,13 @@
 /// \endcode
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "grid/belts/belts_fit.hpp"
+#include "grid/belts/belts_and_holes.hpp"
+#include "grid/diagnosis/diagnosis.hpp"
 #include "grid/files/input_error.hpp"
 
 namespace chaintrue::grid::files {
@@ -36,10 +40,13 @@ namespace chaintrue::grid::files {
 struct FittedAnchors {
   std::string name;
   BeltsFit fit;
+  std::optional<HolesBesideBelts> holes = std::nullopt;  ///< where some were fitted beside them
 };
 
 /// `file` is the name used in messages. \throws InputError with every problem.
 [[nodiscard]] FittedAnchors parse_anchors(const std::string& text, const std::string& file);
+/// True for the text of such a file, whole or damaged.
+[[nodiscard]] bool looks_like_anchors(std::string_view text);
 /// \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_anchors(const FittedAnchors& anchors);
 
@@ -49,5 +56,10 @@ struct Maslow4Settings {
   std::vector<std::string> remarks;
 };
 [[nodiscard]] Maslow4Settings write_maslow4_settings(const BeltsFit& fit);
+/// Of a diagnosis of belts: the anchors with its causes beside them, and what of these is a number of
+/// the machine's own. \throws std::invalid_argument for one of chains.
+[[nodiscard]] Maslow4Settings write_maslow4_settings(const diagnosis::Diagnosis& found);
+/// What the machine believes once they are pasted.
+[[nodiscard]] model::BeltMachine machine_as_pasted(const BeltsFit& fit);
 
 }  // namespace chaintrue::grid::files

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 void fetch_machine(StatedHoles& stated, const HolesOptions& options, Problems& problems) {
   if (options.machine) {
     stated.machine = options.machine;
+    stated.belt_machine.reset();
   } else if (!stated.machine_file.empty() && !stated.machine) {
     const fs::path folder = fs::path(problems.file()).parent_path();
     try {
@@ -27,6 +28,7 @@ void fetch_machine(StatedHoles& stated, const HolesOptions& options, Problems& p
       problems.add_all(error);
     }
   }
+  if (stated.belt_machine) return;
   if (!stated.machine && stated.machine_file.empty()) stated.machine = options.otherwise;
 }
 
@@ -41,6 +43,7 @@ ReadHoles finish(StatedHoles stated,
   MeasuredHoles& set = read.holes;
   set.name = std::move(stated.name);
   set.machine = std::move(stated.machine);
+  read.belt_machine = std::move(stated.belt_machine);
   set.tape = stated.tape;
   set.tape.sigma_mm = options.tape_sigma_mm.value_or(set.tape.sigma_mm);
   set.tape.hook_offset_mm = options.hook_offset_mm.value_or(set.tape.hook_offset_mm);
@@ -107,6 +110,11 @@ bool looks_like_holes(std::string_view text) {
   return !header.empty() && (header.front() == "hole" || header.front() == "from");
 }
 
+bool looks_like_holes_of_belts(std::string_view text) {
+  return is_json(text) && looks_like_holes(text) &&
+         text.find("\"anchors\"") != std::string_view::npos;
+}
+
 ReadHoles parse_holes(const std::string& text,
                       const std::string& file,
                       const HolesOptions& options) {
@@ -143,8 +151,10 @@ StatedHoles stated_holes(const MeasuredHoles& set) {
 
 }  // namespace
 
-std::string write_holes(const MeasuredHoles& set) {
-  return write_document(holes_record(), stated_holes(set));
+std::string write_holes(const MeasuredHoles& set, const std::optional<model::BeltMachine>& belts) {
+  StatedHoles stated = stated_holes(set);
+  stated.belt_machine = belts;
+  return write_document(holes_record(), stated);
 }
 
 std::string write_holes_sheet(const MeasuredHoles& plan) {

@@ -4,7 +4,8 @@
 /// bytes.
 ///
 ///     { "file_type": "chaintrue_holes", "format_version": "1.0", "name": "...",
-///       "machine": { a chaintrue_machine } or "machine_file": "path",
+///       "machine": { a chaintrue_machine, or the machine of a chaintrue_belts file with the anchors
+///                    in force when the holes were cut } or "machine_file": "path",
 ///       "tape": {"sigma_mm": 0.5, "hook_offset_mm": 40},
 ///       "hole_sigma_mm": 0.3, "noise_dof": 15,
 ///       "sheet": {"width_mm": 2440, "height_mm": 1220, "size_sigma_mm": 1},
@@ -39,6 +40,7 @@
 
 #include "grid/files/input_error.hpp"
 #include "grid/holes/measured_holes.hpp"
+#include "model/belts/belt_machine.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -57,6 +59,8 @@ struct HolesOptions {
 
 struct ReadHoles {
   MeasuredHoles holes;
+  /// Of a file whose machine hangs on four belts; then the holes have none.
+  std::optional<model::BeltMachine> belt_machine = std::nullopt;
   std::vector<Warning> warnings;
 };
 
@@ -69,9 +73,12 @@ struct ReadHoles {
                                     const std::string& file,
                                     const HolesOptions& options = {});
 /// JSON. \throws std::logic_error where a number is not finite.
-[[nodiscard]] std::string write_holes(const MeasuredHoles& holes);
+[[nodiscard]] std::string write_holes(
+    const MeasuredHoles& holes, const std::optional<model::BeltMachine>& belts = std::nullopt);
 /// A list to fill in, of the same kind: null for every distance.
 [[nodiscard]] std::string write_holes_sheet(const MeasuredHoles& plan);
+/// True where its machine hangs on four belts.
+[[nodiscard]] bool looks_like_holes_of_belts(std::string_view text);
 /// True for the text of a chaintrue_holes file or of such a CSV, whole or damaged.
 [[nodiscard]] bool looks_like_holes(std::string_view text);
 

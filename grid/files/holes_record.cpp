@@ -6,6 +6,7 @@
 #include <functional>
 #include <utility>
 
+#include "grid/files/belts_record.hpp"
 #include "grid/files/machine_record.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/reading_record.hpp"
@@ -119,6 +120,25 @@ void read_list(const Cursor& at,
   }
 }
 
+/// The one that hangs on belts has anchors.
+void read_machine(const Cursor& at, StatedHoles& stated) {
+  if (at.json().is_object() && at.has("anchors")) {
+    stated.belt_machine = belt_machine_record().read(at);
+    if (stated.belt_machine && !stated.belt_machine->anchors_known && at.clean()) {
+      at.child("anchors").expect(
+          "x_mm and y_mm of all four anchors, as they were in force when the holes were cut");
+    }
+  } else {
+    stated.machine = machine_record().read(at);
+  }
+}
+
+std::optional<Json> written_machine(const StatedHoles& stated) {
+  if (stated.belt_machine) return belt_machine_record().write(*stated.belt_machine);
+  if (stated.machine) return machine_record().write(*stated.machine);
+  return std::nullopt;
+}
+
 template <class T>
 std::function<std::optional<Json>(const StatedHoles&)> list_writer(
     const Record<T>& record, std::vector<T> StatedHoles::*member) {
@@ -133,7 +153,16 @@ const Record<StatedHoles>& holes_record() {
   static const auto record =
       Record<StatedHoles>("a set of holes", kHolesFormat)
           .optional("name", &StatedHoles::name, text())
-          .optional("machine", &StatedHoles::machine, object(machine_record()))
+          .custom("machine",
+                  false,
+                  {machine_record().expected().words + ", or one with four belts",
+                   [] {
+                     return Json{{"anyOf",
+                                  {machine_record().expected().schema(),
+                                   belt_machine_record().expected().schema()}}};
+                   }},
+                  read_machine,
+                  written_machine)
           .sparse("machine_file", &StatedHoles::machine_file, text())
           .optional("tape", &StatedHoles::tape, object(tape_record()))
           .optional("hole_sigma_mm", &StatedHoles::hole_sigma_mm, number(kHoleSigmaMm))

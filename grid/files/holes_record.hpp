@@ -12,6 +12,7 @@
 #include "grid/files/holes_checks.hpp"
 #include "grid/files/json_reader.hpp"
 #include "grid/files/ranges.hpp"
+#include "model/belts/belt_machine.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -21,6 +22,7 @@ inline constexpr Range kTapeDistance{"mm", 0.1, 20000.0};
 struct StatedHoles {
   std::string name;
   std::optional<model::Machine> machine;
+  std::optional<model::BeltMachine> belt_machine;  ///< in place of it
   std::string machine_file;
   Tape tape;
   /// The tape says of its hook, 0 if it is 0.

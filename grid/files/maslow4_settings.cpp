@@ -1,48 +1,111 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "grid/files/anchors_file.hpp"
+#include "grid/precondition.hpp"
 
 namespace chaintrue::grid::files {
+namespace {
 
-Maslow4Settings write_maslow4_settings(const BeltsFit& fit) {
-  Maslow4Settings result;
-  for (const model::Belt belt : model::kBelts) {
-    const model::Anchor& anchor = fit.machine.anchors[belt];
-    for (const auto& [axis, value] : {std::pair{'X', anchor.x_mm}, std::pair{'Y', anchor.y_mm}}) {
-      fmt::format_to(std::back_inserter(result.text),
-                     "$/kinematics/MaslowKinematics/{}{}={:.2f}\n",
-                     name(belt),
-                     axis,
-                     value);
-    }
-  }
-  if (!fit.scale) {
-    result.remarks.emplace_back(
+using diagnosis::Cause;
+using diagnosis::Diagnosis;
+using diagnosis::Verdict;
+using model::BeltMachine;
+
+/// Commands are multiplied by it, and then paid out in the belts' own millimetres.
+double scale_of(const BeltScale& scale) { return 1.0 / scale.factor; }
+
+bool is_in_force(const BeltMachine& machine, const BeltScale& scale) {
+  constexpr double kSeenSigmas = 2.0;
+  const double seen = kSeenSigmas * scale.sigma;
+  return std::abs(machine.scale_x - scale_of(scale)) < seen &&
+         std::abs(machine.scale_y - scale_of(scale)) < seen;
+}
+
+void add_line(Maslow4Settings& settings, model::Belt belt, char axis, double value) {
+  fmt::format_to(std::back_inserter(settings.text),
+                 "$/kinematics/MaslowKinematics/{}{}={:.2f}\n",
+                 name(belt),
+                 axis,
+                 value);
+}
+
+void add_scale(const BeltMachine& machine,
+               const std::optional<BeltScale>& found,
+               Maslow4Settings& settings) {
+  if (!found) {
+    settings.remarks.emplace_back(
         "Maslow_Scale_X and Maslow_Scale_Y stay as they are: no distance was taped, so nothing is "
         "known of the scale.");
-    return result;
+    return;
   }
-  // Commands are multiplied by them, and then paid out in the belts' own millimetres.
-  const double scale = 1.0 / fit.scale->factor;
-  constexpr double kSeenSigmas = 2.0;
-  const bool is_in_force = std::abs(fit.machine.scale_x - scale) < kSeenSigmas * fit.scale->sigma &&
-                           std::abs(fit.machine.scale_y - scale) < kSeenSigmas * fit.scale->sigma;
-  if (is_in_force) {
-    result.remarks.push_back(
+  const double scale = scale_of(*found);
+  if (is_in_force(machine, *found)) {
+    settings.remarks.push_back(
         fmt::format("Maslow_Scale_X and Maslow_Scale_Y stay as they are: the tape asks for {:.5f}, "
                     "give or take {:.5f}, and that is in force.",
                     scale,
-                    fit.scale->sigma));
-    return result;
+                    found->sigma));
+    return;
   }
   for (const char axis : {'X', 'Y'}) {
-    fmt::format_to(std::back_inserter(result.text), "$/Maslow_Scale_{}={:.5f}\n", axis, scale);
+    fmt::format_to(std::back_inserter(settings.text), "$/Maslow_Scale_{}={:.5f}\n", axis, scale);
   }
-  return result;
+}
+
+Maslow4Settings anchors_of(const BeltMachine& machine) {
+  Maslow4Settings settings;
+  for (const model::Belt belt : model::kBelts) {
+    add_line(settings, belt, 'X', machine.anchors[belt].x_mm);
+    add_line(settings, belt, 'Y', machine.anchors[belt].y_mm);
+  }
+  return settings;
+}
+
+/// A height is a number of the machine's; what else acts no number takes out.
+void add_cause(const Cause& cause, const BeltMachine& machine, Maslow4Settings& settings) {
+  const auto belt = model::belt_of(name(cause.cause.side));
+  if (cause.cause.effect->id == "anchor_height" && belt && !cause.parameters.empty()) {
+    add_line(settings, *belt, 'Z', machine.anchors[*belt].z_mm + cause.parameters.front().value);
+    return;
+  }
+  settings.remarks.push_back(fmt::format("No number to paste takes this out: {}. {}.",
+                                         cause.cause.effect->cause,
+                                         cause.cause.effect->remedy));
+}
+
+}  // namespace
+
+BeltMachine machine_as_pasted(const BeltsFit& fit) {
+  BeltMachine machine = fit.machine;
+  if (fit.scale && !is_in_force(machine, *fit.scale))
+    machine.scale_x = machine.scale_y = scale_of(*fit.scale);
+  return machine;
+}
+
+Maslow4Settings write_maslow4_settings(const BeltsFit& fit) {
+  Maslow4Settings settings = anchors_of(fit.machine);
+  add_scale(fit.machine, fit.scale, settings);
+  return settings;
+}
+
+Maslow4Settings write_maslow4_settings(const Diagnosis& found) {
+  if (!found.belts) throw precondition("settings of four belts from a diagnosis of none");
+  const BeltMachine& machine = found.belts->machine;
+  Maslow4Settings settings = anchors_of(machine);
+  if (found.verdict == Verdict::named || found.verdict == Verdict::several_causes) {
+    for (const Cause& cause : found.causes) add_cause(cause, machine, settings);
+  } else if (found.verdict == Verdict::named_set) {
+    settings.remarks.emplace_back(
+        "Which of several causes acts is not decided; the anchors are those beside the likeliest. "
+        "Decide it first: the diagnosis says what would.");
+  }
+  add_scale(machine, found.belts->scale, settings);
+  return settings;
 }
 
 }  // namespace chaintrue::grid::files

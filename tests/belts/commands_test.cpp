@@ -79,6 +79,29 @@ TEST_F(BeltCommands, ATapedDistanceChangesTheScalesToPaste) {
   EXPECT_THAT(same.err, HasSubstr("that is in force"));
 }
 
+TEST_F(BeltCommands, ADiagnosisHasItsAnchorsToPasteAndSaysWhatNoNumberTakesOut) {
+  ASSERT_EQ(run("simulate --belts " + belts_ +
+                " --grid 9x9 --effect belt_stretch:-:elongation=0.006 --length-noise-mm 0.3 --seed 5 "
+                "-o pulled.json")
+                .code,
+            0);
+  ASSERT_EQ(run("diagnose pulled.json -o pulled_diagnosis.json").code, 0);
+  const Outcome pulled = run("export maslow4 pulled_diagnosis.json");
+  ASSERT_EQ(pulled.code, 0) << pulled.err;
+  EXPECT_THAT(pulled.out, StartsWith("$/kinematics/MaslowKinematics/tlX="));
+  EXPECT_THAT(pulled.err, HasSubstr("No number to paste takes this out: belts, anchors or arms"));
+  ASSERT_EQ(run("simulate --belts " + belts_ +
+                " --grid 9x9 --effect anchor_height:tr:offset_mm=90 --length-noise-mm 0.1 --seed 6 "
+                "-o high.json")
+                .code,
+            0);
+  ASSERT_EQ(run("diagnose high.json -o high_diagnosis.json").code, 0);
+  EXPECT_THAT(run("export maslow4 high_diagnosis.json").out,
+              HasSubstr("$/kinematics/MaslowKinematics/trZ=1"));  // 56 and some 90 mm
+  const Outcome chains = run("export maslow4 " + fixtures_ + "/good/diagnosis_every_key.json");
+  EXPECT_EQ(chains.code, 3);
+}
+
 TEST_F(BeltCommands, ABadReadingIsNamedInTurnsOfTheEncoder) {
   grid::SimulatedBelts set = grid::simulate({.seed = 8});
   set.belts.points[17].lengths_mm.tr += 2.0 * 43.975;
@@ -107,7 +130,9 @@ TEST_F(BeltCommands, BadInputWritesNothing) {
   EXPECT_EQ(run("import maslow4 " + log_ + " --lengths cubits -o belts.json").code, 2);
   EXPECT_FALSE(exists("belts.json"));
   EXPECT_EQ(run("fit " + belts_ + " --surface direct -o anchors.json").code, 2);
-  EXPECT_EQ(run("fit " + belts_ + " --with " + belts_ + " -o anchors.json").code, 2);
+  const Outcome twice = run("fit " + belts_ + " --with " + belts_ + " -o anchors.json");
+  EXPECT_EQ(twice.code, 3);
+  EXPECT_THAT(twice.err, HasSubstr("anchors of two sessions are two fits"));
   EXPECT_FALSE(exists("anchors.json"));
   const Outcome wrong = run("export maslow4 " + fixtures_ + "/machines/classic.json");
   EXPECT_EQ(wrong.code, 3);

@@ -138,8 +138,54 @@ std::string scale_in_words(const MeasuredBelts& belts, const BeltsFit& fit) {
 }  // namespace
 
 std::string belts_fit_in_words(const MeasuredBelts& belts, const BeltsFit& fit) {
+  if (fit.places.empty()) return anchors_in_a_table(fit) + scale_in_words(belts, fit);
   return spread_in_words(belts, fit) + anchors_in_a_table(fit) + foretold_in_words(fit) +
          bad_readings_in_words(fit) + scale_in_words(belts, fit);
+}
+
+std::string holes_beside_belts_in_words(const grid::HolesBesideBelts& holes) {
+  std::string text = fmt::format(
+      "Holes: {} distances, each foretold by all others to {:.2f} mm rms; tape and holes err {:.2g} "
+      "times what was stated.\n",
+      holes.distances.size(),
+      holes.left_out_rms_mm,
+      holes.noise_factor);
+  for (const auto& distance : holes.distances) {
+    if (!distance.set_aside) continue;
+    fmt::format_to(std::back_inserter(text),
+                   "Set aside: the distance {}, taped {:.1f} mm {} than all others make it; tape it "
+                   "again.\n",
+                   distance.words,
+                   std::abs(distance.left_out_mm),
+                   distance.left_out_mm > 0.0 ? "longer" : "shorter");
+  }
+  if (!holes.displacement)
+    return text + "No bend of the tool's place over the sheet is left that the holes could show.\n";
+  double largest = 0.0;
+  const auto& at = holes.displacement->at_mm;
+  for (Eigen::Index i = 0; i + 1 < at.size(); i += 2)
+    largest = std::max(largest, std::hypot(at[i], at[i + 1]));
+  return text + fmt::format(
+                    "Beside its upper two belts the tool lies up to {:.1f} mm off, changing over "
+                    "some {:.0f} mm of the sheet: gcode compensate takes that out, no number to "
+                    "paste does.\n",
+                    largest,
+                    holes.displacement->reach_mm);
+}
+
+std::string taped_in_a_table(const grid::HolesBesideBelts& holes) {
+  std::string text = "\nDistance          taped   off, mm   left out   sigma\n";
+  for (const auto& distance : holes.distances) {
+    fmt::format_to(std::back_inserter(text),
+                   "  {:<14}{:>8.1f}{:>+10.2f}{:>+11.2f}{:>8.2f}{}\n",
+                   distance.words,
+                   distance.measured_mm,
+                   distance.off_mm,
+                   distance.left_out_mm,
+                   distance.left_out_sigma_mm,
+                   distance.set_aside ? " *" : "");
+  }
+  return text;
 }
 
 std::string places_in_a_table(const BeltsFit& fit) {

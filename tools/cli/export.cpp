@@ -111,10 +111,27 @@ int export_groundcontrol(const ExportCommand& command) {
   return kDone;
 }
 
+/// Of a fit of belts, or of a diagnosis of them.
+files::Maslow4Settings maslow4_settings_of(const std::string& path) {
+  const std::string text = files::read_whole_file(path);
+  const std::string file = files::name_in_messages(path);
+  if (files::file_type_of(text, file) != "chaintrue_diagnosis")
+    return files::write_maslow4_settings(files::parse_anchors(text, file).fit);
+  std::vector<files::Warning> warnings;
+  const auto found = files::parse_diagnosis(text, file, &warnings);
+  print_warnings(warnings);
+  if (!found.belts) {
+    throw files::InputError(
+        {{file,
+          "/observations",
+          "a diagnosis of a machine on chains",
+          "one of four belts; of chains export groundcontrol has the numbers"}});
+  }
+  return files::write_maslow4_settings(found);
+}
+
 int export_maslow4(const ExportCommand& command) {
-  const files::FittedAnchors found = files::parse_anchors(files::read_whole_file(command.input),
-                                                          files::name_in_messages(command.input));
-  const files::Maslow4Settings settings = files::write_maslow4_settings(found.fit);
+  const files::Maslow4Settings settings = maslow4_settings_of(command.input);
   write_output(command.output, settings.text);
   for (const std::string& remark : settings.remarks) fmt::print(stderr, "{}\n", remark);
   return kDone;
@@ -123,7 +140,10 @@ int export_maslow4(const ExportCommand& command) {
 void add_maslow4(Verb verb, Run& run) {
   auto command = std::make_shared<ExportCommand>();
   Verb maslow4 = verb.add_verb("maslow4", "The lines to paste into a Maslow 4's terminal");
-  add_input(maslow4, "file", command->input, "A chaintrue_anchors file, as fit makes it")
+  add_input(maslow4,
+            "file",
+            command->input,
+            "A chaintrue_anchors file, as fit makes it, or a diagnosis of belts")
       .required();
   add_output(maslow4,
              "-o,--output",

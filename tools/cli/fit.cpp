@@ -3,9 +3,11 @@
 /// chaintrue fit: measured points become a compensation map, and the fit is told in words.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -168,25 +170,28 @@ grid::Measured read_all(const FitCommand& command) {
   return measured;
 }
 
-/// Four belts have anchors for an answer, and no map.
-int fit_belts_alone(const FitCommand& command) {
-  if (!command.with.empty() || !command.input.machine.empty() || command.surface != "residual") {
-    fmt::print(
-        stderr,
-        "chaintrue fit: belts are fitted by themselves, to the machine in their own file: leave "
-        "--with, --machine and --surface out\n");
+/// Four belts have anchors for an answer.
+std::optional<int> fit_four_belts(const FitCommand& command) {
+  std::vector<BeltsFitCommand::File> read = {
+      {*command.input.text, grid::files::name_in_messages(command.input.grid)}};
+  for (const std::string& name : command.with)
+    read.push_back({grid::files::read_whole_file(name), grid::files::name_in_messages(name)});
+  const bool any = std::any_of(
+      read.begin(), read.end(), [](const auto& file) { return is_of_four_belts(file.text); });
+  if (!any) return std::nullopt;
+  if (!command.input.machine.empty() || command.surface != "residual") {
+    fmt::print(stderr,
+               "chaintrue fit: belts are fitted to the machine in their own file: leave --machine "
+               "and --surface out\n");
     return kUsage;
   }
-  return fit_the_belts({*command.input.text,
-                        grid::files::name_in_messages(command.input.grid),
-                        command.output,
-                        command.verbose,
-                        command.json});
+  return fit_the_belts(
+      {std::move(read), command.tape, command.output, command.verbose, command.json});
 }
 
 int run_fit(FitCommand command) {
   command.input.text = grid::files::read_whole_file(command.input.grid);
-  if (grid::files::looks_like_belts(*command.input.text)) return fit_belts_alone(command);
+  if (const auto code = fit_four_belts(command)) return *code;
   if (command.surface == "direct" && !command.with.empty()) {
     fmt::print(stderr,
                "chaintrue fit: a direct surface is of one grid alone: leave --surface or --with "
@@ -224,8 +229,8 @@ void add_fit(Verb app, Run& run) {
   add_input(verb,
             "--with",
             command->with,
-            "More files of the same machine, grids or chaintrue_holes: all are fitted at once, "
-            "in the frame of the first");
+            "More files of the same machine, grids or chaintrue_holes, beside belts holes: all are "
+            "fitted at once, in the frame of the first");
   add_output(verb,
              "-o,--output",
              command->output,

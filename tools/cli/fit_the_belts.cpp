@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <optional>
 #include <vector>
 
-#include "grid/belts/belts_fit.hpp"
+#include "grid/belts/belts_and_holes.hpp"
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
+#include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/belts_words.hpp"
 #include "tools/cli/places.hpp"
@@ -20,20 +22,101 @@ namespace chaintrue::cli {
 
 namespace files = grid::files;
 
-int fit_the_belts(const BeltsFitCommand& command) {
-  const files::ReadBelts read = files::parse_belts(command.text, command.file);
+namespace {
+
+/// What was measured of one machine on four belts.
+struct BeltFiles {
+  std::optional<grid::MeasuredBelts> belts;
+  std::vector<grid::BeltHoles> holes;
+};
+
+void read_belts_file(const BeltsFitCommand::File& file, BeltFiles& all) {
+  if (all.belts) {
+    throw files::InputError({{file.name,
+                              "",
+                              "a second file of belts",
+                              "one file of belts and any number of chaintrue_holes: anchors of two "
+                              "sessions are two fits"}});
+  }
+  files::ReadBelts read = files::parse_belts(file.text, file.name);
   print_warnings(read.warnings);
-  const auto fit = grid::fit_belts(read.belts);
-  if (!fit) {
-    fmt::print(stderr, "{}: {}\n", command.file, fit.error().sentence);
+  all.belts = std::move(read.belts);
+}
+
+void read_holes_file(const BeltsFitCommand::File& file, const TapeInput& tape, BeltFiles& all) {
+  if (!files::looks_like_holes(file.text)) {
+    throw files::InputError({{file.name,
+                              "",
+                              "",
+                              "a chaintrue_belts or a chaintrue_holes file: beside four belts "
+                              "nothing else was measured of one machine"}});
+  }
+  files::ReadHoles read = files::parse_holes(file.text, file.name, holes_options(tape));
+  print_warnings(read.warnings);
+  if (!read.belt_machine && all.belts && all.belts->machine.anchors_known && !read.holes.machine)
+    read.belt_machine = all.belts->machine;
+  if (!read.belt_machine) {
+    throw files::InputError({{file.name,
+                              "/machine",
+                              read.holes.machine ? "a machine on two chains" : "",
+                              "the machine on four belts that cut the holes, with x_mm and y_mm of "
+                              "the anchors in force at the time"}});
+  }
+  all.holes.push_back({*std::move(read.belt_machine), std::move(read.holes)});
+}
+
+/// Belts first, whatever their place: holes may go by their machine.
+BeltFiles read_all(const BeltsFitCommand& command) {
+  BeltFiles all;
+  for (const auto& file : command.files) {
+    if (files::looks_like_belts(file.text)) read_belts_file(file, all);
+  }
+  for (const auto& file : command.files) {
+    if (!files::looks_like_belts(file.text)) read_holes_file(file, command.tape, all);
+  }
+  return all;
+}
+
+tl::expected<files::FittedAnchors, grid::BeltsFitFailure> fitted(const BeltFiles& all) {
+  if (all.holes.empty()) {
+    return grid::fit_belts(*all.belts).map([&](grid::BeltsFit fit) {
+      return files::FittedAnchors{all.belts->name, std::move(fit)};
+    });
+  }
+  grid::MeasuredBelts belts;
+  belts.machine = all.holes.front().machine;
+  belts.name = all.holes.front().set.name;
+  if (all.belts) belts = *all.belts;
+  return grid::fit_belts_and_holes(belts, all.holes).map([&](grid::BeltsAndHolesFit fit) {
+    return files::FittedAnchors{belts.name, std::move(fit.belts), std::move(fit.holes)};
+  });
+}
+
+}  // namespace
+
+bool is_of_four_belts(const std::string& text) {
+  return files::looks_like_belts(text) || files::looks_like_holes_of_belts(text);
+}
+
+int fit_the_belts(const BeltsFitCommand& command) {
+  const BeltFiles all = read_all(command);
+  const auto found = fitted(all);
+  if (!found) {
+    fmt::print(stderr, "{}: {}\n", command.files.front().name, found.error().sentence);
     return kBadInput;
   }
-  const std::string text = files::write_anchors({read.belts.name, *fit});
+  const std::string text = files::write_anchors(*found);
   std::vector<files::OutputFile> outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", text});
   write_outputs(outputs);
-  fmt::print(stderr, "{}", belts_fit_in_words(read.belts, *fit));
-  if (command.verbose) fmt::print(stderr, "{}", places_in_a_table(*fit));
+  fmt::print(stderr,
+             "{}",
+             belts_fit_in_words(all.belts.value_or(grid::MeasuredBelts{}), found->fit));
+  if (found->holes) fmt::print(stderr, "{}", holes_beside_belts_in_words(*found->holes));
+  if (command.verbose) {
+    if (all.belts) fmt::print(stderr, "{}", places_in_a_table(found->fit));
+    if (found->holes) fmt::print(stderr, "{}", taped_in_a_table(*found->holes));
+  }
   say_next({"export", "maslow4", command.output});
   return kDone;
 }

@@ -1,19 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue fit of a chaintrue_belts file.
+/// chaintrue fit of a chaintrue_belts file, of holes that a machine on four belts cut, or of both.
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "tools/cli/grid_input.hpp"
 
 namespace chaintrue::cli {
 
 struct BeltsFitCommand {
-  std::string text;
-  std::string file;  ///< in messages
+  /// The chaintrue_belts file, and the holes that join it; or holes alone.
+  struct File {
+    std::string text;
+    std::string name;  ///< in messages
+  };
+  std::vector<File> files;
+  TapeInput tape;
   std::string output;
   bool verbose = false;
   bool json = false;
 };
+/// True for files of such a machine.
+[[nodiscard]] bool is_of_four_belts(const std::string& text);
 /// Anchors go to their file, the words to standard error. An exit code.
 [[nodiscard]] int fit_the_belts(const BeltsFitCommand& command);
 

@@ -14,13 +14,16 @@
 #include <fstream>
 #include <system_error>
 
+#include "grid/files/anchors_file.hpp"
 #include "grid/files/file_identity.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/parse_double.hpp"
 #include "grid/files/whole_file.hpp"
+#include "model/belts/belt_controller.hpp"
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/gcode/belt_target.hpp"
 #include "tools/gcode/file_hash.hpp"
 
 namespace chaintrue::cli {
@@ -85,6 +88,42 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options) {
   gcode::FileHash hash;
   hash.add(text);
   map_hash_ = hash.text();
+  grid::files::looks_like_anchors(text) ? take_belts(options, text) : take_map(options, text);
+}
+
+void GcodeMachine::take_belts(const GcodeOptions& options, const std::string& text) {
+  const std::string file = grid::files::name_in_messages(options.map);
+  const grid::files::FittedAnchors found = grid::files::parse_anchors(text, file);
+  OptionProblems problems;
+  if (!options.controller.empty()) {
+    problems.add("--controller",
+                 options.controller,
+                 "to be left out: anchors of four belts are of a Maslow 4");
+  }
+  const grid::HolesBesideBelts* holes = found.holes ? &*found.holes : nullptr;
+  if (holes == nullptr && !found.fit.coordinates.front().stated_mm) {
+    problems.add("--map",
+                 options.map,
+                 "anchors fitted to a file that states those in force: where commands count from "
+                 "follows from them (import maslow4 --settings maslow.yaml)");
+  }
+  problems.throw_if_any();
+  grid::BeltMap map(found.fit, holes);
+  const model::BeltMachine believed =
+      options.machine.empty() ? map.in_force() : read_belt_machine_input(options.machine);
+  if (!found.fit.scale) {
+    fmt::print(stderr,
+               "The scale is not known: parts come out as true as a turn of the encoder is {:g} mm "
+               "of belt. One long taped distance, or holes, tells it.\n",
+               found.fit.machine.belt_turn_mm);
+  }
+  target_ = std::make_unique<gcode::BeltTarget>(std::move(map));
+  kinematics_ = std::make_unique<const model::BeltController>(believed);
+  corrector_ = std::make_unique<gcode::Corrector>(
+      *target_, *kinematics_, gcode::firmware_of_four_belts());
+}
+
+void GcodeMachine::take_map(const GcodeOptions& options, const std::string& text) {
   map_ = std::make_unique<grid::CompensationMap>(
       parse_map_input(text, grid::files::name_in_messages(options.map)));
   target_ = std::make_unique<gcode::CompensationTarget>(

@@ -57,7 +57,7 @@ class GcodeMachine {
   /// \throws InputError for bad files, or where neither map nor --machine says what the controller
   /// believes.
   explicit GcodeMachine(const GcodeOptions& options);
-  [[nodiscard]] const gcode::CompensationTarget& target() const { return *target_; }
+  [[nodiscard]] const gcode::TargetMap& target() const { return *target_; }
   [[nodiscard]] const gcode::Corrector& corrector() const { return *corrector_; }
   [[nodiscard]] const model::Machine& machine() const { return machine_; }
   [[nodiscard]] const std::string& map_hash() const { return map_hash_; }
@@ -65,8 +65,12 @@ class GcodeMachine {
   [[nodiscard]] model::ChainLengths half_play_mm() const { return half_play_mm_; }
 
  private:
+  void take_map(const GcodeOptions& options, const std::string& text);
+  /// Of a fit of four belts, with the anchors that its controller goes by.
+  void take_belts(const GcodeOptions& options, const std::string& text);
+
   std::unique_ptr<grid::CompensationMap> map_;
-  std::unique_ptr<gcode::CompensationTarget> target_;
+  std::unique_ptr<gcode::TargetMap> target_;
   model::Machine machine_;
   std::unique_ptr<const model::ControllerKinematics> kinematics_;
   std::unique_ptr<gcode::Corrector> corrector_;

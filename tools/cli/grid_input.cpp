@@ -71,6 +71,20 @@ void check_tape(const TapeInput& tape) {
   problems.throw_if_any();
 }
 
+}  // namespace
+
+files::HolesOptions holes_options(const TapeInput& tape) {
+  check_tape(tape);
+  files::HolesOptions options;
+  options.tape_sigma_mm = tape.sigma_mm;
+  options.hook_offset_mm = tape.hook_offset_mm;
+  options.hook_sigma_mm = tape.hook_sigma_mm;
+  options.hole_sigma_mm = tape.hole_sigma_mm;
+  return options;
+}
+
+namespace {
+
 std::optional<model::Machine> machine_of(const GridInput& input) {
   if (input.machine.empty()) return std::nullopt;
   return read_machine_input(input.machine);
@@ -120,16 +134,18 @@ std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(
     if (use == MeasuredUse::check) options.fewest_points = 1;
     return grid_of(text, input, std::move(options));
   }
-  check_tape(tape);
-  files::HolesOptions options;
+  files::HolesOptions options = holes_options(tape);
   options.machine = machine_of(input);
   if (otherwise != nullptr) options.otherwise = *otherwise;
-  options.tape_sigma_mm = tape.sigma_mm;
-  options.hook_offset_mm = tape.hook_offset_mm;
-  options.hook_sigma_mm = tape.hook_sigma_mm;
-  options.hole_sigma_mm = tape.hole_sigma_mm;
   if (use == MeasuredUse::check) options.fewest_distances = 1;
   files::ReadHoles read = files::parse_holes(text, files::name_in_messages(input.grid), options);
+  if (read.belt_machine) {
+    throw files::InputError({{files::name_in_messages(input.grid),
+                              "/machine",
+                              "a machine on four belts",
+                              "holes that a machine on two chains cut; those of four belts go into "
+                              "one fit with its lengths: chaintrue fit belts.json --with FILE"}});
+  }
   print_warnings(read.warnings);
   return std::move(read.holes);
 }

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "grid/files/holes_file.hpp"
 #include "grid/measured.hpp"
 #include "tools/cli/arguments.hpp"
 
@@ -40,6 +41,9 @@ void add_grid_options(Verb verb, GridInput& input);
 
 /// Adds --tape-sigma-mm, --hook-offset-mm, --hook-sigma-mm and --hole-sigma-mm to a verb.
 void add_tape_options(Verb verb, TapeInput& input);
+
+/// What reading holes goes by of that. \throws files::InputError.
+[[nodiscard]] grid::files::HolesOptions holes_options(const TapeInput& tape);
 
 /// Enough for a fit, or for a check of what a map says.
 enum class MeasuredUse { fit, check };

@@ -4,7 +4,10 @@
 #include <set>
 #include <utility>
 
+#include "grid/files/anchors_file.hpp"
+#include "grid/files/belts_file.hpp"
 #include "grid/files/machine_file.hpp"
+#include "grid/files/whole_file.hpp"
 #include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
@@ -14,6 +17,19 @@ model::Machine read_machine_input(const std::string& path) {
   grid::files::ReadMachine read = grid::files::read_machine_with_warnings(path);
   if (told.insert(path).second) print_warnings(read.warnings);
   return std::move(read.machine);
+}
+
+model::BeltMachine read_belt_machine_input(const std::string& path) {
+  const std::string text = grid::files::read_whole_file(path);
+  const std::string file = grid::files::name_in_messages(path);
+  if (grid::files::looks_like_anchors(text))
+    return grid::files::machine_as_pasted(grid::files::parse_anchors(text, file).fit);
+  model::BeltMachine machine = grid::files::parse_belts(text, file).belts.machine;
+  if (!machine.anchors_known) {
+    throw grid::files::InputError(
+        {{file, "/machine/anchors", "", "x_mm and y_mm of all four anchors that are in force"}});
+  }
+  return machine;
 }
 
 }  // namespace chaintrue::cli

@@ -38,6 +38,16 @@ constexpr Firmware kFirmwares[] = {
      .phantom_moves = true},
 };
 
+constexpr Firmware kFourBelts{.kind = model::ControllerKind::fluidnc_wallplotter,
+                              .name = "maslow4",
+                              .single_precision = true,
+                              .chain_linear_piece_mm = 5.0,
+                              .pieces_at_most = true,
+                              .planned_moves = 16,
+                              .acceleration_mm_per_s2 = 25.0,
+                              .unknown = kStops,
+                              .arcs = ArcRule::grbl};
+
 constexpr int kMaslowG[] = {0, 10, 20, 30, 40, 100, 200, 210, 380, 400, 900, 910};
 constexpr int kMaslowM[] = {0, 10, 20, 30, 40, 50, 60, 300, 1060, 1070};
 constexpr int kFluidNcG[] = {0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 210, 280, 281, 300,
@@ -57,6 +67,13 @@ const Firmware& firmware(model::ControllerKind kind) {
   return *std::find_if(std::begin(kFirmwares),
                        std::end(kFirmwares) - 1,
                        [&](const Firmware& candidate) { return candidate.kind == kind; });
+}
+
+const Firmware& firmware_of_four_belts() { return kFourBelts; }
+
+double pieces_of(const Firmware& firmware, double length_mm) {
+  const double pieces = length_mm / firmware.chain_linear_piece_mm;
+  return std::max(1.0, firmware.pieces_at_most ? std::ceil(pieces) : std::floor(pieces));
 }
 
 int taken_for(const Firmware& firmware, char letter, int tenths) {
@@ -90,8 +107,7 @@ CommandWay::CommandWay(const Firmware& firmware,
     : firmware_(firmware), kinematics_(kinematics), from_(from), to_(to) {
   if (firmware.chain_linear_piece_mm == 0.0) return;
   const double length = std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm) - doubt_mm;
-  pieces_ =
-      static_cast<int>(std::clamp(std::floor(length / firmware.chain_linear_piece_mm), 1.0, 1e6));
+  pieces_ = static_cast<int>(std::min(pieces_of(firmware, length), 1e6));
 }
 
 std::optional<model::BedPoint> CommandWay::at(double t) {

@@ -19,6 +19,10 @@
 ///                        sent to the motors as if x and y were chain lengths. GCode.cpp,
 ///                        gc_execute_line: the codes, Error.h: 20. Machine/MachineConfig.h:
 ///                        arc_tolerance 0.002 mm, planner_blocks 16. Machine/Axis.h: 25 mm/s^2.
+///   maslow4              MaslowCNC/Maslow_4, FluidNC/src. Kinematics/MaslowKinematics.cpp,
+///                        cartesian_to_motors: pieces of at most maxSegmentLength (5 mm by default),
+///                        belts linear within a piece; a move of no length stays where it is. The
+///                        rest is FluidNC's. Its axes' accelerations are a machine's own settings.
 ///
 /// Arcs: firmware_arc.hpp.
 #pragma once
@@ -42,6 +46,8 @@ struct Firmware {
   /// Chain lengths run linearly through pieces of about this length; 0: the commanded line is
   /// followed.
   double chain_linear_piece_mm = 0.0;
+  /// At most of that length; otherwise at least.
+  bool pieces_at_most = false;
   /// Targets beyond half the believed bed are clamped without a word.
   bool clamps_to_bed = false;
   /// Knows G43 H. The others pass over it, or stop there.
@@ -57,6 +63,12 @@ struct Firmware {
 };
 
 [[nodiscard]] const Firmware& firmware(model::ControllerKind kind);
+/// Of a Maslow 4. Its kind is that of the FluidNC that it is built on, whose codes it has; its
+/// kinematics are model/belts/belt_controller.hpp.
+[[nodiscard]] const Firmware& firmware_of_four_belts();
+
+/// Into how many pieces, linear in chain length, it cuts a command of that length.
+[[nodiscard]] double pieces_of(const Firmware& firmware, double length_mm);
 
 /// The code that it takes a code for ('G' or 'M', in tenths: G38.2 is 382).
 [[nodiscard]] int taken_for(const Firmware& firmware, char letter, int tenths);

@@ -121,14 +121,13 @@ Result<bool> SimulatedMachine::straight(Point from,
   return visit(*where, to);
 }
 
-/// FluidNC's WallPlotter: whole pieces of about its segment_length, summed up in single precision.
+/// FluidNC: whole pieces of about its segment length, summed up in single precision.
 Result<bool> SimulatedMachine::chain_linear(Point from,
                                             Point to,
                                             std::size_t line,
                                             const Visit& visit) {
   const double length = xy_distance(from, to);
-  const double pieces =
-      std::max(1.0, std::floor(length / corrector_.firmware().chain_linear_piece_mm));
+  const double pieces = pieces_of(corrector_.firmware(), length);
   const Point step{(to.x_mm - from.x_mm) / pieces,
                    (to.y_mm - from.y_mm) / pieces,
                    (to.z_mm - from.z_mm) / pieces};

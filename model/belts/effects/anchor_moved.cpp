@@ -6,6 +6,8 @@
 ///   m  first visit after it
 ///
 ///   anchor += d (cos a, sin a) for n >= m                                                   (1)
+///
+/// All four alike: the frame moved as a whole, which no length shows.
 #include <cmath>
 
 #include "model/belts/effects/belt_effect.hpp"
@@ -47,7 +49,7 @@ void alter(Anchor& anchor, const BeltVisit& visit, Values values) {
 
 extern constinit const BeltEffect anchor_moved{
     .id = "anchor_moved",
-    .sides = kOneBelt,
+    .sides = kOneBeltOrAll,
     .parameters = kParameters,
     .cause = "an anchor slipped or its screw came loose while the machine measured",
     .signature =

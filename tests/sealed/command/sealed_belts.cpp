@@ -25,18 +25,21 @@ struct Arguments {
 
 template <class Right>
 void run(const char* what, const BeltRecipe& recipe, const Arguments& arguments, Right right) {
-  int good = 0, held = 0, single = 0, right_belt = 0;
+  int good = 0, held = 0, single = 0, right_belt = 0, separable = 0, good_separable = 0;
   for (int k = 0; k < arguments.sets; ++k) {
     const auto seed = arguments.first_seed + static_cast<std::uint64_t>(k);
     const BeltsTrial trial = chaintrue::sealed::run_belts_trial(recipe, seed);
     good += right(trial);
     held += trial.held;
+    separable += trial.separable;
+    good_separable += trial.separable && right(trial);
     const bool of_one = trial.secret.side.size() == 2;
     single += of_one && trial.named;
     right_belt += of_one && trial.named && trial.right_belt;
     if (arguments.show && !right(trial)) {
-      fmt::print("  seed {}: {} {} {:.4g} from visit {} of strength {:.1f}: {}\n",
+      fmt::print("  seed {}{}: {} {} {:.4g} from visit {} of strength {:.1f}: {}\n",
                  seed,
+                 trial.separable ? " (separable)" : "",
                  trial.secret.effect,
                  trial.secret.side,
                  trial.secret.size,
@@ -47,6 +50,8 @@ void run(const char* what, const BeltRecipe& recipe, const Arguments& arguments,
   }
   fmt::print("{:<44}{:>6} of {:>5}  {:6.1f} %   held in {:5.1f} %", what, good, arguments.sets,
              100.0 * good / arguments.sets, 100.0 * held / arguments.sets);
+  if (separable > 0)
+    fmt::print("   of separable {} of {}", good_separable, separable);
   if (single > 0) fmt::print("   right belt in {:5.1f} % of {}", 100.0 * right_belt / single, single);
   fmt::print("\n");
   std::fflush(stdout);

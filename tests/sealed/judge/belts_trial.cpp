@@ -31,6 +31,20 @@ bool same_bad(const generator::BeltSecret& secret, const grid::diagnosis::Diagno
   });
 }
 
+/// False as well where it is not among the causes that are compared: nothing points to it.
+bool is_separable(const generator::BeltSecret& secret, const grid::diagnosis::Diagnosis& found) {
+  const auto is_hidden = [&](const auto& cause) {
+    return cause.effect->id == secret.effect && name(cause.side) == secret.side;
+  };
+  bool compared = false;
+  for (const auto& pair : found.separations) {
+    if (!is_hidden(pair.first) && !is_hidden(pair.second)) continue;
+    compared = true;
+    if (pair.signal_to_noise_needed > secret.strength) return false;
+  }
+  return compared;
+}
+
 }  // namespace
 
 BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t seed) {
@@ -55,6 +69,7 @@ BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t se
   trial.exact = found->verdict == grid::diagnosis::Verdict::named && trial.held;
   trial.right_belt =
       trial.named && name(found->causes.front().cause.side) == draw.secret.side;
+  trial.separable = is_separable(draw.secret, *found);
   trial.bad_found = same_bad(draw.secret, *found);
   return trial;
 }

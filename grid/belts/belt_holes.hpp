@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Holes that a router on four belts cut at commanded places, and what a tape made of them.
+///
+/// Notation
+///   a, s   the frame (frame_solver.hpp): five coordinates of anchors, logarithm of the scale
+///   m_i    where the spans that the controller paid out for hole i end, by its upper two belts: the
+///          circles about the anchors in a meet there; in the frame's own millimetres
+///   q_i    exp(s) (m_i - c), c where the controller's commands count from: on the sheet, but for
+///          where the sheet lies
+///   d_k    a distance as distance_geometry() has it of the q_i
+///
+///   C = f^2 (tape^2 I + hole^2 B B') + size^2 w w' + hook^2 1 1' + P S P' + G K G'          (1)
+///
+/// with B = G = dd/dq, P = dd/d(where the sheet lies), which edges alone notice, and f how much
+/// larger the noise is than stated. K is what moves holes that lie near each other alike
+/// (tool_displacement.hpp), or nothing.
+///
+/// Arm, extension and heights fall out of m_i: the controller and the machine have the same.
+///
+/// \code
+///   const BeltHoles holes{machine_in_force, set};
+///   const auto rows = belts::hole_rows(holes, belts::anchors_of(fit.machine), 0.0);
+///   if (rows) residual = rows->residual_mm;
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "grid/belts/frame_solver.hpp"
+#include "grid/holes/measured_holes.hpp"
+
+namespace chaintrue::grid {
+
+struct BeltHoles {
+  /// With the anchors and scales in force when the holes were cut.
+  model::BeltMachine machine;
+  /// Its own machine, which hangs on chains, is none.
+  MeasuredHoles set;
+};
+
+}  // namespace chaintrue::grid
+
+namespace chaintrue::grid::belts {
+
+/// Anchors, then the logarithm of the scale.
+inline constexpr Eigen::Index kFrameUnknowns = kAnchorUnknowns + 1;
+
+/// Distances about a frame, mm.
+struct HoleRows {
+  Eigen::VectorXd residual_mm;  ///< n, taped (less the hook) less predicted
+  Eigen::MatrixXd by_frame;     ///< n x 6, d(predicted)/d(a, s)
+  Eigen::MatrixXd by_mark;      ///< n x 2 N
+  Eigen::MatrixXd by_size;      ///< n x 2
+  Eigen::MatrixXd by_sheet;     ///< n x 3, by its shift in x and y, and its turn
+  std::vector<model::BedPoint> marks;           ///< q_i
+  Eigen::MatrixXd marks_by_frame;               ///< 2 N x 6
+  std::vector<model::FramePoint> frame_places;  ///< m_i
+};
+/// Empty where the machine cannot hold the tool at a hole. \throws std::invalid_argument for a
+/// machine whose anchors in force are not known.
+[[nodiscard]] std::optional<HoleRows> hole_rows(const BeltHoles& holes,
+                                                const AnchorVector& anchors,
+                                                double log_scale);
+/// (1) without K; n x n.
+[[nodiscard]] Eigen::MatrixXd hole_covariance(const BeltHoles& holes,
+                                              const HoleRows& rows,
+                                              double noise_factor);
+/// One sigma squared of where a sheet lies beforehand, x, y and turn.
+[[nodiscard]] Eigen::Vector3d sheet_variance();
+
+}  // namespace chaintrue::grid::belts

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/belts/belts_and_holes.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "grid/belts/taped_frame.hpp"
+#include "grid/estimation/estimate.hpp"
+#include "grid/observation/tape_distances.hpp"
+#include "grid/precondition.hpp"
+#include "grid/statistics.hpp"
+
+namespace chaintrue::grid {
+
+using model::Belt;
+using model::kBelts;
+
+namespace {
+
+using belts::kAnchorUnknowns;
+using belts::kFrameUnknowns;
+using belts::TapedFrame;
+using belts::TapedNoise;
+using belts::TapedRows;
+
+tl::unexpected<BeltsFitFailure> failure(BeltsFitFailure::Reason reason, std::string sentence) {
+  return tl::unexpected(BeltsFitFailure{reason, std::move(sentence)});
+}
+
+/// Where the fit stands.
+struct State {
+  belts::FrameState frame;
+  TapedRows rows;
+  TapedNoise noise;
+  std::vector<bool> counting;
+};
+
+/// (2) and (3) about a state.
+struct Marginal {
+  Eigen::VectorXd off_mm;   ///< r_b
+  Eigen::MatrixXd inverse;  ///< V^-1
+  double log_likelihood = 0.0;
+
+  [[nodiscard]] double left_out_mm(Eigen::Index k) const {
+    return (inverse.row(k) * off_mm)(0) / inverse(k, k);
+  }
+  [[nodiscard]] double left_out_sigma_mm(Eigen::Index k) const {
+    return 1.0 / std::sqrt(inverse(k, k));
+  }
+};
+
+Marginal marginal(const TapedFrame& frame,
+                  const State& at,
+                  const TapedNoise& noise,
+                  const std::vector<bool>& counting) {
+  Marginal result;
+  result.off_mm = frame.about_the_belts(at.rows, at.frame);
+  const Eigen::Index count = result.off_mm.size();
+  const Eigen::MatrixXd v = frame.covariance(at.rows, noise, counting) +
+                            at.rows.by_frame * frame.covariance_without_holes(at.frame) *
+                                at.rows.by_frame.transpose();
+  const Eigen::LLT<Eigen::MatrixXd> factor(v);
+  result.inverse = factor.solve(Eigen::MatrixXd::Identity(count, count));
+  result.log_likelihood = -0.5 * result.off_mm.dot(result.inverse * result.off_mm) -
+                          factor.matrixLLT().diagonal().array().log().sum();
+  return result;
+}
+
+/// Fewest degrees of freedom that any set states of its noise.
+double noise_dof(const std::vector<BeltHoles>& sets) {
+  double least = sets.front().set.noise_dof;
+  for (const BeltHoles& set : sets) least = std::min(least, set.set.noise_dof);
+  return least;
+}
+
+/// Of the logarithm of a scaled inverse chi square about one.
+double log_prior(double factor, double dof) {
+  return -dof * std::log(factor) - 0.5 * dof / (factor * factor);
+}
+
+double extent_mm(const std::vector<model::BedPoint>& marks) {
+  double widest = 0.0;
+  for (const model::BedPoint& a : marks) {
+    for (const model::BedPoint& b : marks)
+      widest = std::max(widest, std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm));
+  }
+  return widest;
+}
+
+/// The likeliest noise on the grid, and what it is worth summed over the grid.
+struct Chosen {
+  TapedNoise noise;
+  double best = -std::numeric_limits<double>::infinity();
+  std::vector<double> all;
+
+  void see(const TapedNoise& candidate, double log_posterior) {
+    all.push_back(log_posterior);
+    if (log_posterior <= best) return;
+    best = log_posterior;
+    noise = candidate;
+  }
+  [[nodiscard]] double mean() const {
+    double sum = 0.0;
+    for (const double one : all) sum += std::exp(one - best);
+    return best + std::log(sum / static_cast<double>(all.size()));
+  }
+};
+
+TapedNoise likeliest_noise(const TapedFrame& frame, const State& at, double dof) {
+  // A factor of 1.19 a step, from 0.6 to 4: with fifteen degrees of freedom one sigma is 1.2.
+  constexpr double kStep = 0.175;
+  constexpr int kFirst = -3;
+  constexpr int kLast = 8;
+  // From less than a tape reads to what belts do that stretch by half a hundredth.
+  constexpr double kSizesMm[] = {0.2, 0.4, 0.8, 1.6, 3.2, 6.4};
+  // Of the distance between the outermost holes: below a quarter nine holes tell nothing of it.
+  constexpr double kReaches[] = {0.25, 0.5, 1.0};
+  const double extent = extent_mm(at.rows.marks);
+  Chosen without;
+  Chosen with;
+  for (int step = kFirst; step <= kLast; ++step) {
+    const double factor = std::exp(kStep * step);
+    const double prior = log_prior(factor, dof);
+    const auto worth = [&](const TapedNoise& noise) {
+      return prior + marginal(frame, at, noise, at.counting).log_likelihood;
+    };
+    const TapedNoise none{factor, 0.0, 1.0};
+    without.see(none, worth(none));
+    for (const double size : kSizesMm) {
+      for (const double reach : kReaches) {
+        const TapedNoise smooth{factor, size, reach * extent};
+        with.see(smooth, worth(smooth));
+      }
+    }
+  }
+  return with.mean() - without.mean() > estimation::kSurfaceEvidence ? with.noise : without.noise;
+}
+
+/// Settles with the noise as it is; false where it does not.
+bool settle(const TapedFrame& frame, State& state) {
+  const auto there =
+      frame.settled(state.frame, frame.covariance(state.rows, state.noise, state.counting));
+  if (!there) return false;
+  auto rows = frame.rows(*there);
+  if (!rows) return false;
+  state.frame = *there;
+  state.rows = *std::move(rows);
+  return true;
+}
+
+/// The worst distance beyond kBadDistanceSigmas; empty where all fit.
+std::optional<std::size_t> worst_of(const TapedFrame& frame, const State& state) {
+  const Marginal now = marginal(frame, state, state.noise, state.counting);
+  std::optional<std::size_t> worst;
+  double most = estimation::kBadDistanceSigmas;
+  for (std::size_t k = 0; k < state.counting.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const double sigmas = std::abs(now.left_out_mm(row)) / now.left_out_sigma_mm(row);
+    if (!state.counting[k] || sigmas <= most) continue;
+    most = sigmas;
+    worst = k;
+  }
+  return worst;
+}
+
+std::optional<State> settled_state(const TapedFrame& frame, const std::vector<BeltHoles>& sets) {
+  auto rows = frame.rows(frame.alone().state);
+  if (!rows) return std::nullopt;
+  State state{frame.alone().state, *std::move(rows), {}, {}};
+  state.counting.assign(static_cast<std::size_t>(state.rows.residual_mm.size()), true);
+  const double dof = noise_dof(sets);
+  if (!settle(frame, state)) return std::nullopt;
+  const auto most = static_cast<std::size_t>(static_cast<double>(state.counting.size()) / 3.0);
+  for (std::size_t aside = 0; aside <= most; ++aside) {
+    state.noise = likeliest_noise(frame, state, dof);
+    if (!settle(frame, state)) return std::nullopt;
+    const auto worst = worst_of(frame, state);
+    if (!worst) return state;
+    state.counting[*worst] = false;
+    if (!settle(frame, state)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void fill_frame(const MeasuredBelts& measured,
+                const TapedFrame& frame,
+                const State& state,
+                const Eigen::MatrixXd& covariance,
+                BeltsFit& fit) {
+  fit.machine = belts::with_anchors(measured.machine, state.frame.anchors);
+  fit.covariance_mm2 = covariance.topLeftCorner<5, 5>();
+  for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    AnchorCoordinate& coordinate = fit.coordinates[i];
+    coordinate.fitted_mm = state.frame.anchors[row];
+    coordinate.sigma_mm = std::sqrt(covariance(row, row));
+    // Belts told this share of it; the rest is the tape's.
+    const double alone = frame.covariance_without_holes(state.frame)(row, row);
+    for (const Belt belt : kBelts) coordinate.rests_on[belt] *= covariance(row, row) / alone;
+  }
+  BeltScale scale;
+  scale.factor = std::exp(state.frame.log_scale);
+  scale.sigma = scale.factor * std::sqrt(covariance(kAnchorUnknowns, kAnchorUnknowns));
+  if (fit.scale) scale.residuals_mm = fit.scale->residuals_mm;
+  fit.scale = std::move(scale);
+  if (measured.points.empty()) return;
+  const belts::FrameSolver solver(measured, frame.alone().counting, frame.alone().spread_mm);
+  const belts::FrameEquations there = solver.equations(state.frame);
+  for (std::size_t k = 0; k < fit.places.size(); ++k) {
+    fit.places[k].at = state.frame.places[k];
+    for (const Belt belt : kBelts)
+      fit.places[k].belts[belt].off_mm = there.residual[belts::row_of(k, belt)];
+  }
+  fit.rms_mm = rms(std::vector<double>(there.residual.begin(), there.residual.end()));
+  if (!fit.scale || measured.distances.empty()) return;
+  for (std::size_t i = 0; i < measured.distances.size(); ++i) {
+    fit.scale->residuals_mm[i] =
+        there.distance_residual[static_cast<Eigen::Index>(i)] * measured.distances[i].sigma_mm;
+  }
+}
+
+/// Of x and, where there is one, of the displacement at its places; and the displacement itself.
+Eigen::MatrixXd posterior(const TapedFrame& frame,
+                          const State& state,
+                          std::optional<DisplacementParts>& displacement) {
+  const Eigen::MatrixXd& g = state.rows.by_mark;
+  const Eigen::MatrixXd alone = frame.covariance_without_holes(state.frame);
+  const bool smooth = state.noise.size_mm > 0.0;
+  const Eigen::Index moved = smooth ? g.cols() : 0;
+  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(kFrameUnknowns + moved, kFrameUnknowns + moved);
+  prior.topLeftCorner<kFrameUnknowns, kFrameUnknowns>() = alone;
+  Eigen::MatrixXd by_unknown(g.rows(), kFrameUnknowns + moved);
+  by_unknown.leftCols<kFrameUnknowns>() = state.rows.by_frame;
+  if (smooth) {
+    const Eigen::MatrixXd kernel =
+        displacement_kernel(state.rows.marks, state.rows.marks, state.noise.reach_mm);
+    for (Eigen::Index i = 0; i < kernel.rows(); ++i) {
+      for (Eigen::Index j = 0; j < kernel.cols(); ++j) {
+        const double shared = state.noise.size_mm * state.noise.size_mm * kernel(i, j);
+        prior.block<2, 2>(kFrameUnknowns + 2 * i, kFrameUnknowns + 2 * j) =
+            shared * Eigen::Matrix2d::Identity();
+      }
+    }
+    by_unknown.rightCols(moved) = g;
+  }
+  const Marginal now = marginal(frame, state, state.noise, state.counting);
+  const Eigen::MatrixXd cross = prior * by_unknown.transpose();
+  if (smooth) {
+    const Eigen::VectorXd mean = cross * (now.inverse * now.off_mm);
+    displacement = DisplacementParts{
+        state.noise.size_mm, state.noise.reach_mm, state.rows.marks, mean.tail(moved)};
+  }
+  return prior - cross * now.inverse * cross.transpose();
+}
+
+/// Where the edges say that the first set's sheet lies.
+std::optional<Eigen::Vector3d> sheet_by_edges(const TapedFrame& frame,
+                                              const State& state,
+                                              const MeasuredHoles& first) {
+  const observation::SheetPrior measured = observation::sheet_measured(first);
+  if (!measured.knows_x || !measured.knows_y || !measured.knows_rotation) return std::nullopt;
+  const Eigen::MatrixXd c = frame.covariance(state.rows, state.noise, state.counting);
+  const auto own = static_cast<Eigen::Index>(first.distances.size());
+  const Eigen::VectorXd weighed = c.llt().solve(state.rows.residual_mm).head(own);
+  const Eigen::Vector3d along = state.rows.by_sheet.topRows(own).transpose() * weighed;
+  return belts::sheet_variance().cwiseProduct(along);
+}
+
+void fill_distances(const TapedFrame& frame,
+                    const std::vector<BeltHoles>& sets,
+                    const State& state,
+                    HolesBesideBelts& found) {
+  const Marginal now = marginal(frame, state, state.noise, state.counting);
+  std::vector<double> left_out;
+  Eigen::Index row = 0;
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    for (const HoleDistance& distance : sets[s].set.distances) {
+      BeltTapedDistance one{s,
+                            words_of(sets[s].set, distance),
+                            length_of(sets[s].set, distance),
+                            state.rows.residual_mm[row],
+                            now.left_out_mm(row),
+                            now.left_out_sigma_mm(row),
+                            !state.counting[static_cast<std::size_t>(row)]};
+      if (!one.set_aside) left_out.push_back(one.left_out_mm);
+      found.distances.push_back(std::move(one));
+      ++row;
+    }
+  }
+  found.left_out_rms_mm = rms(left_out);
+  const MeasuredHoles& first = sets.front().set;
+  for (std::size_t i = 0; i < first.holes.size(); ++i)
+    found.holes.push_back({first.holes[i].name, first.holes[i].commanded, state.rows.marks[i]});
+}
+
+/// What belts say by themselves; of no points the machine as stated.
+tl::expected<std::pair<BeltsFit, belts::SettledFrame>, BeltsFitFailure> by_belts(
+    const MeasuredBelts& measured) {
+  if (measured.points.empty()) {
+    belts::SettledFrame stated;
+    stated.state.anchors = belts::anchors_of(measured.machine);
+    BeltsFit fit;
+    fit.machine = measured.machine;
+    constexpr std::array<const char*, 5> kNames = {
+        "tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"};
+    for (std::size_t i = 0; i < kNames.size(); ++i) {
+      fit.coordinates[i].name = kNames[i];
+      fit.coordinates[i].stated_mm = stated.state.anchors[static_cast<Eigen::Index>(i)];
+    }
+    return std::pair(std::move(fit), std::move(stated));
+  }
+  auto fit = fit_belts(measured);
+  if (!fit) return tl::unexpected(fit.error());
+  const auto frame = belts::settle_robustly(measured);
+  return std::pair(*std::move(fit), *frame);
+}
+
+}  // namespace
+
+tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
+    const MeasuredBelts& measured, const std::vector<BeltHoles>& sets) {
+  using Reason = BeltsFitFailure::Reason;
+  std::size_t count = 0;
+  for (const BeltHoles& set : sets) count += set.set.distances.size();
+  if (count == 0) throw precondition("{} sets of holes without a distance", sets.size());
+  if (measured.points.empty() && !measured.machine.anchors_known)
+    throw precondition("holes of a machine of which no anchor is known");
+  if (count > kMostTapedByBelts) {
+    return failure(Reason::too_many_distances,
+                   fmt::format("{} distances are more than a fit beside belts takes ({}): leave "
+                               "some out, evenly over the sheet",
+                               count,
+                               kMostTapedByBelts));
+  }
+  auto alone = by_belts(measured);
+  if (!alone) return tl::unexpected(alone.error());
+  const TapedFrame frame(measured, sets, std::move(alone->second));
+  const auto state = settled_state(frame, sets);
+  if (!state) {
+    return failure(Reason::tape_contradicts,
+                   "more than a third of the distances contradict the belts or each other: check "
+                   "the anchors in force when the holes were cut, which holes the distances join, "
+                   "and the tape's hook offset");
+  }
+  BeltsAndHolesFit fit{std::move(alone->first), {}};
+  fit.holes.covariance = posterior(frame, *state, fit.holes.displacement);
+  fit.holes.machine = sets.front().machine;
+  fit.holes.noise_factor = state->noise.factor;
+  fit.holes.sheet = sheet_by_edges(frame, *state, sets.front().set);
+  fill_distances(frame, sets, *state, fit.holes);
+  fill_frame(measured, frame, *state, fit.holes.covariance, fit.belts);
+  return fit;
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// One fit of what four belts measured by themselves and of holes that were cut and taped: anchors,
+/// the absolute scale, and how far the tool lies beside where its upper two belts put it.
+///
+/// Notation
+///   x   five coordinates of anchors and the logarithm of the scale; about x_b with covariance S_b
+///       from the belts (places eliminated, frame_solver.hpp) or, without belts, as stated
+///   r   distances less what x makes of them; r_b = r + J (x - x_b), J = d(predicted)/dx
+///   C   covariance of the distances, (1) of belt_holes.hpp
+///
+///   minimise  belts(x) + r' C^-1 r                                                          (1)
+///   V = C + J S_b J',   log p = -1/2 (r_b' V^-1 r_b + log |V|)                              (2)
+///   left out:  [V^-1 r_b]_i / [V^-1]_ii with variance 1 / [V^-1]_ii                         (3)
+///
+/// The noise's factor (a scaled inverse chi square of noise_dof) and the displacement's size and
+/// reach are where (2) is largest on a grid finer than so few readings tell; a displacement joins
+/// where it is twenty times as likely, summed over the grid, as none. A distance beyond 3.5 sigmas
+/// of (3) is set aside, the worst first.
+///
+/// The displacement is what the holes show of the tool; what is left of belts' lengths is not in it.
+///
+/// The map's frame is that of the first set's sheet: by its edges where they were measured in all
+/// directions, otherwise so laid that its holes, as a whole, lie where they were commanded.
+///
+/// Source: C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equations
+/// 5.8 for (2) and 5.12 for (3).
+///
+/// \code
+///   const auto fit = fit_belts_and_holes(belts, {{belts.machine, holes}});
+///   if (fit) use(fit->belts.machine, fit->belts.scale->factor, fit->holes.displacement);
+/// \endcode
+#pragma once
+
+#include <optional>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/belts/belt_holes.hpp"
+#include "grid/belts/belts_fit.hpp"
+#include "grid/belts/tool_displacement.hpp"
+
+namespace chaintrue::grid {
+
+/// One sigma of the scale beforehand: a belt is 2 % longer or shorter a turn than its make says in
+/// no machine.
+inline constexpr double kBeltScaleSigma = 0.02;
+/// One sigma of a stated coordinate of an anchor where no belts tell: what six places about the
+/// middle leave (docs/maslow4.md).
+inline constexpr double kStatedAnchorMm = 50.0;
+/// (2) takes a second for so many.
+inline constexpr std::size_t kMostTapedByBelts = 400;
+
+/// A hole as the fit has it.
+struct BeltHole {
+  std::string name;
+  model::BedPoint commanded;
+  /// Where the upper two belts put it, from where commands count, mm; the sheet may lie elsewhere.
+  model::BedPoint mark;
+};
+
+/// A distance of one set of holes, in the order of the sets.
+struct BeltTapedDistance {
+  std::size_t set = 0;
+  std::string words;  ///< "A-B"
+  double measured_mm = 0.0;
+  double off_mm = 0.0;  ///< taped less fitted
+  double left_out_mm = 0.0;
+  double left_out_sigma_mm = 0.0;
+  bool set_aside = false;
+};
+
+struct HolesBesideBelts {
+  /// In force when the first set was cut: commands count from where its frame's diagonals cross.
+  model::BeltMachine machine;
+  std::vector<BeltHole> holes;  ///< of the first set, which the frame is laid by
+  std::vector<BeltTapedDistance> distances;
+  double noise_factor = 1.0;  ///< over what was stated of tape and holes
+  std::optional<DisplacementParts> displacement;
+  /// Of x, and of the displacement at its places.
+  Eigen::MatrixXd covariance;
+  /// Where the edges say that the sheet lies; absent where the holes lay it.
+  std::optional<Eigen::Vector3d> sheet;  ///< x_mm, y_mm, rotation_rad
+  double left_out_rms_mm = 0.0;  ///< of distances that were not set aside
+};
+
+struct BeltsAndHolesFit {
+  BeltsFit belts;  ///< without places where no belts were given
+  HolesBesideBelts holes;
+};
+
+/// `belts` may be without points: then what is known of the anchors is what its machine states, to
+/// kStatedAnchorMm. \throws std::invalid_argument without distances, or where the anchors in force
+/// when the holes were cut are not known.
+[[nodiscard]] tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
+    const MeasuredBelts& belts, const std::vector<BeltHoles>& sets);
+
+}  // namespace chaintrue::grid

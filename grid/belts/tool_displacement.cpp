@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/belts/tool_displacement.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "grid/precondition.hpp"
+
+namespace chaintrue::grid {
+
+Eigen::MatrixXd displacement_kernel(const std::vector<model::BedPoint>& from,
+                                    const std::vector<model::BedPoint>& to,
+                                    double reach_mm) {
+  Eigen::MatrixXd kernel(static_cast<Eigen::Index>(from.size()),
+                         static_cast<Eigen::Index>(to.size()));
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      const double u = std::sqrt(5.0) *
+                       std::hypot(from[i].x_mm - to[j].x_mm, from[i].y_mm - to[j].y_mm) / reach_mm;
+      kernel(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          (1.0 + u + u * u / 3.0) * std::exp(-u);
+    }
+  }
+  return kernel;
+}
+
+ToolDisplacement::ToolDisplacement(DisplacementParts parts) : parts_(std::move(parts)) {
+  const auto count = static_cast<Eigen::Index>(parts_.places.size());
+  if (parts_.at_mm.size() != 2 * count || count == 0 || !(parts_.reach_mm > 0.0)) {
+    throw precondition("{} displacements of {} places over {} mm",
+                       parts_.at_mm.size(),
+                       count,
+                       parts_.reach_mm);
+  }
+  // Two holes at one place are one; a ten-thousandth of the size is below any tape.
+  constexpr double kSamePlace = 1e-8;
+  Eigen::MatrixXd kernel = displacement_kernel(parts_.places, parts_.places, parts_.reach_mm);
+  kernel.diagonal().array() += kSamePlace;
+  inverse_ = kernel.llt().solve(Eigen::MatrixXd::Identity(count, count));
+  Eigen::MatrixX2d at(count, 2);
+  for (Eigen::Index i = 0; i < count; ++i) at.row(i) = parts_.at_mm.segment<2>(2 * i).transpose();
+  weights_mm_ = inverse_ * at;
+}
+
+Eigen::Vector2d ToolDisplacement::at(model::BedPoint mark) const {
+  return (displacement_kernel({mark}, parts_.places, parts_.reach_mm) * weights_mm_).transpose();
+}
+
+double ToolDisplacement::own_variance_mm2(model::BedPoint mark) const {
+  const Eigen::RowVectorXd near = displacement_kernel({mark}, parts_.places, parts_.reach_mm);
+  return parts_.size_mm * parts_.size_mm * std::max(0.0, 1.0 - near.dot(near * inverse_));
+}
+
+}  // namespace chaintrue::grid

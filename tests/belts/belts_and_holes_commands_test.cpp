@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Belts, holes and a program to cut, as a person runs them; what the compensated program does is
+// asked of the simulated machine itself.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "grid/files/anchors_file.hpp"
+#include "grid/files/belts_file.hpp"
+#include "grid/files/holes_file.hpp"
+#include "tests/belts/holes_simulation.hpp"
+#include "tests/cli/command_fixture.hpp"
+
+namespace chaintrue {
+namespace {
+
+using model::BedPoint;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing_support::content_of;
+using testing_support::Outcome;
+
+/// Places of X and Y words, those that stand once kept.
+std::vector<BedPoint> corners_of(const std::string& program) {
+  std::vector<BedPoint> corners;
+  std::istringstream lines(program);
+  for (std::string line; std::getline(lines, line);) {
+    const auto x = line.find('X');
+    const auto y = line.find('Y');
+    if (line.empty() || line[0] != 'G' || x == std::string::npos || y == std::string::npos)
+      continue;
+    corners.push_back({std::stod(line.substr(x + 1)), std::stod(line.substr(y + 1))});
+  }
+  return corners;
+}
+
+class BeltAndHoleCommands : public testing_support::CommandFixture {
+ protected:
+  void SetUp() override {
+    CommandFixture::SetUp();
+    write("belts.json", grid::files::write_belts(set_.belts));
+    write("holes.json", grid::files::write_holes(set_.holes.set, set_.holes.machine));
+    write("part.nc",
+          "G21 G90 G17\nG0 Z5\nG0 X-800 Y-400\nG1 Z-2 F500\nG1 X800 Y-400 F1500\nG1 X800 Y400\n"
+          "G1 X-800 Y400\nG1 X-800 Y-400\nG0 Z5\nM30\n");
+  }
+  /// Where the true machine puts the tool for a command, its controller as `believed`.
+  [[nodiscard]] BedPoint tool(const model::BeltMachine& believed, BedPoint command) const {
+    const model::FramePoint meant = model::to_frame(believed, command);
+    const auto span = [&](model::Belt belt) {
+      const model::Anchor& anchor = believed.anchors[belt];
+      return std::hypot(meant.x_mm - anchor.x_mm, meant.y_mm - anchor.y_mm);
+    };
+    return set_.tool(span(model::Belt::tl), span(model::Belt::tr));
+  }
+  /// The shape that is cut, laid on the rectangle that was wanted: of each of its places the nearest
+  /// point of the outline.
+  [[nodiscard]] double off_mm(const std::string& program, const model::BeltMachine& believed) const {
+    std::vector<BedPoint> cut;
+    BedPoint least{1e9, 1e9};
+    BedPoint most{-1e9, -1e9};
+    for (const BedPoint command : corners_of(program)) {
+      const BedPoint at = cut.emplace_back(tool(believed, command));
+      least = {std::min(least.x_mm, at.x_mm), std::min(least.y_mm, at.y_mm)};
+      most = {std::max(most.x_mm, at.x_mm), std::max(most.y_mm, at.y_mm)};
+    }
+    EXPECT_GE(cut.size(), 4U);
+    std::vector<BedPoint> wanted;
+    for (BedPoint& at : cut) {
+      at = {at.x_mm - 0.5 * (least.x_mm + most.x_mm), at.y_mm - 0.5 * (least.y_mm + most.y_mm)};
+      BedPoint on{std::clamp(at.x_mm, -800.0, 800.0), std::clamp(at.y_mm, -400.0, 400.0)};
+      const bool upright = 800.0 - std::abs(at.x_mm) < 400.0 - std::abs(at.y_mm);
+      if (upright) {
+        on.x_mm = std::copysign(800.0, at.x_mm);
+      } else {
+        on.y_mm = std::copysign(400.0, at.y_mm);
+      }
+      wanted.push_back(on);
+    }
+    return grid::rms_when_laid(cut, wanted);
+  }
+
+  const grid::SimulatedHoles set_ = grid::simulate_with_holes({.seed = 41, .beside_mm = 3.0});
+};
+
+TEST_F(BeltAndHoleCommands, OneFitWhicheverFileComesFirst) {
+  const Outcome fit = run("fit belts.json --with holes.json -v -o anchors.json");
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.err,
+              AllOf(HasSubstr("Scale: by the tape everything is 1.00"),
+                    HasSubstr("Holes: 24 distances, each foretold by all others to"),
+                    HasSubstr("Beside its upper two belts the tool lies up to"),
+                    HasSubstr("  A-B ")));
+  ASSERT_EQ(run("fit holes.json --with belts.json -o other.json").code, 0);
+  EXPECT_EQ(content_of(folder_ / "anchors.json"), content_of(folder_ / "other.json"));
+  const auto found = grid::files::parse_anchors(content_of(folder_ / "anchors.json"), "a.json");
+  EXPECT_EQ(grid::files::write_anchors(found), content_of(folder_ / "anchors.json"));
+  const Outcome alone = run("fit holes.json -o alone.json");
+  EXPECT_EQ(alone.code, 0) << alone.err;
+  EXPECT_THAT(alone.err, HasSubstr("Holes: 24 distances"));
+}
+
+TEST_F(BeltAndHoleCommands, ACompensatedProgramCutsTrueOnTheUnmodifiedController) {
+  ASSERT_EQ(run("fit belts.json --with holes.json -o anchors.json").code, 0);
+  const Outcome made = run("gcode compensate part.nc --map anchors.json -o part.true.nc");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("run on a simulated maslow4 controller: the tool stays within"));
+  const model::BeltMachine& believed = set_.holes.machine;
+  const double before = off_mm(content_of(folder_ / "part.nc"), believed);
+  const double after = off_mm(content_of(folder_ / "part.true.nc"), believed);
+  EXPECT_GT(before, 1.0);  // 0.4 % of the 800 and 400 mm from the middle to an edge
+  EXPECT_LT(after, 0.8);   // of nine holes taped to half a millimetre at places between them
+  EXPECT_EQ(run("gcode verify part.nc part.true.nc --map anchors.json").code, 0);
+  EXPECT_EQ(run("gcode verify part.nc part.nc --map anchors.json").code, 1);
+  const Outcome lengths = run("gcode lengths part.nc --map anchors.json");
+  ASSERT_EQ(lengths.code, 0) << lengths.err;
+  EXPECT_THAT(lengths.out, HasSubstr("line,kind,x_mm,y_mm,z_mm,left_mm,right_mm,left_sigma_mm"));
+}
+
+TEST_F(BeltAndHoleCommands, OnceThePastedAnchorsAreInForceTheBendAloneIsLeft) {
+  ASSERT_EQ(run("fit belts.json --with holes.json -o anchors.json").code, 0);
+  const Outcome made =
+      run("gcode compensate part.nc --map anchors.json --machine anchors.json -o part.true.nc");
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto found = grid::files::parse_anchors(content_of(folder_ / "anchors.json"), "a.json");
+  EXPECT_LT(off_mm(content_of(folder_ / "part.true.nc"),
+                   grid::files::machine_as_pasted(found.fit)),
+            0.8);
+}
+
+TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsAndSayWhatTheyDoNotKnow) {
+  ASSERT_EQ(run("fit belts.json -o anchors.json").code, 0);
+  const Outcome made = run("gcode compensate part.nc --map anchors.json -o part.true.nc");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("The scale is not known: parts come out as true as a turn"));
+}
+
+TEST_F(BeltAndHoleCommands, WhatDoesNotBelongTogetherIsRefused) {
+  EXPECT_THAT(run("diagnose holes.json").err, HasSubstr("chaintrue fit belts.json --with FILE"));
+  const Outcome grid = run("fit belts.json --with " CHAINTRUE_FIXTURES
+                           "/grids/seven_by_four.json -o anchors.json");
+  EXPECT_EQ(grid.code, 3);
+  EXPECT_THAT(grid.err, HasSubstr("beside four belts nothing else was measured"));
+  const Outcome chains = run("fit belts.json --with " CHAINTRUE_FIXTURES
+                             "/holes/nine_holes.json -o anchors.json");
+  EXPECT_EQ(chains.code, 3);
+  EXPECT_THAT(chains.err, HasSubstr("found a machine on two chains"));
+  ASSERT_EQ(run("fit belts.json -o anchors.json").code, 0);
+  const Outcome controller =
+      run("gcode compensate part.nc --map anchors.json --controller holey -o x.nc");
+  EXPECT_EQ(controller.code, 3);
+  EXPECT_THAT(controller.err, HasSubstr("to be left out: anchors of four belts are of a Maslow 4"));
+  EXPECT_FALSE(exists("x.nc"));
+}
+
+}  // namespace
+}  // namespace chaintrue
