@@ -52,13 +52,10 @@ test("times of the page", async (context) => {
     await visit.report("The map");
     say("from the example machine to the drawn report, with two clicks", since(begun));
     await visit.click("Cut");
-    for (const what of ["from a program dropped to its report", "the same once more"]) {
-      begun = performance.now();
-      await visit.upload("#program", join(root, "fixtures/gcode/bracket.nc"));
-      await visit.report("bracket.nc before and after");
-      say(what, since(begun));
-      await visit.page.$eval('iframe[title="bracket.nc before and after"]', (frame) => frame.remove());
-    }
+    begun = performance.now();
+    await visit.upload("#program", join(root, "fixtures/gcode/bracket.nc"));
+    await visit.report("bracket.nc before and after");
+    say("from a program dropped to its report", since(begun));
   } catch (problem) {
     context.diagnostic(`what follows was not reached within ${PATIENCE_MS / 1000} s a step: ${problem.message}`);
   } finally {
