@@ -58,7 +58,8 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
   }
   /// The shape that is cut, laid on the rectangle that was wanted: of each of its places the nearest
   /// point of the outline.
-  [[nodiscard]] double off_mm(const std::string& program, const model::BeltMachine& believed) const {
+  [[nodiscard]] double off_mm(const std::string& program,
+                              const model::BeltMachine& believed) const {
     std::vector<BedPoint> cut;
     BedPoint least{1e9, 1e9};
     BedPoint most{-1e9, -1e9};
@@ -147,12 +148,12 @@ TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsAndSayWhatTheyDoNot
 
 TEST_F(BeltAndHoleCommands, WhatDoesNotBelongTogetherIsRefused) {
   EXPECT_THAT(run("diagnose holes.json").err, HasSubstr("chaintrue fit belts.json --with FILE"));
-  const Outcome grid = run("fit belts.json --with " CHAINTRUE_FIXTURES
-                           "/grids/seven_by_four.json -o anchors.json");
+  const Outcome grid =
+      run("fit belts.json --with " CHAINTRUE_FIXTURES "/grids/seven_by_four.json -o anchors.json");
   EXPECT_EQ(grid.code, 3);
   EXPECT_THAT(grid.err, HasSubstr("beside four belts nothing else was measured"));
-  const Outcome chains = run("fit belts.json --with " CHAINTRUE_FIXTURES
-                             "/holes/nine_holes.json -o anchors.json");
+  const Outcome chains =
+      run("fit belts.json --with " CHAINTRUE_FIXTURES "/holes/nine_holes.json -o anchors.json");
   EXPECT_EQ(chains.code, 3);
   EXPECT_THAT(chains.err, HasSubstr("found a machine on two chains"));
   ASSERT_EQ(run("fit belts.json -o anchors.json").code, 0);
