@@ -10,8 +10,8 @@
 
 namespace chaintrue::grid::belts {
 
-using model::Belt;
 using model::BedPoint;
+using model::Belt;
 using model::FramePoint;
 
 namespace {
@@ -52,9 +52,8 @@ std::optional<Placed> placed(const model::BeltMachine& in_force,
 Eigen::Vector3d sheet_variance() {
   using observation::kSheetShiftMm;
   using observation::kSheetTurnRad;
-  return {kSheetShiftMm * kSheetShiftMm,
-          kSheetShiftMm * kSheetShiftMm,
-          kSheetTurnRad * kSheetTurnRad};
+  return {
+      kSheetShiftMm * kSheetShiftMm, kSheetShiftMm * kSheetShiftMm, kSheetTurnRad * kSheetTurnRad};
 }
 
 std::optional<HoleRows> hole_rows(const BeltHoles& holes,
@@ -75,8 +74,7 @@ std::optional<HoleRows> hole_rows(const BeltHoles& holes,
     const auto place =
         placed(holes.machine, machine, holes.set.holes[static_cast<std::size_t>(i)].commanded);
     if (!place) return std::nullopt;
-    const Eigen::Vector2d mark =
-        factor * (place->at - Eigen::Vector2d(centre.x_mm, centre.y_mm));
+    const Eigen::Vector2d mark = factor * (place->at - Eigen::Vector2d(centre.x_mm, centre.y_mm));
     rows.frame_places.push_back({place->at.x(), place->at.y()});
     rows.marks.push_back({mark.x(), mark.y()});
     rows.marks_by_frame.block<2, kAnchorUnknowns>(2 * i, 0) = factor * place->by_anchors;
@@ -87,9 +85,8 @@ std::optional<HoleRows> hole_rows(const BeltHoles& holes,
       observation::distance_geometry(holes.set, rows.marks);
   rows.residual_mm.resize(geometry.predicted_mm.size());
   for (Eigen::Index k = 0; k < rows.residual_mm.size(); ++k) {
-    rows.residual_mm[k] =
-        length_of(holes.set, holes.set.distances[static_cast<std::size_t>(k)]) -
-        geometry.predicted_mm[k];
+    rows.residual_mm[k] = length_of(holes.set, holes.set.distances[static_cast<std::size_t>(k)]) -
+                          geometry.predicted_mm[k];
   }
   rows.by_mark = geometry.by_mark;
   rows.by_size = geometry.by_size;

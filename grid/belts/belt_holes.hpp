@@ -50,11 +50,11 @@ inline constexpr Eigen::Index kFrameUnknowns = kAnchorUnknowns + 1;
 
 /// Distances about a frame, mm.
 struct HoleRows {
-  Eigen::VectorXd residual_mm;  ///< n, taped (less the hook) less predicted
-  Eigen::MatrixXd by_frame;     ///< n x 6, d(predicted)/d(a, s)
-  Eigen::MatrixXd by_mark;      ///< n x 2 N
-  Eigen::MatrixXd by_size;      ///< n x 2
-  Eigen::MatrixXd by_sheet;     ///< n x 3, by its shift in x and y, and its turn
+  Eigen::VectorXd residual_mm;                  ///< n, taped (less the hook) less predicted
+  Eigen::MatrixXd by_frame;                     ///< n x 6, d(predicted)/d(a, s)
+  Eigen::MatrixXd by_mark;                      ///< n x 2 N
+  Eigen::MatrixXd by_size;                      ///< n x 2
+  Eigen::MatrixXd by_sheet;                     ///< n x 3, by its shift in x and y, and its turn
   std::vector<model::BedPoint> marks;           ///< q_i
   Eigen::MatrixXd marks_by_frame;               ///< 2 N x 6
   std::vector<model::FramePoint> frame_places;  ///< m_i

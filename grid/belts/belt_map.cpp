@@ -28,8 +28,7 @@ tl::expected<FramePoint, BeltFailure> end_of_spans(const model::BeltMachine& mac
                                                    double left_mm,
                                                    double right_mm) {
   const auto& a = machine.anchors;
-  return model::crossing(
-      {a.tl.x_mm, a.tl.y_mm}, left_mm, {a.tr.x_mm, a.tr.y_mm}, right_mm);
+  return model::crossing({a.tl.x_mm, a.tl.y_mm}, left_mm, {a.tr.x_mm, a.tr.y_mm}, right_mm);
 }
 
 /// Anchors, logarithm of the scale, displacements.
@@ -225,12 +224,10 @@ model::ChainLengths BeltMap::sigma(BedPoint sheet) const {
   model::ChainLengths variance;
   for (const Placing& other : others_) {
     const FramePoint there = other.in_frame(sheet);
-    variance.left_mm += std::pow(span_mm(other.machine, Belt::tl, there) -
-                                     span_mm(best_.machine, Belt::tl, place),
-                                 2);
-    variance.right_mm += std::pow(span_mm(other.machine, Belt::tr, there) -
-                                      span_mm(best_.machine, Belt::tr, place),
-                                  2);
+    variance.left_mm += std::pow(
+        span_mm(other.machine, Belt::tl, there) - span_mm(best_.machine, Belt::tl, place), 2);
+    variance.right_mm += std::pow(
+        span_mm(other.machine, Belt::tr, there) - span_mm(best_.machine, Belt::tr, place), 2);
   }
   const double own =
       best_.displacement ? best_.displacement->own_variance_mm2(best_.sheet.to_mark(sheet)) : 0.0;

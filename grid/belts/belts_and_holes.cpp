@@ -62,9 +62,9 @@ Marginal marginal(const TapedFrame& frame,
   Marginal result;
   result.off_mm = frame.about_the_belts(at.rows, at.frame);
   const Eigen::Index count = result.off_mm.size();
-  const Eigen::MatrixXd v = frame.covariance(at.rows, noise, counting) +
-                            at.rows.by_frame * frame.covariance_without_holes(at.frame) *
-                                at.rows.by_frame.transpose();
+  const Eigen::MatrixXd v =
+      frame.covariance(at.rows, noise, counting) +
+      at.rows.by_frame * frame.covariance_without_holes(at.frame) * at.rows.by_frame.transpose();
   const Eigen::LLT<Eigen::MatrixXd> factor(v);
   result.inverse = factor.solve(Eigen::MatrixXd::Identity(count, count));
   result.log_likelihood = -0.5 * result.off_mm.dot(result.inverse * result.off_mm) -

@@ -81,7 +81,7 @@ struct HolesBesideBelts {
   Eigen::MatrixXd covariance;
   /// Where the edges say that the sheet lies; absent where the holes lay it.
   std::optional<Eigen::Vector3d> sheet;  ///< x_mm, y_mm, rotation_rad
-  double left_out_rms_mm = 0.0;  ///< of distances that were not set aside
+  double left_out_rms_mm = 0.0;          ///< of distances that were not set aside
 };
 
 struct BeltsAndHolesFit {

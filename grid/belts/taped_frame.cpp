@@ -195,8 +195,7 @@ Eigen::MatrixXd TapedFrame::covariance_without_holes(const FrameState& state) co
 }
 
 Eigen::VectorXd TapedFrame::about_the_belts(const TapedRows& rows, const FrameState& state) const {
-  return rows.residual_mm +
-         rows.by_frame * (frame_vector(state) - frame_vector(alone_.state));
+  return rows.residual_mm + rows.by_frame * (frame_vector(state) - frame_vector(alone_.state));
 }
 
 }  // namespace chaintrue::grid::belts

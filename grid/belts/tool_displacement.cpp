@@ -28,10 +28,8 @@ Eigen::MatrixXd displacement_kernel(const std::vector<model::BedPoint>& from,
 ToolDisplacement::ToolDisplacement(DisplacementParts parts) : parts_(std::move(parts)) {
   const auto count = static_cast<Eigen::Index>(parts_.places.size());
   if (parts_.at_mm.size() != 2 * count || count == 0 || !(parts_.reach_mm > 0.0)) {
-    throw precondition("{} displacements of {} places over {} mm",
-                       parts_.at_mm.size(),
-                       count,
-                       parts_.reach_mm);
+    throw precondition(
+        "{} displacements of {} places over {} mm", parts_.at_mm.size(), count, parts_.reach_mm);
   }
   // Two holes at one place are one; a ten-thousandth of the size is below any tape.
   constexpr double kSamePlace = 1e-8;

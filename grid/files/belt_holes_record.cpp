@@ -197,8 +197,7 @@ const Record<HolesBesideBelts>& holes_beside_belts_record() {
               },
               [](const HolesBesideBelts& holes) -> std::optional<Json> {
                 if (!holes.sheet) return std::nullopt;
-                return sheet_record().write(
-                    {holes.sheet->x(), holes.sheet->y(), holes.sheet->z()});
+                return sheet_record().write({holes.sheet->x(), holes.sheet->y(), holes.sheet->z()});
               })
           .custom("covariance",
                   true,

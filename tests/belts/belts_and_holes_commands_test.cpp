@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 
 #include "grid/files/anchors_file.hpp"
@@ -57,7 +58,8 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
   }
   /// The shape that is cut, laid on the rectangle that was wanted: of each of its places the nearest
   /// point of the outline.
-  [[nodiscard]] double off_mm(const std::string& program, const model::BeltMachine& believed) const {
+  [[nodiscard]] double off_mm(const std::string& program,
+                              const model::BeltMachine& believed) const {
     std::vector<BedPoint> cut;
     BedPoint least{1e9, 1e9};
     BedPoint most{-1e9, -1e9};
@@ -82,7 +84,8 @@ class BeltAndHoleCommands : public testing_support::CommandFixture {
     return grid::rms_when_laid(cut, wanted);
   }
 
-  const grid::SimulatedHoles set_ = grid::simulate_with_holes({.seed = 41, .beside_mm = 3.0});
+  const grid::SimulatedHoles set_ =
+      grid::simulate_with_holes({.seed = 41, .beside_mm = 3.0, .tape_mm = 0.2, .hole_mm = 0.1});
 };
 
 TEST_F(BeltAndHoleCommands, OneFitWhicheverFileComesFirst) {
@@ -110,8 +113,10 @@ TEST_F(BeltAndHoleCommands, ACompensatedProgramCutsTrueOnTheUnmodifiedController
   const model::BeltMachine& believed = set_.holes.machine;
   const double before = off_mm(content_of(folder_ / "part.nc"), believed);
   const double after = off_mm(content_of(folder_ / "part.true.nc"), believed);
+  std::cout << "tool off the outline, mm: " << before << " as it is, " << after << " compensated\n";
   EXPECT_GT(before, 1.0);  // 0.4 % of the 800 and 400 mm from the middle to an edge
-  EXPECT_LT(after, 0.8);   // of nine holes taped to half a millimetre at places between them
+  // A third of what the tool hangs beside its belts: nine holes foretell a half wave between them.
+  EXPECT_LT(after, 1.0);
   EXPECT_EQ(run("gcode verify part.nc part.true.nc --map anchors.json").code, 0);
   EXPECT_EQ(run("gcode verify part.nc part.nc --map anchors.json").code, 1);
   const Outcome lengths = run("gcode lengths part.nc --map anchors.json");
@@ -125,9 +130,13 @@ TEST_F(BeltAndHoleCommands, OnceThePastedAnchorsAreInForceTheBendAloneIsLeft) {
       run("gcode compensate part.nc --map anchors.json --machine anchors.json -o part.true.nc");
   ASSERT_EQ(made.code, 0) << made.err;
   const auto found = grid::files::parse_anchors(content_of(folder_ / "anchors.json"), "a.json");
-  EXPECT_LT(off_mm(content_of(folder_ / "part.true.nc"),
-                   grid::files::machine_as_pasted(found.fit)),
-            0.8);
+  const model::BeltMachine pasted = grid::files::machine_as_pasted(found.fit);
+  const double before = off_mm(content_of(folder_ / "part.nc"), pasted);
+  const double after = off_mm(content_of(folder_ / "part.true.nc"), pasted);
+  std::cout << "tool off the outline, mm: " << before << " with the pasted anchors, " << after
+            << " compensated\n";
+  EXPECT_LT(after, 1.0);  // as above
+  EXPECT_LT(after, before);
 }
 
 TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsAndSayWhatTheyDoNotKnow) {
@@ -139,12 +148,12 @@ TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsAndSayWhatTheyDoNot
 
 TEST_F(BeltAndHoleCommands, WhatDoesNotBelongTogetherIsRefused) {
   EXPECT_THAT(run("diagnose holes.json").err, HasSubstr("chaintrue fit belts.json --with FILE"));
-  const Outcome grid = run("fit belts.json --with " CHAINTRUE_FIXTURES
-                           "/grids/seven_by_four.json -o anchors.json");
+  const Outcome grid =
+      run("fit belts.json --with " CHAINTRUE_FIXTURES "/grids/seven_by_four.json -o anchors.json");
   EXPECT_EQ(grid.code, 3);
   EXPECT_THAT(grid.err, HasSubstr("beside four belts nothing else was measured"));
-  const Outcome chains = run("fit belts.json --with " CHAINTRUE_FIXTURES
-                             "/holes/nine_holes.json -o anchors.json");
+  const Outcome chains =
+      run("fit belts.json --with " CHAINTRUE_FIXTURES "/holes/nine_holes.json -o anchors.json");
   EXPECT_EQ(chains.code, 3);
   EXPECT_THAT(chains.err, HasSubstr("found a machine on two chains"));
   ASSERT_EQ(run("fit belts.json -o anchors.json").code, 0);

@@ -135,9 +135,8 @@ TEST(BeltsAndHoles, ADistanceReadWronglyIsSetAsideByItsEnds) {
     EXPECT_EQ(fit->holes.distances[i].set_aside, i == 5) << fit->holes.distances[i].words;
   }
   // Twelve, give or take the tape and what nine holes leave uncertain.
-  EXPECT_NEAR(fit->holes.distances[5].left_out_mm,
-              12.0,
-              4.0 * fit->holes.distances[5].left_out_sigma_mm);
+  EXPECT_NEAR(
+      fit->holes.distances[5].left_out_mm, 12.0, 4.0 * fit->holes.distances[5].left_out_sigma_mm);
 }
 
 TEST(BeltsAndHoles, TheSheetsEdgesLayTheFrame) {

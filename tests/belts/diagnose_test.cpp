@@ -155,7 +155,7 @@ TEST(BeltsDiagnosis, WhatNoBeltShowsIsNotTestableAndSaysWhatWould) {
   };
   EXPECT_THAT(reason("belt_scale", "all"), HasSubstr("tape one long distance"));
   EXPECT_THAT(reason("tooth_skip", "bl"), HasSubstr("give order"));
-  EXPECT_THAT(found.not_proved, HasSubstr("taped distance"));
+  EXPECT_THAT(reason("anchor_moved", "all"), HasSubstr("from two edges of the sheet"));
 }
 
 TEST(BeltsDiagnosis, TheFileSaysAllOfItAgain) {

@@ -80,11 +80,11 @@ SimulatedHoles simulate_with_holes(const HolesSimulation& simulation) {
     for (std::size_t k = i + 1; k < at.size(); ++k) {
       // Neighbours and corners: 24 of 36.
       if (!simulation.few_holes && (i + k) % 3 == 0) continue;
-      set.distances.push_back({.from = i,
-                               .to = k,
-                               .distance_mm = std::hypot(at[i].x_mm - at[k].x_mm,
-                                                         at[i].y_mm - at[k].y_mm) +
-                                              simulation.tape_mm * random.normal()});
+      set.distances.push_back(
+          {.from = i,
+           .to = k,
+           .distance_mm = std::hypot(at[i].x_mm - at[k].x_mm, at[i].y_mm - at[k].y_mm) +
+                          simulation.tape_mm * random.normal()});
     }
   }
   return result;
@@ -101,8 +101,8 @@ double rms_when_laid(const std::vector<BedPoint>& from, const std::vector<BedPoi
   }
   Complex turn;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    turn += std::conj(Complex(from[i].x_mm, from[i].y_mm) - a) *
-            (Complex(to[i].x_mm, to[i].y_mm) - b);
+    turn +=
+        std::conj(Complex(from[i].x_mm, from[i].y_mm) - a) * (Complex(to[i].x_mm, to[i].y_mm) - b);
   }
   turn /= std::abs(turn);
   double square = 0.0;

@@ -109,9 +109,8 @@ int fit_the_belts(const BeltsFitCommand& command) {
   std::vector<files::OutputFile> outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", text});
   write_outputs(outputs);
-  fmt::print(stderr,
-             "{}",
-             belts_fit_in_words(all.belts.value_or(grid::MeasuredBelts{}), found->fit));
+  fmt::print(
+      stderr, "{}", belts_fit_in_words(all.belts.value_or(grid::MeasuredBelts{}), found->fit));
   if (found->holes) fmt::print(stderr, "{}", holes_beside_belts_in_words(*found->holes));
   if (command.verbose) {
     if (all.belts) fmt::print(stderr, "{}", places_in_a_table(found->fit));

@@ -119,8 +119,8 @@ void GcodeMachine::take_belts(const GcodeOptions& options, const std::string& te
   }
   target_ = std::make_unique<gcode::BeltTarget>(std::move(map));
   kinematics_ = std::make_unique<const model::BeltController>(believed);
-  corrector_ = std::make_unique<gcode::Corrector>(
-      *target_, *kinematics_, gcode::firmware_of_four_belts());
+  corrector_ =
+      std::make_unique<gcode::Corrector>(*target_, *kinematics_, gcode::firmware_of_four_belts());
 }
 
 void GcodeMachine::take_map(const GcodeOptions& options, const std::string& text) {
