@@ -201,7 +201,8 @@ tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
       settled = before - state->value < 1e-10;
     }
   }
-  polish(marginal, limits, result.theta, *state);
+  // Where the gradient itself ended the search there is nothing to add.
+  if (settled) polish(marginal, limits, result.theta, *state);
   for (Eigen::Index k = 0; k < marginal.penalties(); ++k) {
     result.ends.push_back(
         end_of(result.theta(k), limits.low(k), limits.high(k), state->hessian(k, k)));
