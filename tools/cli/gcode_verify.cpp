@@ -9,6 +9,7 @@
 #include "tools/cli/gcode_verbs.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
+#include "tools/gcode/firmware.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -121,7 +122,11 @@ int run_gcode_verify(const GcodeOptions& options) {
   } else {
     print_words(*summary, control, options, machine.corrector().firmware().name);
   }
-  if (summary->holds()) {
+  const bool has_belts =
+      machine.corrector().firmware().name == gcode::firmware_of_four_belts().name;
+  if (summary->holds() && has_belts) {
+    say_next({"export", "maslow4", options.map});
+  } else if (summary->holds()) {
     say_next({"plan", "--check", options.map, "-o", "check.csv"});
   } else if (options.program != "-") {
     say_next({"gcode",
