@@ -210,10 +210,10 @@ class SetSearch::Search {
       order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);
     }
     std::sort(order.begin(), order.end());
-    order.resize(count_with_ties(order, kChildren, [](const auto& own) { return own.first; }));
-    for (const auto& [score, own] : order) {
+    order.resize(count_with_ties(order, kChildren, [](const auto& scored) { return scored.first; }));
+    for (const auto& [score, index] : order) {
       std::vector<Eigen::Index> set = parent;
-      set.push_back(own);
+      set.push_back(index);
       std::sort(set.begin(), set.end());
       if (!seen.insert(set).second) continue;
       scored_.push_back({consider(set), set});
