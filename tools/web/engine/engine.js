@@ -11,16 +11,21 @@ export class NotFinished extends Error {
 
 export class Engine {
   #source;
-  #wasm;
+  #module;
   #worker = null;
   #current = null;
   #waiting = [];
   #number = 0;
 
-  /** @param source text of the worker; @param wasm bytes of the command */
-  constructor(source, wasm) {
+  /** @param source text of the worker; @param wasm bytes of the command. @throws where the browser cannot compile them */
+  static async of(source, wasm) {
+    return new Engine(source, await WebAssembly.compile(wasm));
+  }
+
+  /** @param module is compiled once for all workers: what the browser has learnt of it in one is known to the next */
+  constructor(source, module) {
     this.#source = source;
-    this.#wasm = wasm;
+    this.#module = module;
     this.#start();
   }
 
@@ -55,14 +60,16 @@ export class Engine {
 
   #start() {
     const url = URL.createObjectURL(new Blob([this.#source], {type: "text/javascript"}));
-    this.#worker = new Worker(url);
+    const worker = new Worker(url);
     URL.revokeObjectURL(url);
-    this.#worker.onmessage = ({data}) => this.#heard(data);
-    this.#worker.onerror = (event) => {
+    worker.onmessage = ({data}) => this.#heard(data);
+    worker.onerror = (event) => {
       event.preventDefault();
-      this.#died(event.message || "the worker ended");
+      // One that was stopped has nothing more to say of the work of the next.
+      if (worker === this.#worker) this.#died(event.message || "the worker ended");
     };
-    this.#worker.postMessage({wasm: this.#wasm});
+    worker.postMessage({module: this.#module});
+    this.#worker = worker;
   }
 
   #restart() {
@@ -78,15 +85,22 @@ export class Engine {
     this.#worker.postMessage({id, words, files});
   }
 
-  #heard({id, progress, result, crashed}) {
+  #heard({id, progress, result, crashed, starved}) {
     const job = this.#current;
     if (!job || job.id !== id) return;
     if (progress !== undefined) {
       job.onProgress?.(progress);
       return;
     }
-    if (crashed !== undefined) {
-      this.#died(crashed);
+    if (starved !== undefined && !job.isSecond) {
+      // What earlier runs left in the worker's memory goes with the worker.
+      this.#restart();
+      this.#waiting.unshift({...job, isSecond: true});
+      this.#next();
+      return;
+    }
+    if (crashed !== undefined || starved !== undefined) {
+      this.#died(crashed ?? starved);
       return;
     }
     this.#current = null;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command as a package for others' pages and for node. `createChaintrue` stands before this text.
-import {run} from "./run.js";
+import {freshInstance, runIn} from "./run.js";
 
 const isNode = typeof process !== "undefined" && process.versions?.node !== undefined;
 
@@ -14,5 +14,7 @@ async function bytesOf(url) {
 export async function load(wasm) {
   const bytes = wasm ?? await bytesOf(new URL("chaintrue.wasm", import.meta.url));
   const module = await WebAssembly.compile(bytes);
-  return {run: (words, files = {}, options = {}) => run(createChaintrue, module, words, files, options)};
+  return {
+    run: async (words, files = {}, options = {}) => runIn(await freshInstance(createChaintrue, module), words, files, options),
+  };
 }

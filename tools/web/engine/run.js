@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One run of the command: its words, the files it may read, and what comes of it.
+// One run of the command in an instance of its own: its words, the files it may read, and what comes of it.
 
 const FOLDER = "/folder";
+/** When the files were written that a run is given: what it writes itself is of today. */
+const GIVEN = 0;
 
 /** Text of a run's standard output or error; bytes come one at a time. */
 function collector() {
@@ -12,14 +14,6 @@ function collector() {
     },
     text: () => new TextDecoder().decode(new Uint8Array(bytes)),
   };
-}
-
-function isSame(a, b) {
-  if (a === undefined || a.length !== b.length) return false;
-  for (let i = 0; i < a.length; ++i) {
-    if (a[i] !== b[i]) return false;
-  }
-  return true;
 }
 
 function makeFolders(FS, path) {
@@ -35,64 +29,71 @@ function writeFiles(FS, files) {
   for (const [path, bytes] of Object.entries(files)) {
     makeFolders(FS, path);
     FS.writeFile(`${FOLDER}/${path}`, bytes);
+    FS.utime(`${FOLDER}/${path}`, GIVEN, GIVEN);
   }
   FS.chdir(FOLDER);
 }
 
-/** The files that a run has written, by path; those that it left as they were are not among them. */
-function writtenFiles(FS, before, folder = "", written = {}) {
+/** The files that a run has written, by path, be they as they were before; those that it only read are not among them. */
+function writtenFiles(FS, folder = "", written = {}) {
   for (const name of FS.readdir(`${FOLDER}/${folder}`)) {
     if (name === "." || name === "..") continue;
     const path = folder + name;
-    if (FS.isDir(FS.stat(`${FOLDER}/${path}`).mode)) {
-      writtenFiles(FS, before, `${path}/`, written);
-      continue;
-    }
-    const bytes = FS.readFile(`${FOLDER}/${path}`);
-    if (!isSame(before[path], bytes)) written[path] = bytes;
+    const {mode, mtime} = FS.stat(`${FOLDER}/${path}`);
+    if (FS.isDir(mode)) writtenFiles(FS, `${path}/`, written);
+    else if (mtime.getTime() !== GIVEN) written[path] = FS.readFile(`${FOLDER}/${path}`);
   }
   return written;
 }
 
 /**
- * Runs the command in an instance of its own.
+ * An instance of the command that has not run yet. It runs once: what a run leaves in memory is gone with it.
  * @param createChaintrue what emscripten's script defines
  * @param module the compiled WebAssembly.Module
+ * @throws where the browser has no memory for it
+ */
+export function freshInstance(createChaintrue, module) {
+  const fresh = {out: collector(), err: collector(), stdin: new Uint8Array(), code: null, instance: null};
+  let at = 0;
+  return new Promise((resolve, reject) => {
+    createChaintrue({
+      thisProgram: "chaintrue",
+      noInitialRun: true,
+      instantiateWasm: (imports, ready) => {
+        // Emscripten's script would wait for ever for one that cannot be made.
+        WebAssembly.instantiate(module, imports).then((made) => ready(made, module)).catch(reject);
+        return {};
+      },
+      stdin: () => (at < fresh.stdin.length ? fresh.stdin[at++] : null),
+      stdout: fresh.out.take,
+      stderr: fresh.err.take,
+      onExit: (status) => {
+        fresh.code = status;
+      },
+      quit: (_status, reason) => {
+        throw reason;
+      },
+    }).then((instance) => resolve(Object.assign(fresh, {instance})), reject);
+  });
+}
+
+/**
+ * Runs the command in a fresh instance.
  * @param words the command line without the command's name
  * @param files path -> Uint8Array, the folder that the command finds itself in
  * @param options onProgress(words); stdin (Uint8Array)
  * @returns {code, stdout, stderr, files}: the exit code, both texts, and the files written.
  * @throws what the engine died of; nothing of the folder is lost by that
  */
-export async function run(createChaintrue, module, words, files, options = {}) {
-  const out = collector();
-  const err = collector();
-  let code = null;
-  let at = 0;
-  const stdin = options.stdin ?? new Uint8Array();
-  const instance = await createChaintrue({
-    thisProgram: "chaintrue",
-    noInitialRun: true,
-    instantiateWasm: (imports, ready) => {
-      WebAssembly.instantiate(module, imports).then((made) => ready(made, module));
-      return {};
-    },
-    stdin: () => (at < stdin.length ? stdin[at++] : null),
-    stdout: out.take,
-    stderr: err.take,
-    onProgress: options.onProgress,
-    onExit: (status) => {
-      code = status;
-    },
-    quit: (_status, reason) => {
-      throw reason;
-    },
-  });
+export function runIn(fresh, words, files, options = {}) {
+  const {instance, out, err} = fresh;
+  fresh.stdin = options.stdin ?? fresh.stdin;
+  instance.onProgress = options.onProgress;
   writeFiles(instance.FS, files);
   try {
     instance.callMain(words);
   } catch (reason) {
-    if (code === null) throw reason;
+    if (fresh.code === null) throw reason;
   }
-  return {code, stdout: out.text(), stderr: err.text(), files: writtenFiles(instance.FS, files)};
+  return {code: fresh.code, stdout: out.text(), stderr: err.text(), files: writtenFiles(instance.FS)};
 }

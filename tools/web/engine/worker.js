@@ -1,22 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command off the page's own thread. `createChaintrue` stands before this text in the worker's source.
-//   {wasm: ArrayBuffer}                            once, before anything else
-//   {id, words, files} -> {id, progress} ... then {id, result} or {id, crashed}
-import {run} from "./run.js";
+//   {module: WebAssembly.Module}                   once, before anything else
+//   {id, words, files} -> {id, progress} ... then {id, result}, {id, crashed}, or {id, starved} where there was no memory to
+//                         begin with
+import {freshInstance, runIn} from "./run.js";
 
-let compiled = null;
+let module = null;
+/** The instance of the next run, made while the person looks at the last one's answer. */
+let next = null;
+
+function prepare() {
+  next = freshInstance(self.createChaintrue, module);
+  // Told to whom asks for it.
+  next.catch(() => {});
+}
 
 self.onmessage = async ({data}) => {
-  if (data.wasm) {
-    compiled = WebAssembly.compile(data.wasm);
+  if (data.module) {
+    module = data.module;
+    prepare();
     return;
   }
   const {id, words, files} = data;
+  const why = (reason) => String(reason?.message ?? reason);
+  let fresh = null;
   try {
-    const onProgress = (progress) => self.postMessage({id, progress});
-    const result = await run(self.createChaintrue, await compiled, words, files, {onProgress});
-    self.postMessage({id, result});
+    fresh = await next;
   } catch (reason) {
-    self.postMessage({id, crashed: String(reason?.message ?? reason)});
+    self.postMessage({id, starved: why(reason)});
+    return;
+  }
+  try {
+    const result = runIn(fresh, words, files, {onProgress: (progress) => self.postMessage({id, progress})});
+    self.postMessage({id, result});
+    prepare();
+  } catch (reason) {
+    self.postMessage({id, crashed: why(reason)});
   }
 };

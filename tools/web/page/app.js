@@ -48,7 +48,7 @@ class Page {
     this.#draw();
     this.#listenToKeys();
     const [source, wasm, kept] = await Promise.all([unpacked("worker"), unpacked("wasm"), this.storage.open()]);
-    this.engine = new Engine(new TextDecoder().decode(source), wasm);
+    this.engine = await Engine.of(new TextDecoder().decode(source), wasm);
     if (kept) this.store.restore(kept);
     this.store.listen(() => this.#changed());
     this.#changed();

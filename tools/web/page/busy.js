@@ -28,7 +28,11 @@ export class Busy {
     task.end = () => {
       clearTimeout(timer);
       this.#tasks.delete(task);
-      if (this.#tasks.size > 0) return;
+      const [waiting] = this.#tasks;
+      if (waiting) {
+        this.#words.textContent = `${waiting.what} ...`;
+        return;
+      }
       this.element.hidden = true;
       this.#words.textContent = "";
     };

@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fourth step: a program before and after.
 import {DONE, runVerb, sentenceList, sentencesOf} from "./command.js";
-import {download, fileDrop, h} from "./dom.js";
+import {contentOf, download, fileDrop, h, unreadable} from "./dom.js";
 import {reportFrame} from "./frame.js";
 
-const PROGRAMS = ".nc,.gcode,.ngc,.tap,.cnc,.txt";
+const PROGRAMS = [".nc", ".gcode", ".ngc", ".tap", ".cnc", ".txt"];
+/** Those that drive to the marks, which belong to their lists. */
+const SHEETS = ["marks.nc", "holes.nc", "lengths.nc", "five.nc"];
+/** The work that a newer program takes the place of. */
+const TASK = "cut";
+
+const isProgram = (path) => PROGRAMS.some((end) => path.toLowerCase().endsWith(end));
+
+/** Why a file of this name cannot be put into the folder as a program; null where it can. */
+function refusalOf(name, folder) {
+  if (!isProgram(name)) return `${name} is not opened: a G-code program's name ends in ${PROGRAMS.slice(0, -1).join(", ")} or ${PROGRAMS.at(-1)}.`;
+  if (name in folder && (SHEETS.includes(name) || name === "README.txt"))
+    return `${name} is not opened: the machine's folder has a file of that name. Give the program another name.`;
+  return null;
+}
 
 export function cutStep(page) {
   const said = h("div", {class: "said", role: "status"});
@@ -15,25 +29,54 @@ export function cutStep(page) {
     h("section", {}, h("h2", {}, "Cut a part true"),
       h("p", {}, "The program is rewritten so that the machine as it is cuts what was drawn, for the controller and the " +
         "settings that it was measured with. It is run on a simulated controller before you get it."),
-      fileDrop("program", "Open a G-code program", PROGRAMS, "Or drop it here.", ([file]) => take(file)), jobs),
+      fileDrop("program", "Open a G-code program", PROGRAMS.join(","), "Or drop it here.", ([file]) => take(file)), jobs),
     said, outcome);
 
+  /** Of programs that come one after the other the last is worked on and shown. */
+  let latest = 0;
+  function begin() {
+    page.engine.cancel((job) => job.supersede === TASK);
+    outcome.replaceChildren();
+    said.replaceChildren();
+    return ++latest;
+  }
+
+  function say(sentences, isProblem) {
+    said.className = isProblem ? "said problem" : "said";
+    said.replaceChildren(sentenceList(sentences));
+  }
+
   async function take(file) {
+    const mine = begin();
     const name = file.name.replace(/[^\w.-]/g, "_");
-    page.store.change({[name]: new Uint8Array(await file.arrayBuffer())});
+    const refused = refusalOf(name, page.store.folder);
+    if (refused) {
+      say([refused], true);
+      return;
+    }
+    const bytes = await contentOf(file);
+    if (mine !== latest) return;
+    if (!bytes) {
+      say([unreadable(file)], true);
+      return;
+    }
+    page.store.change({[name]: bytes});
     await compensate(name);
   }
 
   async function compensate(name) {
+    const mine = begin();
     const stem = name.replace(/\.[^.]*$/, "");
     const names = {name, truth: `${stem}.true.nc`, report: `${stem}.html`};
-    outcome.replaceChildren();
-    said.replaceChildren();
-    const result = await runVerb(page, ["gcode", "compensate", name, "--map", "map.json", "-o", names.truth, "--report", names.report, "--force"]);
-    if (!result) return;
+    const result = await runVerb(page, ["gcode", "compensate", name, "--map", "map.json", "-o", names.truth, "--report", names.report, "--force"],
+      {supersede: TASK});
+    if (mine !== latest) return;
+    if (!result) {
+      say([`${name} was not compensated. Open it once more to try again.`], true);
+      return;
+    }
     const isDone = result.code === DONE;
-    said.className = isDone ? "said" : "said problem";
-    said.replaceChildren(sentenceList(sentencesOf(result)));
+    say(sentencesOf(result), !isDone);
     page.store.derive(result.files);
     if (isDone) show(names, result.files);
   }
@@ -61,8 +104,7 @@ export function cutStep(page) {
       const {folder} = page.store;
       none.hidden = Boolean(folder["map.json"]);
       all.hidden = !folder["map.json"];
-      const programs = Object.keys(folder).filter((path) => /\.(nc|gcode|ngc|tap|cnc)$/i.test(path) && !/\.true\.nc$/.test(path) &&
-        !["marks.nc", "holes.nc", "lengths.nc", "five.nc"].includes(path));
+      const programs = Object.keys(folder).filter((path) => isProgram(path) && !SHEETS.includes(path) && !/\.(true\.nc|txt)$/i.test(path));
       jobs.replaceChildren(...programs.map((path) => h("button", {type: "button", onclick: () => compensate(path)}, `Compensate ${path}`)));
     },
   };

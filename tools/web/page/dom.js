@@ -20,6 +20,17 @@ export const svg = (tag, properties, ...children) => fill(document.createElement
 export const textOf = (bytes) => new TextDecoder().decode(bytes);
 export const bytesOf = (text) => new TextEncoder().encode(text);
 
+/** The bytes of a file that somebody chose or dropped; null where there are none to be had, as of a folder. */
+export async function contentOf(file) {
+  try {
+    return new Uint8Array(await file.arrayBuffer());
+  } catch {
+    return null;
+  }
+}
+
+export const unreadable = (file) => `${file.name} cannot be read. Open a file, not a folder, that is still there.`;
+
 /** Gives the browser a file to keep. */
 export function download(name, bytes) {
   const url = URL.createObjectURL(new Blob([bytes], {type: "application/octet-stream"}));

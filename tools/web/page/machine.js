@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The first step: whose machine it is.
 import {DONE, problemOf, runVerb, sentenceList, sentencesOf} from "./command.js";
-import {bytesOf, fileDrop, h, textOf} from "./dom.js";
+import {bytesOf, contentOf, fileDrop, h, textOf, unreadable} from "./dom.js";
 import {MachineForm} from "./machine_form.js";
 import {Sheet} from "./sheet.js";
 import {folderOf} from "./zip.js";
@@ -70,7 +70,11 @@ export function replaceFolder(page, files, step) {
 
 async function open(page, file, say) {
   if (!mayReplace(page)) return;
-  const bytes = new Uint8Array(await file.arrayBuffer());
+  const bytes = await contentOf(file);
+  if (!bytes) {
+    say([unreadable(file)], true);
+    return;
+  }
   if (/\.zip$/i.test(file.name)) {
     await openZip(page, bytes, say);
     return;

@@ -9,6 +9,7 @@ import {pathToFileURL} from "node:url";
 import {describe, test} from "node:test";
 import {folderOf} from "../page/zip.js";
 import {browsers, built, fixture, temporaryFolder, Visit} from "./browser.mjs";
+import {reliefOf} from "./relief.mjs";
 
 /** Every way out that a script has, tried in a document. */
 async function tryEveryWayOut(server) {
@@ -190,22 +191,6 @@ describe("files", () => {
     }
   });
 });
-
-/** A relief in straight moves of half a millimetre, at least so many bytes. */
-function reliefOf(bytes) {
-  const lines = ["G21 G90 G17 G94", "G0 Z5", "G0 X-400 Y-300", "G1 Z-1 F800"];
-  let length = 0;
-  for (let row = 0; length < bytes; ++row) {
-    const y = -300 + row * 0.5;
-    for (let step = 0; step <= 1600 && length < bytes; ++step) {
-      const x = (row % 2 === 0 ? -400 : 400) + (row % 2 === 0 ? 0.5 : -0.5) * step;
-      const line = `G1 X${x.toFixed(1)} Y${y.toFixed(1)} Z${(-1 - Math.sin(x / 20) * Math.cos(y / 20)).toFixed(3)}`;
-      lines.push(line);
-      length += line.length + 1;
-    }
-  }
-  return `${[...lines, "G0 Z5", "M2"].join("\n")}\n`;
-}
 
 describe("for everybody", () => {
   const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
