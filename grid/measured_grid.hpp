@@ -13,7 +13,7 @@ namespace chaintrue::grid {
 
 struct MeasuredPoint {
   /// Where the tool stood, in the marks' frame (the bed's, unless the sheet was placed by hand).
-  model::BedPoint mark;
+  model::MarkPoint mark;
   /// Absent where the point gives a command instead.
   std::optional<model::ChainLengths> lengths;
   std::optional<model::BedPoint> commanded;

@@ -15,6 +15,17 @@ struct BedPoint {
   double y_mm = 0.0;
 };
 
+/// A mark, or any place by its sheet's own numbers: what a person reads on the paper. Where the sheet
+/// lies on the bed says SheetPlacement (model/calibration).
+struct MarkPoint {
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+};
+
+/// The same numbers, of a sheet that lies as the bed does.
+constexpr BedPoint laid_as_bed(MarkPoint mark) { return {mark.x_mm, mark.y_mm}; }
+constexpr MarkPoint laid_as_bed(BedPoint place) { return {place.x_mm, place.y_mm}; }
+
 enum class Side { left, right };
 
 /// What the two motors have paid out; addressed by side where that is a variable.

@@ -93,9 +93,7 @@ std::size_t place_of_direction() {
   return static_cast<std::size_t>(found - table.begin());
 }
 
-double length(const Pose& pose, Side side) {
-  return pose.lengths[side];
-}
+double length(const Pose& pose, Side side) { return pose.lengths[side]; }
 
 void accumulate(ChainAddition& sum, const ChainAddition& part) {
   sum.length_mm += part.length_mm;
@@ -142,9 +140,7 @@ struct ReadingModel::State {
 
   enum class Part { before_direction, after_direction, whole };
   [[nodiscard]] ChainAddition additions(const Pose& pose, Side side, Part part) const;
-  [[nodiscard]] double zero(Side side) const {
-    return machine.chain_zero[side];
-  }
+  [[nodiscard]] double zero(Side side) const { return machine.chain_zero[side]; }
   /// The reading of a chain that has been paid out to this length with all that is added.
   [[nodiscard]] double counted(double length_mm, Side side) const {
     return length_mm / (1.0 + elongation[side]) + zero(side);
@@ -224,8 +220,7 @@ tl::expected<PointReading, PoseFailure> ReadingModel::at(BedPoint point) const {
   for (const Side side : kSides) {
     const double paid_out =
         length(*pose, side) + state.additions(*pose, side, State::Part::whole).length_mm;
-    reading.lengths[side] =
-        state.counted(paid_out, side);
+    reading.lengths[side] = state.counted(paid_out, side);
   }
   const Eigen::Matrix2d lengths_by_point = state.kinematics->jacobian(*pose);
   for (const Eigen::Index axis : {0, 1}) {
@@ -353,7 +348,7 @@ tl::expected<std::vector<ChainLengths>, VisitFailure> readings(const ReadingMode
 
 MarkFrame::MarkFrame(const Machine& machine) {
   const std::vector<ActingEffect> acting = effects::acting_effects(machine);
-  const auto write = [&](BedPoint point) {
+  const auto write = [&](MarkPoint point) {
     for (const ActingEffect& one : acting) {
       if (one.effect->write != nullptr) point = one.effect->write(point, one.side, one.values);
     }
@@ -363,12 +358,12 @@ MarkFrame::MarkFrame(const Machine& machine) {
   written_per_place_.col(1) = write({0.0, 1.0});
 }
 
-BedPoint MarkFrame::written(BedPoint place) const {
+MarkPoint MarkFrame::written(MarkPoint place) const {
   const Eigen::Vector2d w = written_per_place_ * Eigen::Vector2d{place.x_mm, place.y_mm};
   return {w[0], w[1]};
 }
 
-BedPoint MarkFrame::place(BedPoint written) const {
+MarkPoint MarkFrame::place(MarkPoint written) const {
   const Eigen::Vector2d p =
       written_per_place_.inverse() * Eigen::Vector2d{written.x_mm, written.y_mm};
   return {p[0], p[1]};

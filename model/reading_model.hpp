@@ -105,9 +105,9 @@ class MarkFrame {
   /// \throws std::invalid_argument as ReadingModel.
   explicit MarkFrame(const Machine& machine);
   /// What is written beside a mark that truly is at `place`.
-  [[nodiscard]] BedPoint written(BedPoint place) const;
+  [[nodiscard]] MarkPoint written(MarkPoint place) const;
   /// Where the mark truly is that bears these numbers.
-  [[nodiscard]] BedPoint place(BedPoint written) const;
+  [[nodiscard]] MarkPoint place(MarkPoint written) const;
 
  private:
   Eigen::Matrix2d written_per_place_;

@@ -55,7 +55,7 @@ struct HoleRows {
   Eigen::MatrixXd by_mark;                      ///< n x 2 N
   Eigen::MatrixXd by_size;                      ///< n x 2
   Eigen::MatrixXd by_sheet;                     ///< n x 3, by its shift in x and y, and its turn
-  std::vector<model::BedPoint> marks;           ///< q_i
+  std::vector<model::MarkPoint> marks;          ///< q_i
   Eigen::MatrixXd marks_by_frame;               ///< 2 N x 6
   std::vector<model::FramePoint> frame_places;  ///< m_i
 };

@@ -13,6 +13,7 @@ using model::BedPoint;
 using model::Belt;
 using model::BeltFailure;
 using model::FramePoint;
+using model::MarkPoint;
 
 namespace {
 
@@ -65,9 +66,9 @@ interp::Rectangle domain_of(const model::BeltMachine& machine) {
 }
 
 /// The shift and turn that lay `from` on `to`, by least squares.
-model::SheetPlacement laid(const std::vector<BedPoint>& from, const std::vector<BedPoint>& to) {
+model::SheetPlacement laid(const std::vector<MarkPoint>& from, const std::vector<BedPoint>& to) {
   const auto count = static_cast<double>(from.size());
-  BedPoint a;
+  MarkPoint a;
   BedPoint b;
   for (std::size_t i = 0; i < from.size(); ++i) {
     a = {a.x_mm + from[i].x_mm / count, a.y_mm + from[i].y_mm / count};
@@ -108,7 +109,7 @@ model::BeltMachine paying_out(model::BeltMachine machine) {
 }
 
 BedPoint BeltMap::Placing::on_sheet(FramePoint place) const {
-  BedPoint raw{factor * (place.x_mm - centre.x_mm), factor * (place.y_mm - centre.y_mm)};
+  MarkPoint raw{factor * (place.x_mm - centre.x_mm), factor * (place.y_mm - centre.y_mm)};
   if (displacement) {
     const Eigen::Vector2d beside = displacement->at(raw);
     raw.x_mm += beside.x();
@@ -121,11 +122,11 @@ FramePoint BeltMap::Placing::in_frame(BedPoint on_sheet) const {
   // Each round takes the error down to the displacement's slope, a few thousandths of it.
   constexpr int kMostRounds = 40;
   constexpr double kSettledMm = 1e-10;
-  const BedPoint there = sheet.to_mark(on_sheet);
-  BedPoint raw = there;
+  const MarkPoint there = sheet.to_mark(on_sheet);
+  MarkPoint raw = there;
   for (int round = 0; displacement && round < kMostRounds; ++round) {
     const Eigen::Vector2d beside = displacement->at(raw);
-    const BedPoint next{there.x_mm - beside.x(), there.y_mm - beside.y()};
+    const MarkPoint next{there.x_mm - beside.x(), there.y_mm - beside.y()};
     const double moved = std::hypot(next.x_mm - raw.x_mm, next.y_mm - raw.y_mm);
     raw = next;
     if (moved < kSettledMm) break;
@@ -153,12 +154,12 @@ void BeltMap::lay(Placing& placing) const {
     return;
   }
   placing.sheet = {};
-  std::vector<BedPoint> from;
+  std::vector<MarkPoint> from;
   std::vector<BedPoint> to;
   for (const Reference& reference : references_) {
     const auto place = end_of_spans(placing.machine, reference.left_mm, reference.right_mm);
     if (!place) continue;
-    from.push_back(placing.on_sheet(*place));
+    from.push_back(model::laid_as_bed(placing.on_sheet(*place)));
     to.push_back(reference.commanded);
   }
   if (from.size() >= 2) placing.sheet = laid(from, to);
@@ -199,8 +200,9 @@ BeltMap::BeltMap(const BeltsFit& fit, const HolesBesideBelts* holes)
     if (!(variance > 1e-12 * eigen.eigenvalues().maxCoeff())) continue;
     others_.push_back(placing(unknowns + std::sqrt(variance) * eigen.eigenvectors().col(i)));
   }
-  std::vector<BedPoint> measured;
-  for (const Reference& reference : references_) measured.push_back(reference.commanded);
+  std::vector<MarkPoint> measured;
+  for (const Reference& reference : references_)
+    measured.push_back(model::laid_as_bed(reference.commanded));
   area_ = std::make_shared<const MeasuredArea>(measured, domain_of(in_force_));
 }
 

@@ -84,10 +84,10 @@ double log_prior(double factor, double dof) {
   return -dof * std::log(factor) - 0.5 * dof / (factor * factor);
 }
 
-double extent_mm(const std::vector<model::BedPoint>& marks) {
+double extent_mm(const std::vector<model::MarkPoint>& marks) {
   double widest = 0.0;
-  for (const model::BedPoint& a : marks) {
-    for (const model::BedPoint& b : marks)
+  for (const model::MarkPoint& a : marks) {
+    for (const model::MarkPoint& b : marks)
       widest = std::max(widest, std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm));
   }
   return widest;

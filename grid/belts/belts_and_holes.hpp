@@ -56,7 +56,7 @@ struct BeltHole {
   std::string name;
   model::BedPoint commanded;
   /// Where the upper two belts put it, from where commands count, mm; the sheet may lie elsewhere.
-  model::BedPoint mark;
+  model::MarkPoint mark;
 };
 
 /// A distance of one set of holes, in the order of the sets.

@@ -22,11 +22,11 @@ struct TapedNoise {
 /// The distances of all sets, one below the other.
 struct TapedRows {
   Eigen::VectorXd residual_mm;
-  Eigen::MatrixXd by_frame;            ///< n x 6
-  Eigen::MatrixXd by_mark;             ///< n x 2 N
-  Eigen::MatrixXd by_size;             ///< n x 2, of each set's own sheet
-  Eigen::MatrixXd by_sheet;            ///< n x 3, the same
-  std::vector<model::BedPoint> marks;  ///< of all holes, from where the first set's commands count
+  Eigen::MatrixXd by_frame;             ///< n x 6
+  Eigen::MatrixXd by_mark;              ///< n x 2 N
+  Eigen::MatrixXd by_size;              ///< n x 2, of each set's own sheet
+  Eigen::MatrixXd by_sheet;             ///< n x 3, the same
+  std::vector<model::MarkPoint> marks;  ///< of all holes, from where the first set's commands count
 };
 
 class TapedFrame {

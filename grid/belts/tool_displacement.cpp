@@ -9,8 +9,8 @@
 
 namespace chaintrue::grid {
 
-Eigen::MatrixXd displacement_kernel(const std::vector<model::BedPoint>& from,
-                                    const std::vector<model::BedPoint>& to,
+Eigen::MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
+                                    const std::vector<model::MarkPoint>& to,
                                     double reach_mm) {
   Eigen::MatrixXd kernel(static_cast<Eigen::Index>(from.size()),
                          static_cast<Eigen::Index>(to.size()));
@@ -41,11 +41,11 @@ ToolDisplacement::ToolDisplacement(DisplacementParts parts) : parts_(std::move(p
   weights_mm_ = inverse_ * at;
 }
 
-Eigen::Vector2d ToolDisplacement::at(model::BedPoint mark) const {
+Eigen::Vector2d ToolDisplacement::at(model::MarkPoint mark) const {
   return (displacement_kernel({mark}, parts_.places, parts_.reach_mm) * weights_mm_).transpose();
 }
 
-double ToolDisplacement::own_variance_mm2(model::BedPoint mark) const {
+double ToolDisplacement::own_variance_mm2(model::MarkPoint mark) const {
   const Eigen::RowVectorXd near = displacement_kernel({mark}, parts_.places, parts_.reach_mm);
   return parts_.size_mm * parts_.size_mm * std::max(0.0, 1.0 - near.dot(near * inverse_));
 }

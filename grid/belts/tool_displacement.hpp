@@ -28,13 +28,13 @@ namespace chaintrue::grid {
 struct DisplacementParts {
   double size_mm = 0.0;   ///< one sigma beforehand, on each axis
   double reach_mm = 1.0;  ///< over which it changes
-  std::vector<model::BedPoint> places;
+  std::vector<model::MarkPoint> places;
   Eigen::VectorXd at_mm;  ///< x and y at each place, 2 N
 };
 
 /// (1) between all of two lists.
-[[nodiscard]] Eigen::MatrixXd displacement_kernel(const std::vector<model::BedPoint>& from,
-                                                  const std::vector<model::BedPoint>& to,
+[[nodiscard]] Eigen::MatrixXd displacement_kernel(const std::vector<model::MarkPoint>& from,
+                                                  const std::vector<model::MarkPoint>& to,
                                                   double reach_mm);
 
 /// Immutable, thread safe.
@@ -42,9 +42,9 @@ class ToolDisplacement {
  public:
   /// \throws std::invalid_argument where `at_mm` is not of the places.
   explicit ToolDisplacement(DisplacementParts parts);
-  [[nodiscard]] Eigen::Vector2d at(model::BedPoint mark) const;
+  [[nodiscard]] Eigen::Vector2d at(model::MarkPoint mark) const;
   /// Of each axis, beside what is uncertain at the places themselves.
-  [[nodiscard]] double own_variance_mm2(model::BedPoint mark) const;
+  [[nodiscard]] double own_variance_mm2(model::MarkPoint mark) const;
   [[nodiscard]] const DisplacementParts& parts() const { return parts_; }
 
  private:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/belts/scale_by_tape.hpp"
 #include "grid/diagnosis/belts_report.hpp"
 #include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
@@ -20,24 +21,33 @@ std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& pa
   return text + ")";
 }
 
+/// An end of a distance as a file has it: an anchor's name, a point's number, a hole's command.
+std::string end_of(const BeltEnd& end) {
+  if (const auto* index = std::get_if<std::size_t>(&end)) return fmt::format("{}", *index);
+  if (const auto* belt = std::get_if<model::Belt>(&end)) return std::string(model::name(*belt));
+  const model::BedPoint at = std::get<CutHole>(end).commanded;
+  return fmt::format("({:g}, {:g})", at.x_mm, at.y_mm);
+}
+
 std::vector<std::string> bad_ones(const Diagnosis& d) {
   std::vector<std::string> result;
   for (const Outlier& bad : d.outliers) {
-    result.push_back(
-        bad.belt ? fmt::format("the {} belt at point {}, read {:.1f} mm too {}",
-                               model::words(*bad.belt),
-                               bad.index,
-                               std::abs(bad.off_mm),
-                               bad.off_mm > 0.0 ? "long" : "short")
-                 : fmt::format("point {}, where more than one belt disagrees", bad.index));
+    result.push_back(bad.belt
+                         ? fmt::format("the {} belt at point {}, read {:.1f} mm too {}",
+                                       model::words(*bad.belt),
+                                       bad.index,
+                                       std::abs(bad.off_mm),
+                                       bad.off_mm > 0.0 ? "long" : "short")
+                         : fmt::format("point {}, where more than one belt disagrees", bad.index));
   }
   return result;
 }
 
 std::string gain_words(const BeltsFindings& found) {
-  std::string text = fmt::format(" What one belt's reading is off by falls from {:.2f} to {:.2f} mm",
-                                 found.spread_before_mm,
-                                 found.spread_mm);
+  std::string text =
+      fmt::format(" What one belt's reading is off by falls from {:.2f} to {:.2f} mm",
+                  found.spread_before_mm,
+                  found.spread_mm);
   if (found.foretold && found.foretold_before) {
     text += fmt::format(
         "; the lower belts, foretold by the upper two at places left out, from {:.2f} to {:.2f} mm",
@@ -88,8 +98,7 @@ std::string sentence(const Diagnosis& d) {
                          listed_words(d, "or")) +
              besides_words(d) + gain_words(*d.belts);
     case Verdict::several_causes:
-      return fmt::format(
-                 "{} causes act together: {}.", d.causes.size(), listed_words(d, "and")) +
+      return fmt::format("{} causes act together: {}.", d.causes.size(), listed_words(d, "and")) +
              besides_words(d) + gain_words(*d.belts);
     case Verdict::outliers:
       return fmt::format("Nothing is wrong but {} of the readings: {}. Without {} the frame fits.",
@@ -104,7 +113,8 @@ std::string sentence(const Diagnosis& d) {
           d.unexplained->length_mm);
     default:
       return fmt::format(
-          "Nothing is found beyond the anchors: what is left of the lengths at {} places, {:.2f} mm "
+          "Nothing is found beyond the anchors: what is left of the lengths at {} places, {:.2f} "
+          "mm "
           "a belt, has no listed cause.",
           d.belts->places.size(),
           d.belts->spread_mm);
@@ -120,7 +130,8 @@ std::string left_out_arms(const MeasuredBelts& belts, const Diagnosis& d) {
     if (c.cause.effect->id != "belt_zero" || c.cause.side != model::effects::EffectSide::all)
       continue;
     const double offset = c.parameters.front().value;
-    if (std::abs(offset + reach) < kAlike * reach && belts.machine.lengths != model::BeltLengths::belt) {
+    if (std::abs(offset + reach) < kAlike * reach &&
+        belts.machine.lengths != model::BeltLengths::belt) {
       return fmt::format(
           "The lengths leave arm and extension out ({:.0f} mm are stated, all are {:.0f} mm too "
           "short): state \"lengths\": \"belt\", or import with --lengths belt, and diagnose again.",
@@ -131,7 +142,48 @@ std::string left_out_arms(const MeasuredBelts& belts, const Diagnosis& d) {
   return "";
 }
 
-void say_what_to_do(const MeasuredBelts& belts, Diagnosis& d) {
+/// Where causes are left open: what parts them, and where nothing of it does, what would.
+void say_what_to_measure(const BeltsNext& next, Diagnosis& d) {
+  // A chance of this much more is worth a second session.
+  constexpr double kWorthASession = 0.05;
+  if (!next.is_open) return;
+  const std::string_view aim = d.causes.empty() ? "one explanation alone" : "a single name";
+  std::string text;
+  double reached = 0.0;
+  if (!next.measurements.empty()) {
+    const NextMeasurement& first = next.measurements.front();
+    reached = next.measurements.back().raises_probability_to;
+    text = fmt::format(
+        "Measure next: {} at ({:.0f}, {:.0f}) mm{}. All of it raises the chance of {} to {}.",
+        first.what,
+        first.mark->x_mm,
+        first.mark->y_mm,
+        next.measurements.size() > 1
+            ? fmt::format(", and {} more below", next.measurements.size() - 1)
+            : "",
+        aim,
+        percent(reached));
+    if (reached < kLikelierThanNot) {
+      text +=
+          " What is left is too near to the noise for so few: measure at more places, out to the "
+          "corners of the frame.";
+    }
+  }
+  if (next.all_once_more && *next.all_once_more > reached + kWorthASession) {
+    text += fmt::format(
+        "{}every place measured once more, the last one first, raises the chance of {} to {}.",
+        text.empty() ? "No few places part what is left: " : " More: ",
+        aim,
+        percent(*next.all_once_more));
+  }
+  if (text.empty()) {
+    text = fmt::format("No further lengths part what is left{}: look at the parts themselves.",
+                       d.causes.empty() ? "" : ", for what these causes do is as good as the same");
+  }
+  d.what_to_do.push_back(std::move(text));
+}
+
+void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis& d) {
   const std::string arms = left_out_arms(belts, d);
   if (!arms.empty()) d.what_to_do.push_back(arms);
   for (const Cause& c : d.causes) {
@@ -139,14 +191,17 @@ void say_what_to_do(const MeasuredBelts& belts, Diagnosis& d) {
     d.what_to_do.emplace_back(c.cause.effect->remedy);
   }
   if (!d.outliers.empty()) {
-    d.what_to_do.push_back(
-        fmt::format("Do not trust {}: let the machine measure there again.",
-                    joined(bad_ones(d), "and")));
+    d.what_to_do.push_back(fmt::format("Do not trust {}: let the machine measure there again.",
+                                       joined(bad_ones(d), "and")));
   }
+  say_what_to_measure(next, d);
   if (!d.belts->scale) {
-    d.what_to_do.emplace_back(
-        "Tape one long distance, between two anchors or two holes that the machine cut, and give it "
-        "as distances: no belt knows how large the frame is.");
+    const bool proposed = !d.next_measurements.empty() &&
+                          d.next_measurements.back().kind == MeasurementKind::distance;
+    d.what_to_do.push_back(fmt::format(
+        "Tape {}, and give it as distances: no belt knows how large the frame is.",
+        proposed ? d.next_measurements.back().what
+                 : "one long distance, between two anchors or two holes that the machine cut"));
   }
 }
 
@@ -186,19 +241,54 @@ std::string firmware_words(const MeasuredBelts& belts, const BeltsFit& alone, co
                     readings,
                     alone.checks,
                     alone.spread_mm,
-                    d.causes.empty() ? ""
-                                     : fmt::format(", with {} beside the anchors by {:.2f} mm",
-                                                   d.causes.size() == 1 ? "the cause" : "the causes",
-                                                   d.belts->spread_mm));
+                    d.causes.empty()
+                        ? ""
+                        : fmt::format(", with {} beside the anchors by {:.2f} mm",
+                                      d.causes.size() == 1 ? "the cause" : "the causes",
+                                      d.belts->spread_mm));
 }
 
 }  // namespace
 
-void put_belts_into_words(const MeasuredBelts& belts, const BeltsFit& alone, Diagnosis& d) {
+std::vector<NextMeasurement> measurements_of(const BeltsNext& next,
+                                             const MeasuredBelts& belts,
+                                             const BeltsFit& alone,
+                                             const Decision& decision) {
+  std::vector<NextMeasurement> list = next.measurements;
+  const auto tape = alone.scale ? std::nullopt : distance_for_scale(belts, alone);
+  if (!tape) return list;
+  NextMeasurement distance{
+      MeasurementKind::distance,
+      fmt::format("the distance from {} to {}, after which the scale is known to "
+                  "{:.2g} %",
+                  words_of(tape->distance.from),
+                  words_of(tape->distance.to),
+                  100.0 * tape->sigma),
+      "",
+      std::nullopt,
+      tape->distance.sigma_mm};
+  distance.from = end_of(tape->distance.from);
+  distance.to = {end_of(tape->distance.to)};
+  // It parts no causes.
+  if (!list.empty()) {
+    distance.raises_probability_to = list.back().raises_probability_to;
+  } else {
+    distance.raises_probability_to = decision.listed.empty()
+                                         ? std::min(1.0, decision.nothing + decision.outliers)
+                                         : decision.marginal.front().probability;
+  }
+  list.push_back(std::move(distance));
+  return list;
+}
+
+void put_belts_into_words(const MeasuredBelts& belts,
+                          const BeltsFit& alone,
+                          const BeltsNext& next,
+                          Diagnosis& d) {
   d.notes.push_back(firmware_words(belts, alone, d));
   d.sentence = sentence(d);
   d.not_proved = not_proved(d);
-  say_what_to_do(belts, d);
+  say_what_to_do(belts, next, d);
 }
 
 }  // namespace chaintrue::grid::diagnosis

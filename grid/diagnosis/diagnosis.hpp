@@ -221,15 +221,18 @@ struct NextMeasurement {
   /// point, revisit and distance: a sentence; reading: the word that `readings` use
   /// (motor_spacing_mm, ...).
   std::string what;
-  std::string side;                     ///< of a reading, where it has one
-  std::optional<model::BedPoint> mark;  ///< of a point or a revisit, and of a hole to be cut
-  double sigma = 0.0;                   ///< of a reading: how well it has to be read
+  std::string side;                      ///< of a reading, where it has one
+  std::optional<model::MarkPoint> mark;  ///< of a point or a revisit, and of a hole to be cut
+  double sigma = 0.0;                    ///< of a reading: how well it has to be read
   /// Probability that the right cause is then named alone, this and all above it done.
   double raises_probability_to = 0.0;
   /// Of a distance: its ends, as in the holes' file. A hole to be cut has no name yet and is left
   /// out; to several holes the distances are measured one by one.
   std::string from{};
   std::vector<std::string> to{};
+  /// Of a place that four belts read: those that a motor pulls there, by name. Empty: as the
+  /// frame's orientation has it.
+  std::vector<model::Belt> pulled{};
 };
 
 /// The noise of holes and a tape, as stated.

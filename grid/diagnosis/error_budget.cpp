@@ -40,7 +40,7 @@ BudgetLine::ChangesWith changes_with(const model::effects::Effect& effect) {
 }
 
 /// A corner of the marked area, and from it a part's length towards the middle in either direction.
-std::array<model::BedPoint, 3> corner(const MarkedArea& area, bool right, bool top) {
+std::array<model::MarkPoint, 3> corner(const MarkedArea& area, bool right, bool top) {
   const double x = right ? area.high.x_mm : area.low.x_mm;
   const double y = top ? area.high.y_mm : area.low.y_mm;
   return {{{x, y}, {x + (right ? -kPartMm : kPartMm), y}, {x, y + (top ? -kPartMm : kPartMm)}}};
@@ -104,8 +104,7 @@ class Budget {
     // Every part is what the error would lose with it; together they are the error.
     Shifts settings = delivered;
     add_causes(budget, settings);
-    const Shifts pattern =
-        shifts_of(a_.estimate.left - a_.estimate.left_beside_discrepancy);
+    const Shifts pattern = shifts_of(a_.estimate.left - a_.estimate.left_beside_discrepancy);
     const Shifts noise =
         shifts_of(left_of_machine(a_.system, a_.estimate, a_.estimate.left_beside_discrepancy));
     take_away(pattern, settings);
@@ -176,10 +175,9 @@ class Budget {
       for (const SystemUnit& unit : there.system.units) {
         const SystemPlace& place = there.system.places[unit.places.front().place];
         whitened.segment<2>(unit.first_row) =
-            unit.whitening * discrepancy_at(a_.system,
-                                            marginalised_system(a_),
-                                            a_.estimate,
-                                            discrepancy_place(place));
+            unit.whitening *
+            discrepancy_at(
+                a_.system, marginalised_system(a_), a_.estimate, discrepancy_place(place));
       }
       return std::optional<Eigen::VectorXd>(std::move(whitened));
     });

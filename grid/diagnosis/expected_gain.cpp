@@ -28,7 +28,7 @@ Session over_the_area(const Analysis& a) {
   const auto between = [](double low, double high, int i, int n) {
     return low + (high - low) * (i + 0.5) / n;
   };
-  std::vector<model::BedPoint> marks;
+  std::vector<model::MarkPoint> marks;
   for (int j = 0; j < kRows; ++j) {
     for (int i = 0; i < kColumns; ++i) {
       marks.push_back({between(area.low.x_mm, area.high.x_mm, i, kColumns),
@@ -85,9 +85,8 @@ ExpectedGain gain_of_distances(const Analysis& a) {
 MarginalisedSystem without_slips(const Analysis& a, const MarginalisedSystem& marginalised) {
   std::vector<bool> outliers = marginalised.outliers;
   set_slips_aside(a, outliers);
-  return outliers == marginalised.outliers
-             ? marginalised
-             : marginalise(a.system, outliers, a.options.steps);
+  return outliers == marginalised.outliers ? marginalised
+                                           : marginalise(a.system, outliers, a.options.steps);
 }
 
 ExpectedGain expected_gain(const Analysis& a) {
@@ -96,8 +95,7 @@ ExpectedGain expected_gain(const Analysis& a) {
   const auto there = linearise(area, a.state, a.options.steps);
   if (!there || area.units.empty()) return {};
   const std::vector<int>& causes = a.decision.regressors;
-  const Estimate plain =
-      estimate(a.system, without_slips(a, marginalised_system(a)), {}, -1);
+  const Estimate plain = estimate(a.system, without_slips(a, marginalised_system(a)), {}, -1);
   const Estimate named = estimate_of(a, causes);
   const Eigen::Index settings = a.system.by_setting.cols();
   Eigen::MatrixXd design(there->by_setting.rows(), named.covariance.rows());

@@ -52,7 +52,7 @@ std::vector<std::size_t> border(const Analysis& a, bool of_the_bed) {
     const SystemUnit& unit = a.system.units[u];
     const bool outside =
         std::any_of(unit.places.begin(), unit.places.end(), [&](const SeenPlace& seen) {
-          const model::BedPoint& mark = a.system.places[seen.place].mark;
+          const model::MarkPoint& mark = a.system.places[seen.place].mark;
           return std::max(x.share(mark.x_mm), y.share(mark.y_mm)) > kBorderShare;
         });
     if (counts(unit) && outside) result.push_back(u);
@@ -95,8 +95,8 @@ Delivered delivered(const Analysis& a, const std::vector<std::size_t>& units) {
   const auto sheet = static_cast<Eigen::Index>(session.settings.size()) - kOfMachine;
   bool moves = false;
   for (std::size_t k = model::kMachineSettings.size(); k < session.settings.size(); ++k) {
-    moves = moves ||
-            (session.settings[k] != model::Setting::sheet_rotation_rad && session.knows(k));
+    moves =
+        moves || (session.settings[k] != model::Setting::sheet_rotation_rad && session.knows(k));
   }
   const Eigen::VectorXd as_stated = as_delivered(session, *stated);
   Eigen::VectorXd placed = as_stated;
@@ -155,9 +155,8 @@ Extension extension_of(const Analysis& a, const Errors& errors) {
 std::string scheme_of(const Session& session, const HeldOutBlocks& blocks, bool naming_repeated) {
   return fmt::format(
       "{}, each held out in turn, {}",
-      blocks.of_the_bed
-          ? fmt::format("{} blocks of the bed", blocks.units.size())
-          : fmt::format("all the distances of each of {} holes", blocks.units.size()),
+      blocks.of_the_bed ? fmt::format("{} blocks of the bed", blocks.units.size())
+                        : fmt::format("all the distances of each of {} holes", blocks.units.size()),
       naming_repeated ? "the naming repeated without it"
                       : fmt::format("the causes that all {} name fitted without it, since not "
                                     "every block left out leaves the same name",

@@ -57,7 +57,7 @@ struct Regressor {
 /// A place as the state has it.
 struct SystemPlace {
   model::PointReading reading;
-  model::BedPoint mark;     ///< as it was written, or commanded
+  model::MarkPoint mark;    ///< as it was written, or commanded
   Eigen::Matrix2d by_mark;  ///< d(L, R)/d(mark)
   int order = 0;
   bool ordered = false;  ///< chains were read here, at this visit

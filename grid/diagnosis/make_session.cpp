@@ -61,8 +61,7 @@ std::optional<std::string> contradiction(const Machine& machine,
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const ExtraReading& reading = readings[i];
     const double stated = observation::predicted_reading(machine, reading);
-    const double sigma =
-        std::hypot(sigma_of_statement(machine, reading.what), reading.sigma);
+    const double sigma = std::hypot(sigma_of_statement(machine, reading.what), reading.sigma);
     if (std::abs(reading.value - stated) > kContradiction * sigma) {
       return fmt::format(
           "the grid's reading of {} is {:.6g}, but the machine states {:.6g}: {:.0f} sigma apart. "
@@ -99,7 +98,7 @@ std::optional<StatedNoise> noise_of_repeats(const Machine& stated,
   for (const auto& group : repeat_groups(points)) {
     std::vector<Eigen::Vector2d> whitened;
     for (const std::size_t i : group) {
-      const auto reading = model.at(points[i].mark);
+      const auto reading = model.at(model::laid_as_bed(points[i].mark));
       if (!reading) continue;
       const Eigen::Matrix2d& j = reading->position_jacobian;
       const Eigen::Matrix2d covariance = std::pow(usual.position_mm, 2) * j * j.transpose() +
@@ -201,8 +200,7 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
   return std::make_shared<const observation::ChainLengthReadings>(
       std::move(places),
       ordered,
-      observation::PointNoise{std::max(noise->length_mm, kFinestLengthNoiseMm),
-                              noise->position_mm},
+      observation::PointNoise{std::max(noise->length_mm, kFinestLengthNoiseMm), noise->position_mm},
       noise->dof,
       sheet);
 }
@@ -244,8 +242,7 @@ class Assembly {
     }
     if (own.may_slip()) {
       for (const observation::Unit& unit : own.units()) {
-        session.units.push_back(
-            {number, unit.index, part.first_row + unit.first_row, unit.rows});
+        session.units.push_back({number, unit.index, part.first_row + unit.first_row, unit.rows});
       }
       session.observed_rows += own.rows();
     }
@@ -312,10 +309,11 @@ std::optional<std::string> too_few(const Measured& measured) {
         distances,
         2 * kFewestPoints);
   }
-  return fmt::format("{} points are too few to name a cause: at least {} are needed, 28 "
-                     "with six of them measured twice are a good start",
-                     points,
-                     kFewestPoints);
+  return fmt::format(
+      "{} points are too few to name a cause: at least {} are needed, 28 "
+      "with six of them measured twice are a good start",
+      points,
+      kFewestPoints);
 }
 
 }  // namespace

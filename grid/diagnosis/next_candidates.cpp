@@ -57,7 +57,7 @@ class PointCandidates {
   }
 
  private:
-  void add(model::BedPoint mark, MeasurementKind kind, std::string what) {
+  void add(model::MarkPoint mark, MeasurementKind kind, std::string what) {
     const auto row = 2 * static_cast<Eigen::Index>(places_.size());
     places_.push_back({0, "", mark, {}, next_visit_});
     candidates_.push_back({{kind, std::move(what), "", mark, 0.0}, {row, row + 1}, 2});
@@ -76,8 +76,8 @@ class PointCandidates {
     for (int j = 0; j < kRows; ++j) {
       for (int i = 0; i < kColumns; ++i) {
         // Whole millimetres: the list is for a person with a tape.
-        const model::BedPoint mark{std::round(x * (2.0 * i / (kColumns - 1) - 1.0)),
-                                   std::round(y * (2.0 * j / (kRows - 1) - 1.0))};
+        const model::MarkPoint mark{std::round(x * (2.0 * i / (kColumns - 1) - 1.0)),
+                                    std::round(y * (2.0 * j / (kRows - 1) - 1.0))};
         if (model_.at(sheet_.to_bed(mark))) add(mark, MeasurementKind::point, "a new point");
       }
     }

@@ -31,14 +31,14 @@ MarkedArea marked_area(const Session& session) {
   return area;
 }
 
-Session session_at(const Analysis& a, const std::vector<model::BedPoint>& marks) {
+Session session_at(const Analysis& a, const std::vector<model::MarkPoint>& marks) {
   const Session& session = a.session;
   const std::size_t part = chain_part(session);
   const observation::ChainLengthReadings& own = readings_of(session, part);
   const model::ReadingModel model(a.state.machine);
   const model::SheetPlacement sheet = a.state.sheet_of(session.parts[part]);
   std::vector<observation::Place> places;
-  for (const model::BedPoint& mark : marks) {
+  for (const model::MarkPoint& mark : marks) {
     if (model.at(sheet.to_bed(mark))) places.push_back({0, "", mark, {}, 0});
   }
   // Nobody goes there: no order of visits.

@@ -12,14 +12,14 @@ namespace chaintrue::grid::diagnosis {
 /// The rectangle that the marks span at which chains were read. Precondition: the session reads
 /// chains.
 struct MarkedArea {
-  model::BedPoint low;
-  model::BedPoint high;
+  model::MarkPoint low;
+  model::MarkPoint high;
 };
 [[nodiscard]] MarkedArea marked_area(const Session& session);
 
 /// A session with a point at each of these marks that the machine can reach, in no order of visits.
 /// Precondition: as above.
 [[nodiscard]] Session session_at(const Analysis& analysis,
-                                 const std::vector<model::BedPoint>& marks);
+                                 const std::vector<model::MarkPoint>& marks);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -16,7 +16,7 @@ namespace chaintrue::grid::diagnosis {
 /// A point of the grid in the pictures: shifts of the tool [mm], measured less predicted.
 struct PointPicture {
   std::size_t index = 0;
-  model::BedPoint mark;
+  model::MarkPoint mark;
   std::optional<int> order;
   bool bad = false;
   Eigen::Vector2d before_mm;       ///< of the calibrated machine
@@ -41,8 +41,8 @@ struct PointPicture {
 /// A hole in the pictures, where the calibrated machine puts it.
 struct HolePicture {
   std::string name;
-  model::BedPoint commanded;
-  model::BedPoint mark;
+  model::MarkPoint commanded;
+  model::MarkPoint mark;
 };
 
 /// A distance in the pictures: residuals are read less predicted [mm], the holes where the machine

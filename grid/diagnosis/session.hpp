@@ -37,7 +37,7 @@ struct SessionPart {
 struct SessionPlace {
   std::size_t part = 0;
   std::size_t index = 0;  ///< into the points, or the holes, of all files in their order
-  model::BedPoint mark;
+  model::MarkPoint mark;
   model::ChainLengths lengths;
   int order = 0;
 };

@@ -13,7 +13,7 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr double kFarOffMm = 50.0;  // ten times what settings and effects do together
-constexpr double kMends = 0.2;       // of the misfit may be left
+constexpr double kMends = 0.2;      // of the misfit may be left
 
 using Read = SessionPlace (*)(SessionPlace);
 
@@ -62,7 +62,7 @@ std::optional<double> misfit_mm(const Session& session, Read read) {
   for (const SessionPlace& place : session.places) {
     if (!session.parts[place.part].reads_chains()) continue;
     const SessionPlace p = read(place);
-    const auto reading = model.at(p.mark);
+    const auto reading = model.at(model::laid_as_bed(p.mark));
     if (!reading) return std::nullopt;
     sum += std::pow(p.lengths.left_mm - reading->lengths.left_mm, 2) +
            std::pow(p.lengths.right_mm - reading->lengths.right_mm, 2);

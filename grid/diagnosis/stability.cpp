@@ -25,7 +25,7 @@ std::vector<std::size_t> units_at_marks(const Session& session) {
   return result;
 }
 
-const model::BedPoint& mark_of(const Session& session, std::size_t unit) {
+const model::MarkPoint& mark_of(const Session& session, std::size_t unit) {
   const SessionPart& part = session.parts[session.units[unit].part];
   return session.places[part.first_place + unit - part.first_unit].mark;
 }
@@ -33,14 +33,15 @@ const model::BedPoint& mark_of(const Session& session, std::size_t unit) {
 /// Runs of points along a coordinate; empty where the marks do not lie in lines.
 std::vector<LeftOut> lines_along(const Session& session,
                                  Removal::What what,
-                                 double model::BedPoint::*coordinate) {
+                                 double model::MarkPoint::*coordinate) {
   const auto at = [&](std::size_t u) { return mark_of(session, u).*coordinate; };
   std::vector<std::size_t> order = units_at_marks(session);
   std::stable_sort(
       order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
   std::vector<LeftOut> lines;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGapMm) lines.push_back({what, 0, 0.0, {}});
+    if (k == 0 || at(order[k]) - at(order[k - 1]) >= kLineGapMm)
+      lines.push_back({what, 0, 0.0, {}});
     lines.back().units.push_back(order[k]);
     lines.back().at_mm += at(order[k]);
   }
@@ -138,8 +139,8 @@ std::vector<LeftOut> groups_to_leave_out(const Session& session) {
     points.push_back({Removal::What::point, session.units[u].index, 0.0, {u}});
   }
   add_by_index(std::move(points), groups);
-  for (const auto& [what, coordinate] : {std::pair(Removal::What::column, &model::BedPoint::x_mm),
-                                         std::pair(Removal::What::row, &model::BedPoint::y_mm)}) {
+  for (const auto& [what, coordinate] : {std::pair(Removal::What::column, &model::MarkPoint::x_mm),
+                                         std::pair(Removal::What::row, &model::MarkPoint::y_mm)}) {
     const auto lines = lines_along(session, what, coordinate);
     groups.insert(groups.end(), lines.begin(), lines.end());
   }

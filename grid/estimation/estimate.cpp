@@ -72,7 +72,7 @@ class Estimator {
   Eigen::VectorXd weights_;
   Eigen::VectorXd distances_;
   interp::PenalisedFit fit_;
-  std::vector<std::vector<model::BedPoint>> as_stated_;
+  std::vector<std::vector<model::MarkPoint>> as_stated_;
   bool settled_ = false;
   double surface_log_evidence_ = 0.0;
 };
@@ -108,8 +108,8 @@ double Estimator::step_to(const State& next, const Settling& settling) const {
   }
   for (const Side side : model::kSides) {
     if (!settling.scales_count) break;
-    step = std::max(
-        step, std::abs(next.surface.scale[side] - state_.surface.scale[side]) / kScaleSigma);
+    step = std::max(step,
+                    std::abs(next.surface.scale[side] - state_.surface.scale[side]) / kScaleSigma);
   }
   return step;
 }
@@ -131,8 +131,7 @@ std::optional<std::size_t> Estimator::worst_alone() const {
   without[static_cast<Eigen::Index>(*worst)] = 0.0;
   const Fit fit = solve(without, Smoothing::choose, false);
   if (!fit) return std::nullopt;
-  const bool bad =
-      LeftOut(*problem_, *fit, without).distance(*worst) > rule_of(1).set_aside_beyond;
+  const bool bad = LeftOut(*problem_, *fit, without).distance(*worst) > rule_of(1).set_aside_beyond;
   return bad ? worst : std::nullopt;
 }
 
@@ -149,10 +148,9 @@ bool Estimator::update_weights(int pass) {
     const UnitRule rule = rule_of(problem_->units()[u].rows);
     const auto at = static_cast<Eigen::Index>(u);
     if (rule.worst_first && weights_[at] == 0.0) continue;
-    const bool bad = !rule.worst_first && pass >= kSoftPasses &&
-                     distances_[at] > rule.set_aside_beyond;
-    next[at] =
-        bad ? 0.0 : std::min(1.0, rule.full_weight_within / std::max(distances_[at], 1e-12));
+    const bool bad =
+        !rule.worst_first && pass >= kSoftPasses && distances_[at] > rule.set_aside_beyond;
+    next[at] = bad ? 0.0 : std::min(1.0, rule.full_weight_within / std::max(distances_[at], 1e-12));
     change = std::max(change, std::abs(next[at] - weights_[at]));
   }
   weights_ = std::move(next);
@@ -195,8 +193,8 @@ tl::expected<void, EstimationFailure> Estimator::settle() {
     const double step = step_to(next, settling);
     state_ = std::move(next);
     const Eigen::VectorXd solved_with = weights_;
-    settled_ = !update_weights(pass) && step < settling.step_sigmas &&
-               pass + 1 >= settling.fewest_passes;
+    settled_ =
+        !update_weights(pass) && step < settling.step_sigmas && pass + 1 >= settling.fewest_passes;
     if (perhaps_last && (settled_ || last)) {
       // What is told of the units belongs to the weights that the fit was solved with.
       weights_ = solved_with;
@@ -215,8 +213,7 @@ tl::expected<void, EstimationFailure> Estimator::choose_surface() {
   plain.correct_covariance = false;
   // V without a surface; of an unknown noise its prior is in it (reml.hpp).
   const bool unknown = input_.noise.knowledge == interp::NoiseKnowledge::unknown;
-  const double without =
-      fit_.minus_two_log_reml + (unknown ? std::log(fit_.sigma2) : 0.0);
+  const double without = fit_.minus_two_log_reml + (unknown ? std::log(fit_.sigma2) : 0.0);
   auto bent = std::make_unique<JointProblem>(input_, true);
   State state = bent->stated();
   state.settings = state_.settings;
@@ -227,8 +224,7 @@ tl::expected<void, EstimationFailure> Estimator::choose_surface() {
   // The polynomials' prior, a constant beside V.
   const double prior = 2.0 * static_cast<double>(bent->unknowns().surface().polynomials) *
                        std::log(1.0 / (kFreePartSigmaMm * kFreePartSigmaMm));
-  surface_log_evidence_ =
-      0.5 * (without - (with->minus_two_log_reml - prior));
+  surface_log_evidence_ = 0.5 * (without - (with->minus_two_log_reml - prior));
   if (surface_log_evidence_ < kSurfaceEvidence) return {};
   problem_ = std::move(bent);
   state_ = std::move(state);
@@ -246,8 +242,8 @@ void Estimator::fill_units(Estimate& estimate) const {
     const Eigen::MatrixXd back = unwhitening_of(unit.whitening);
     const Eigen::MatrixXd rows = problem_->design().middleRows(unit.first_row, unit.rows);
     UnitEstimate own{unit.observation, unit.unit, weights_[at], distances_[at], {}, {}, {}, {}};
-    own.residual = back * (problem_->response().segment(unit.first_row, unit.rows) -
-                           rows * fit_.coefficients);
+    own.residual =
+        back * (problem_->response().segment(unit.first_row, unit.rows) - rows * fit_.coefficients);
     own.left_out = back * left_out.residual(u);
     own.left_out_covariance = back * left_out.covariance(u) * back.transpose();
     estimate.units.push_back(std::move(own));
@@ -334,9 +330,9 @@ MachineKnowledge stated_knowledge(const model::Machine& machine) {
   MachineKnowledge knowledge;
   knowledge.covariance = Eigen::MatrixXd::Zero(kMachineUnknowns, kMachineUnknowns);
   for (Eigen::Index i = 0; i < kMachine; ++i) {
-    const double sigma = std::max(
-        model::stated_sigma(machine, model::kMachineSettings[static_cast<std::size_t>(i)]),
-        kKnownSigma);
+    const double sigma =
+        std::max(model::stated_sigma(machine, model::kMachineSettings[static_cast<std::size_t>(i)]),
+                 kKnownSigma);
     knowledge.covariance(i, i) = sigma * sigma;
   }
   knowledge.covariance(kMachine, kMachine) = knowledge.covariance(kMachine + 1, kMachine + 1) =

@@ -127,9 +127,9 @@ struct UnitEstimate {
 
 struct PlaceEstimate {
   /// Where the machine as stated has it, a free sheet laid as its frame is defined.
-  model::BedPoint as_stated;
-  model::BedPoint mark;
-  Eigen::Matrix2d by_mark;  ///< d(L, R)/d(mark), corrected
+  model::MarkPoint as_stated;
+  model::MarkPoint mark;
+  Eigen::Matrix2d by_mark;      ///< d(L, R)/d(mark), corrected
   model::ChainLengths lengths;  ///< of the machine alone
 };
 
@@ -143,7 +143,7 @@ struct ObservationEstimate {
 };
 
 struct Estimate {
-  model::Machine machine;  ///< calibrated
+  model::Machine machine;                ///< calibrated
   std::vector<model::Setting> settings;  ///< of the machine, and of the first sheet
   /// Deviations of the settings from what was stated, then the scales.
   Eigen::VectorXd map_unknowns;

@@ -7,18 +7,18 @@
 namespace chaintrue::grid::estimation {
 namespace {
 
-using model::BedPoint;
+using model::MarkPoint;
 
 /// M
-Eigen::MatrixXd whole_motion(const std::vector<BedPoint>& commanded) {
+Eigen::MatrixXd whole_motion(const std::vector<MarkPoint>& commanded) {
   const auto count = static_cast<Eigen::Index>(commanded.size());
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const BedPoint& c : commanded)
+  for (const MarkPoint& c : commanded)
     middle += Eigen::Vector2d(c.x_mm, c.y_mm) / static_cast<double>(count);
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, 2 * count);
   double squares = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const BedPoint c = commanded[static_cast<std::size_t>(i)];
+    const MarkPoint c = commanded[static_cast<std::size_t>(i)];
     const double x = c.x_mm - middle.x();
     const double y = c.y_mm - middle.y();
     motion(0, 2 * i) = motion(1, 2 * i + 1) = 1.0 / static_cast<double>(count);
@@ -60,8 +60,8 @@ void add_free_directions(const PlacesOnSheet& places, FreeDirections& free) {
   free.following.bottomRows(more) = following;
 }
 
-std::vector<BedPoint> laid_as_a_whole(const PlacesOnSheet& places) {
-  std::vector<BedPoint> marks = places.marks;
+std::vector<MarkPoint> laid_as_a_whole(const PlacesOnSheet& places) {
+  std::vector<MarkPoint> marks = places.marks;
   if (places.free_columns.empty()) return marks;
   const Eigen::MatrixXd motion = whole_motion(places.commanded)(places.free_rows, Eigen::all);
   const Eigen::MatrixXd by_free = places.by_unknown(Eigen::all, places.free_columns);

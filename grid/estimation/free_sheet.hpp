@@ -32,8 +32,8 @@ struct FreeDirections {
 
 /// The places of one observation.
 struct PlacesOnSheet {
-  std::vector<model::BedPoint> commanded;
-  std::vector<model::BedPoint> marks;
+  std::vector<model::MarkPoint> commanded;
+  std::vector<model::MarkPoint> marks;
   Eigen::MatrixXd by_unknown;  ///< G
   Eigen::VectorXd moved;       ///< g
   std::vector<Eigen::Index> free_columns;
@@ -44,6 +44,6 @@ struct PlacesOnSheet {
 void add_free_directions(const PlacesOnSheet& places, FreeDirections& free);
 
 /// Where the marks would be with the free directions put right and all else as it is.
-[[nodiscard]] std::vector<model::BedPoint> laid_as_a_whole(const PlacesOnSheet& places);
+[[nodiscard]] std::vector<model::MarkPoint> laid_as_a_whole(const PlacesOnSheet& places);
 
 }  // namespace chaintrue::grid::estimation

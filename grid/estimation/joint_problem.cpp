@@ -16,14 +16,14 @@
 namespace chaintrue::grid::estimation {
 namespace {
 
-using model::BedPoint;
+using model::MarkPoint;
 using model::Side;
 using observation::Observation;
 
 constexpr auto kMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
 
-std::vector<BedPoint> stated_marks(const observation::Observations& observations) {
-  std::vector<BedPoint> marks;
+std::vector<MarkPoint> stated_marks(const observation::Observations& observations) {
+  std::vector<MarkPoint> marks;
   for (const auto& observation : observations) {
     for (const observation::Place& place : observation->places()) marks.push_back(place.mark);
   }
@@ -53,10 +53,7 @@ bool is_linear_in_correction(const Observation& observation) {
   return observation.places().empty() || observation.kind().reads_chains;
 }
 
-
-double length_of(model::ChainLengths lengths, Side side) {
-  return lengths[side];
-}
+double length_of(model::ChainLengths lengths, Side side) { return lengths[side]; }
 
 }  // namespace
 
@@ -101,7 +98,7 @@ tl::expected<void, EstimationFailure> JointProblem::linearise(const State& state
   }
   const auto system = estimation::linearise(input_.observations, from);
   if (!system) return tl::unexpected(unreachable(system.error().observation, system.error().place));
-  std::vector<BedPoint> marks;
+  std::vector<MarkPoint> marks;
   for (const SystemPlace& place : system->places) {
     marks.push_back(corrections[place.observation].to_surface(place.state.mark));
   }
@@ -125,7 +122,7 @@ std::vector<SurfaceCorrection> JointProblem::corrections_of(const State& state) 
 }
 
 /// What the places observe of the surface; where they stay, once.
-void JointProblem::observe(std::vector<BedPoint> places) {
+void JointProblem::observe(std::vector<MarkPoint> places) {
   surface_marks_ = std::move(places);
   if (unknowns_ && !places_move_) return;
   SurfaceColumns surface;
@@ -158,7 +155,8 @@ void JointProblem::fill_design(const LinearisedSystem& system, const State& stat
       sheet += 3;
     }
     const Eigen::Index count = input_.observations[k]->nuisance_sigma().size();
-    design.middleCols(unknowns_->nuisance(k), count) = system.by_nuisance.middleCols(nuisance, count);
+    design.middleCols(unknowns_->nuisance(k), count) =
+        system.by_nuisance.middleCols(nuisance, count);
     nuisance += count;
   }
   units_.clear();
@@ -206,9 +204,9 @@ Eigen::MatrixXd JointProblem::lengths_by_unknown(std::size_t place,
         at.state.reading, model::kMachineSettings[static_cast<std::size_t>(i)]));
   }
   if (const Eigen::Index sheet = unknowns_->sheet(at.observation); sheet >= 0) {
-    rows.middleCols<3>(sheet) = at.state.by_length.asDiagonal() *
-                                (at.state.reading.position_jacobian *
-                                 view.sheet.sensitivity(at.state.mark));
+    rows.middleCols<3>(sheet) =
+        at.state.by_length.asDiagonal() *
+        (at.state.reading.position_jacobian * view.sheet.sensitivity(at.state.mark));
   }
   for (const Side side : model::kSides) {
     const Eigen::Index row = row_of(side);
@@ -310,7 +308,8 @@ Eigen::MatrixXd JointProblem::map_covariance(const interp::PenalisedFit& fit,
                      unknowns_->polynomial(side),
                      columns.basis,
                      observed_->polynomials()) = observed_->polynomial_coefficients();
-    to_splines.block(columns.spline(side), unknowns_->bend(side), columns.basis, observed_->bends()) =
+    to_splines.block(
+        columns.spline(side), unknowns_->bend(side), columns.basis, observed_->bends()) =
         observed_->bend_coefficients();
   }
   Eigen::MatrixXd result = to_splines * covariance(fit) * to_splines.transpose();

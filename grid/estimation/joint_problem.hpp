@@ -53,7 +53,7 @@ class JointProblem {
   /// The same of many readings under a surface; null: the dense one costs no more.
   [[nodiscard]] const LocalDesign* local() const { return local_ ? &*local_ : nullptr; }
   /// Marks of an observation's places, a free sheet laid as its frame is defined.
-  [[nodiscard]] const std::vector<model::BedPoint>& marks(std::size_t observation) const {
+  [[nodiscard]] const std::vector<model::MarkPoint>& marks(std::size_t observation) const {
     return laid_marks_[observation];
   }
   /// What of a map's unknowns the places observe, and what keeps its prior.
@@ -64,7 +64,7 @@ class JointProblem {
   [[nodiscard]] Eigen::MatrixXd covariance(const interp::PenalisedFit& fit) const;
 
  private:
-  void observe(std::vector<model::BedPoint> places);
+  void observe(std::vector<model::MarkPoint> places);
   void fill_design(const LinearisedSystem& system, const State& state);
   void eliminate_free_directions(const LinearisedSystem& system,
                                  const std::vector<ObservedFrom>& from,
@@ -86,8 +86,8 @@ class JointProblem {
   interp::BsplineBasis basis_;
   std::optional<ObservedSubspace> observed_;
   std::optional<Unknowns> unknowns_;
-  std::vector<model::BedPoint> surface_marks_;  ///< of all places, in the first sheet's frame
-  std::vector<std::vector<model::BedPoint>> laid_marks_;
+  std::vector<model::MarkPoint> surface_marks_;  ///< of all places, in the first sheet's frame
+  std::vector<std::vector<model::MarkPoint>> laid_marks_;
   std::vector<SystemUnit> units_;
   Eigen::MatrixXd design_;
   Eigen::VectorXd response_;

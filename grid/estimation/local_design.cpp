@@ -12,7 +12,7 @@ LocalDesign::LocalDesign(const Eigen::MatrixXd& design,
                          const Unknowns& unknowns,
                          const ObservedSubspace& observed,
                          const interp::BsplineBasis& basis,
-                         const std::vector<model::BedPoint>& marks)
+                         const std::vector<model::MarkPoint>& marks)
     : units_(units), rows_(static_cast<std::size_t>(design.rows())) {
   const Eigen::Index bends = observed.bends();
   const Eigen::Index first_bend = unknowns.bend(Side::left);

@@ -31,7 +31,7 @@ class LocalDesign {
               const Unknowns& unknowns,
               const ObservedSubspace& observed,
               const interp::BsplineBasis& basis,
-              const std::vector<model::BedPoint>& marks);
+              const std::vector<model::MarkPoint>& marks);
 
   /// With more rows than this for each unknown it is worth its q^3.
   static constexpr Eigen::Index kRowsForEachUnknown = 4;

@@ -23,7 +23,7 @@ class SurfaceCorrection final : public observation::LengthCorrection {
                     model::SheetPlacement own_sheet)
       : surface_(surface), sheets_(Sheets{surface_sheet, own_sheet}) {}
 
-  [[nodiscard]] At at(model::BedPoint mark,
+  [[nodiscard]] At at(model::MarkPoint mark,
                       model::ChainLengths lengths,
                       const Eigen::Matrix2d& by_mark) const override {
     const auto corrected = surface_.apply(to_surface(mark), lengths, Eigen::Matrix2d::Zero());
@@ -33,7 +33,7 @@ class SurfaceCorrection final : public observation::LengthCorrection {
     return {corrected.lengths, by_length.asDiagonal() * by_mark + gradient, by_length};
   }
   /// The same place in the surface's frame.
-  [[nodiscard]] model::BedPoint to_surface(model::BedPoint mark) const {
+  [[nodiscard]] model::MarkPoint to_surface(model::MarkPoint mark) const {
     return sheets_ ? sheets_->surface.to_mark(sheets_->own.to_bed(mark)) : mark;
   }
 

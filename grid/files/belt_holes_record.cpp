@@ -18,11 +18,8 @@ constexpr Range kAnyNumber{"", -1e12, 1e12};
 constexpr int kMostSets = 1000;
 
 /// A coordinate of a point that the object holds.
-template <class T>
-void add_coordinate(Record<T>& record,
-                    const char* key,
-                    model::BedPoint T::*point,
-                    double model::BedPoint::*member) {
+template <class T, class Point>
+void add_coordinate(Record<T>& record, const char* key, Point T::*point, double Point::*member) {
   record.custom(
       key,
       true,
@@ -39,8 +36,8 @@ const Record<BeltHole>& hole_record() {
     hole.required("name", &BeltHole::name, text());
     add_coordinate(hole, "x_mm", &BeltHole::commanded, &model::BedPoint::x_mm);
     add_coordinate(hole, "y_mm", &BeltHole::commanded, &model::BedPoint::y_mm);
-    add_coordinate(hole, "mark_x_mm", &BeltHole::mark, &model::BedPoint::x_mm);
-    add_coordinate(hole, "mark_y_mm", &BeltHole::mark, &model::BedPoint::y_mm);
+    add_coordinate(hole, "mark_x_mm", &BeltHole::mark, &model::MarkPoint::x_mm);
+    add_coordinate(hole, "mark_y_mm", &BeltHole::mark, &model::MarkPoint::y_mm);
     return hole;
   }();
   return record;

@@ -3,6 +3,7 @@
 // to measure next.
 #include <fmt/format.h>
 
+#include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 
@@ -97,9 +98,9 @@ Value<std::size_t> index_value() {
 
 template <class T>
 void place_keys(Record<T>& record,
-                const std::function<model::BedPoint&(T&)>& place,
-                const std::function<const model::BedPoint&(const T&)>& const_place) {
-  const auto coordinate = [&](const char* key, double model::BedPoint::*member) {
+                const std::function<model::MarkPoint&(T&)>& place,
+                const std::function<const model::MarkPoint&(const T&)>& const_place) {
+  const auto coordinate = [&](const char* key, double model::MarkPoint::*member) {
     record.custom(
         key,
         true,
@@ -111,8 +112,8 @@ void place_keys(Record<T>& record,
           return std::optional<Json>(const_place(object).*member);
         });
   };
-  coordinate("x_mm", &model::BedPoint::x_mm);
-  coordinate("y_mm", &model::BedPoint::y_mm);
+  coordinate("x_mm", &model::MarkPoint::x_mm);
+  coordinate("y_mm", &model::MarkPoint::y_mm);
 }
 
 }  // namespace
@@ -128,7 +129,7 @@ const Record<NextMeasurement>& next_measurement_record() {
                                            {"distance", MeasurementKind::distance}}));
     next.required("what", &NextMeasurement::what, text());
     nullable_text(next, "side", &NextMeasurement::side, side_word());
-    const auto coordinate = [&next](const char* key, double model::BedPoint::*member) {
+    const auto coordinate = [&next](const char* key, double model::MarkPoint::*member) {
       next.custom(
           key,
           false,
@@ -143,12 +144,13 @@ const Record<NextMeasurement>& next_measurement_record() {
             return std::optional<Json>(object.mark ? Json((*object.mark).*member) : Json(nullptr));
           });
     };
-    coordinate("x_mm", &model::BedPoint::x_mm);
-    coordinate("y_mm", &model::BedPoint::y_mm);
+    coordinate("x_mm", &model::MarkPoint::x_mm);
+    coordinate("y_mm", &model::MarkPoint::y_mm);
     next.required("sigma", &NextMeasurement::sigma, number(kPositive))
         .required("raises_probability_to", &NextMeasurement::raises_probability_to, number(kShare))
         .sparse("from", &NextMeasurement::from, text())
         .sparse("to", &NextMeasurement::to, list(text()))
+        .sparse("pulled", &NextMeasurement::pulled, list(belt_word()))
         .check([](const Cursor& at, NextMeasurement& object) {
           const bool is_place =
               object.kind == MeasurementKind::point || object.kind == MeasurementKind::revisit;
@@ -168,8 +170,8 @@ const Record<HolePicture>& hole_picture_record() {
     hole.required("name", &HolePicture::name, text());
     place_keys<HolePicture>(
         hole,
-        [](HolePicture& object) -> model::BedPoint& { return object.mark; },
-        [](const HolePicture& object) -> const model::BedPoint& { return object.mark; });
+        [](HolePicture& object) -> model::MarkPoint& { return object.mark; },
+        [](const HolePicture& object) -> const model::MarkPoint& { return object.mark; });
     pair_key<HolePicture>(
         hole,
         "commanded_mm",
@@ -207,8 +209,8 @@ const Record<PointPicture>& point_picture_record() {
     point.required("index", &PointPicture::index, index_value());
     place_keys<PointPicture>(
         point,
-        [](PointPicture& object) -> model::BedPoint& { return object.mark; },
-        [](const PointPicture& object) -> const model::BedPoint& { return object.mark; });
+        [](PointPicture& object) -> model::MarkPoint& { return object.mark; },
+        [](const PointPicture& object) -> const model::MarkPoint& { return object.mark; });
     constexpr int kMostVisits = 1000000000;
     point.optional("order", &PointPicture::order, integer(-kMostVisits, kMostVisits))
         .required("bad", &PointPicture::bad, boolean());

@@ -20,7 +20,7 @@ constexpr std::size_t kMostWarnings = 20;
 /// A reading with what the machine model says of its place taken off.
 struct Compared {
   std::size_t index;
-  model::BedPoint mark;
+  model::MarkPoint mark;
   double first_mm;
   double second_mm;
 };
@@ -59,7 +59,7 @@ Comparison compare_lengths(const MeasuredGrid& grid, const StatedNoise& noise) {
     if (!point.lengths) continue;
     Compared reading{i, point.mark, point.lengths->left_mm, point.lengths->right_mm};
     if (kinematics) {
-      const auto pose = kinematics->inverse(point.mark);
+      const auto pose = kinematics->inverse(model::laid_as_bed(point.mark));
       if (!pose) continue;
       reading.first_mm -= pose->lengths.left_mm;
       reading.second_mm -= pose->lengths.right_mm;

@@ -21,10 +21,10 @@ constexpr Range kErrorMm{"mm", -1e5, 1e5};
 constexpr Range kAny{"", -1e12, 1e12};
 constexpr Range kPositive{"", 0.0, 1e12};
 
-const Record<model::BedPoint>& place_record() {
-  static const auto record = Record<model::BedPoint>("a point")
-                                 .required("x_mm", &model::BedPoint::x_mm, number(kPlaceMm))
-                                 .required("y_mm", &model::BedPoint::y_mm, number(kPlaceMm));
+const Record<model::MarkPoint>& place_record() {
+  static const auto record = Record<model::MarkPoint>("a point")
+                                 .required("x_mm", &model::MarkPoint::x_mm, number(kPlaceMm))
+                                 .required("y_mm", &model::MarkPoint::y_mm, number(kPlaceMm));
   return record;
 }
 

@@ -8,7 +8,7 @@
 
 namespace chaintrue::grid::files {
 
-std::vector<model::BedPoint> parse_points(const std::string& text, const std::string& file) {
+std::vector<model::MarkPoint> parse_points(const std::string& text, const std::string& file) {
   constexpr Range kCoordinate{"mm", -20000.0, 20000.0};
   // A plan numbers its points in the order of the walk; the lines stand in that order. What was, or
   // will be, read at them is passed over.
@@ -32,14 +32,14 @@ std::vector<model::BedPoint> parse_points(const std::string& text, const std::st
     problems.add("", "a header line only", "at least one line of numbers below it");
   }
   problems.throw_if_any();
-  std::vector<model::BedPoint> points;
+  std::vector<model::MarkPoint> points;
   points.reserve(table.rows.size());
   const std::size_t x = is_sheet ? 6 : 0;
   for (const auto& row : table.rows) points.push_back({row[x].value(), row[x + 1].value()});
   return points;
 }
 
-std::vector<model::BedPoint> read_points(const std::filesystem::path& path) {
+std::vector<model::MarkPoint> read_points(const std::filesystem::path& path) {
   return parse_points(read_whole_file(path), name_in_messages(path));
 }
 

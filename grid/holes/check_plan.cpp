@@ -17,7 +17,7 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::BedPoint;
+using model::MarkPoint;
 using model::Side;
 
 /// Rows and columns of places that are tried.
@@ -25,16 +25,16 @@ constexpr int kColumns = 9;
 constexpr int kRows = 5;
 
 /// Where the map answers, row by row from the top left.
-std::vector<BedPoint> places_of(const CompensationMap& map, double margin_mm) {
+std::vector<MarkPoint> places_of(const CompensationMap& map, double margin_mm) {
   const model::Bed& bed = map.machine()->bed;
-  std::vector<BedPoint> places;
+  std::vector<MarkPoint> places;
   for (int iy = 0; iy < kRows; ++iy) {
     for (int ix = 0; ix < kColumns; ++ix) {
       const double across = 2.0 * ix / (kColumns - 1) - 1.0;
       const double up = 1.0 - 2.0 * iy / (kRows - 1);
       // Whole millimetres: that is what is typed and marked.
-      const BedPoint mark{std::trunc((0.5 * bed.width_mm - margin_mm) * across),
-                          std::trunc((0.5 * bed.height_mm - margin_mm) * up)};
+      const MarkPoint mark{std::trunc((0.5 * bed.width_mm - margin_mm) * across),
+                           std::trunc((0.5 * bed.height_mm - margin_mm) * up)};
       if (map.status(mark) != MapStatus::extrapolated && map.query(mark)) places.push_back(mark);
     }
   }
@@ -125,11 +125,11 @@ void check(const CompensationMap& map, const CheckPlanRequest& request) {
 
 /// Readings that are what the map says.
 tl::expected<CheckReadings, PlanFailure> readings_at(const CompensationMap& map,
-                                                     const std::vector<BedPoint>& marks,
+                                                     const std::vector<MarkPoint>& marks,
                                                      const CheckPlanRequest& request) {
   MeasuredGrid grid;
   grid.noise = StatedNoise{request.length_mm, request.position_mm};
-  for (const BedPoint& mark : marks) {
+  for (const MarkPoint& mark : marks) {
     const auto told = map.query(mark);
     if (!told) {
       return tl::unexpected(PlanFailure{
@@ -157,7 +157,7 @@ model::PerSide<double> roots(const model::PerSide<double>& squares) {
 }  // namespace
 
 tl::expected<model::PerSide<double>, PlanFailure> told_sigmas(const CompensationMap& map,
-                                                              const std::vector<BedPoint>& marks,
+                                                              const std::vector<MarkPoint>& marks,
                                                               const CheckPlanRequest& request) {
   if (map.machine() == nullptr) return tl::unexpected(no_machine());
   const auto readings = readings_at(map, marks, request);
@@ -171,7 +171,7 @@ tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
                                                 const CheckPlanRequest& request) {
   check(map, request);
   if (map.machine() == nullptr) return tl::unexpected(no_machine());
-  const std::vector<BedPoint> places = places_of(map, request.margin_mm);
+  const std::vector<MarkPoint> places = places_of(map, request.margin_mm);
   if (places.size() < static_cast<std::size_t>(request.points)) {
     return tl::unexpected(
         PlanFailure{PlanFailure::Reason::too_few_places,

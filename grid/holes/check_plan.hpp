@@ -16,7 +16,7 @@
 ///
 /// \code
 ///   const auto plan = plan_check(map, {.points = 5});
-///   if (plan) for (const BedPoint& mark : plan->marks) visit(mark);
+///   if (plan) for (const MarkPoint& mark : plan->marks) visit(mark);
 /// \endcode
 #pragma once
 
@@ -42,7 +42,7 @@ struct CheckPlanRequest {
 
 struct CheckPlan {
   /// In whole mm, row by row from the top left.
-  std::vector<model::BedPoint> marks;
+  std::vector<model::MarkPoint> marks;
   /// (1) of either chain.
   model::PerSide<double> told_sigmas;
 };
@@ -51,7 +51,7 @@ struct CheckPlan {
 /// has no answer at one of them.
 [[nodiscard]] tl::expected<model::PerSide<double>, PlanFailure> told_sigmas(
     const CompensationMap& map,
-    const std::vector<model::BedPoint>& marks,
+    const std::vector<model::MarkPoint>& marks,
     const CheckPlanRequest& request);
 
 /// Fails in words where the map has no machine or answers at too few places.

@@ -20,8 +20,8 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::BedPoint;
 using model::ChainLengths;
+using model::MarkPoint;
 
 using Reason = CheckFailure::Reason;
 
@@ -52,7 +52,7 @@ struct MapAt {
 /// Columns of d(lengths)/d(settings) at a mark, in the order of the surface's settings.
 std::optional<Eigen::MatrixXd> design_at(const ModelSurface& surface,
                                          const model::ReadingModel& model,
-                                         BedPoint mark,
+                                         MarkPoint mark,
                                          Eigen::Matrix2Xd& by_motor) {
   const observation::View view{model, surface.sheet};
   const auto reading = model.at(surface.sheet.to_bed(mark));
@@ -67,7 +67,7 @@ std::optional<Eigen::MatrixXd> design_at(const ModelSurface& surface,
 }
 
 tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
-                                         const std::vector<BedPoint>& marks,
+                                         const std::vector<MarkPoint>& marks,
                                          const Progress& progress) {
   const auto count = static_cast<Eigen::Index>(marks.size());
   MapAt at;
@@ -81,7 +81,7 @@ tl::expected<MapAt, CheckFailure> map_at(const CompensationMap& map,
   for (Eigen::Index i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count);
     tell(progress, {"the map at the new points", 1, 2, share});
-    const BedPoint mark = marks[static_cast<std::size_t>(i)];
+    const MarkPoint mark = marks[static_cast<std::size_t>(i)];
     const auto refused = [&mark](const MapFailure& failure) {
       return fail(Reason::unreachable,
                   fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(failure)));
@@ -177,7 +177,7 @@ tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const
 
 /// The new points of one file: where they are on the map, and what they say there.
 struct Part {
-  std::vector<BedPoint> marks;
+  std::vector<MarkPoint> marks;
   std::vector<Repeated> points;  ///< of a grid
   StatedNoise noise;
   std::optional<observation::TapeDistances> distances;
@@ -379,7 +379,7 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
                                                          const Progress& progress) {
   const std::vector<MeasuredFile>& files = measured.files();
   std::vector<Part> parts;
-  std::vector<BedPoint> marks;
+  std::vector<MarkPoint> marks;
   for (const MeasuredFile& file : files) {
     auto part = std::visit([&map](const auto& one) { return part_of(map, one); }, file.measured);
     if (!part) {

@@ -12,7 +12,7 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::BedPoint;
+using model::MarkPoint;
 using Holes = std::vector<const PlannedPlace*>;
 
 /// A tape is laid square to an edge by eye, to a degree: 0.15 mm at this length.
@@ -21,8 +21,8 @@ constexpr double kLongestToEdgeMm = 1000.0;
 /// 1e-9; the first one stays.
 constexpr double kBetter = 1.0 + 1e-6;
 
-std::vector<BedPoint> marks_of(const Holes& holes) {
-  std::vector<BedPoint> marks;
+std::vector<MarkPoint> marks_of(const Holes& holes) {
+  std::vector<MarkPoint> marks;
   for (const PlannedPlace* hole : holes) marks.push_back(hole->place);
   return marks;
 }
@@ -53,7 +53,7 @@ std::vector<HoleDistance> DistanceChooser::in_reach(const Holes& holes) const {
   const double longest_mm = std::min(request_.longest_mm, kLongestToEdgeMm);
   for (std::size_t a = 0; a < holes.size(); ++a) {
     // Of two edges the nearer: it tells as much.
-    const BedPoint at = holes[a]->place;
+    const MarkPoint at = holes[a]->place;
     const SheetEdge edges[] = {at.x_mm > 0.0 ? SheetEdge::right : SheetEdge::left,
                                at.y_mm < 0.0 ? SheetEdge::bottom : SheetEdge::top};
     const double way_mm[] = {0.5 * bed.width_mm - std::abs(at.x_mm),
@@ -69,7 +69,8 @@ DistanceChooser::Measurable DistanceChooser::measurable(const Holes& holes,
                                                         std::vector<HoleDistance> distances) const {
   MeasuredHoles set = frame_;
   set.distances = std::move(distances);
-  const observation::DistanceGeometry geometry = observation::distance_geometry(set, marks_of(holes));
+  const observation::DistanceGeometry geometry =
+      observation::distance_geometry(set, marks_of(holes));
   const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
   Eigen::MatrixXd marks_by_unknown(2 * static_cast<Eigen::Index>(holes.size()), kPlanUnknowns);
   for (std::size_t i = 0; i < holes.size(); ++i) {

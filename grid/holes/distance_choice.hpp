@@ -29,7 +29,7 @@ inline constexpr Eigen::Index kPlanUnknowns = estimation::kMachineUnknowns + 3;
 
 /// A place where a hole may be, and how the unknowns move what is cut there on the sheet.
 struct PlannedPlace {
-  model::BedPoint place;
+  model::MarkPoint place;
   Eigen::Matrix<double, 2, kPlanUnknowns> by_unknown;
 };
 

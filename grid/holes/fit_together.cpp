@@ -19,7 +19,7 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::BedPoint;
+using model::MarkPoint;
 
 tl::unexpected<FitFailure> fail(FitFailure::Reason reason, const std::string& sentence) {
   return tl::unexpected(FitFailure{reason, sentence});
@@ -63,8 +63,8 @@ tl::expected<Part, FitFailure> part_of(const MeasuredGrid& grid) {
     auto alone = fit_grid(grid);
     if (!alone) return tl::unexpected(alone.error());
     const double factor = alone->fit.estimate.noise_factor;
-    const double left = 2.0 * static_cast<double>(points->size()) -
-                        alone->fit.estimate.effective_parameters;
+    const double left =
+        2.0 * static_cast<double>(points->size()) - alone->fit.estimate.effective_parameters;
     const bool repeats = alone->noise_source == "repeats";
     part.points->noise = {factor * alone->input.noise.length_mm,
                           factor * alone->input.noise.position_mm};
@@ -191,7 +191,7 @@ class TogetherMap {
 
  private:
   /// A place in the first file's frame.
-  [[nodiscard]] BedPoint in_frame(std::size_t file, BedPoint mark) const {
+  [[nodiscard]] MarkPoint in_frame(std::size_t file, MarkPoint mark) const {
     if (file == 0) return mark;
     return estimate_.observations[0].sheet.to_mark(estimate_.observations[file].sheet.to_bed(mark));
   }
@@ -209,15 +209,16 @@ class TogetherMap {
       }
       ++aside;
       const Eigen::Vector2d off = point.mark_jacobian.inverse() * point.left_out_residual_mm;
-      notes_.push_back(fmt::format("{}: point {} at ({:.0f}, {:.0f}) was set aside: it lies {:.1f} "
-                                   "mm beside where the others put it, {:.0f} times what the noise "
-                                   "allows. Measure it again.",
-                                   files_[file].name,
-                                   point.point.index + 1,
-                                   point.point.mark.x_mm,
-                                   point.point.mark.y_mm,
-                                   off.norm(),
-                                   point.distance));
+      notes_.push_back(
+          fmt::format("{}: point {} at ({:.0f}, {:.0f}) was set aside: it lies {:.1f} "
+                      "mm beside where the others put it, {:.0f} times what the noise "
+                      "allows. Measure it again.",
+                      files_[file].name,
+                      point.point.index + 1,
+                      point.point.mark.x_mm,
+                      point.point.mark.y_mm,
+                      off.norm(),
+                      point.distance));
     }
     for (MapPoint& point : map_points(points, fit, *parts_[file].grid)) {
       point.mark = in_frame(file, point.mark);
@@ -279,8 +280,8 @@ class TogetherMap {
     map_.hull = area.hull();
     map_.edge_mm = area.edge_mm();
     const MeasuredGrid* grid = files_.front().grid();
-    map_.settings = setting_results(
-        input_.machine, estimate_, grid != nullptr ? grid->sheet : std::nullopt);
+    map_.settings =
+        setting_results(input_.machine, estimate_, grid != nullptr ? grid->sheet : std::nullopt);
     if (has_points_) {
       map_.accuracy = held_out_accuracy(fitted_);
     } else {
@@ -310,7 +311,7 @@ class TogetherMap {
   const estimation::Estimate& estimate_;
   MapContents map_;
   std::vector<FittedPoint> fitted_;  ///< the good points of all grids
-  std::vector<BedPoint> good_;
+  std::vector<MarkPoint> good_;
   std::vector<std::string> sources_;
   std::vector<std::string> notes_;
   bool has_points_ = false;
@@ -335,8 +336,7 @@ tl::expected<TogetherFit, FitFailure> fit_together(const Measured& measured,
       auto data = corrected_data(*grid);
       if (!data) return fail(data.error().reason, files[k].name + ": " + data.error().sentence);
       corrected[k] = *std::move(data);
-      corrections.insert(
-          corrections.end(), corrected[k].notes.begin(), corrected[k].notes.end());
+      corrections.insert(corrections.end(), corrected[k].notes.begin(), corrected[k].notes.end());
       part = part_of(corrected[k].grid);
     } else {
       part = part_of(*files[k].holes());

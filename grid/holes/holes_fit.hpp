@@ -38,9 +38,9 @@ struct FoundHook {
 
 struct FittedHole {
   model::ChainLengths lengths;  ///< paid out
-  model::BedPoint as_stated;    ///< where the machine as stated puts it, in the sheet's frame
-  model::BedPoint predicted;    ///< where the fitted machine puts it
-  model::BedPoint place;        ///< where the distances say it is
+  model::MarkPoint as_stated;   ///< where the machine as stated puts it, in the sheet's frame
+  model::MarkPoint predicted;   ///< where the fitted machine puts it
+  model::MarkPoint place;       ///< where the distances say it is
 };
 
 /// What an estimate says of one set of distances among its observations.

@@ -6,13 +6,13 @@
 
 namespace chaintrue::grid {
 
-using model::BedPoint;
+using model::MarkPoint;
 
 MapPoint map_point(const FittedHole& hole) {
   MapPoint point;
   point.mark = hole.place;
   point.lengths = hole.lengths;
-  const auto beside = [&hole](BedPoint from) {
+  const auto beside = [&hole](MarkPoint from) {
     return Eigen::Vector2d(hole.place.x_mm - from.x_mm, hole.place.y_mm - from.y_mm);
   };
   point.as_stated_mm = point.sheet_placed_mm = beside(hole.as_stated);
@@ -26,7 +26,7 @@ CompensationMap map_of(const MeasuredHoles& set, const HolesFit& fit) {
   map.name = set.name;
   map.surface = model_surface(fit.estimate);
   map.domain = holes_domain(set.machine->bed);
-  std::vector<BedPoint> places;
+  std::vector<MarkPoint> places;
   for (const FittedHole& hole : fit.holes) places.push_back(hole.predicted);
   const MeasuredArea area(places, map.domain);
   map.hull = area.hull();

@@ -18,7 +18,7 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::BedPoint;
+using model::MarkPoint;
 using Holes = std::vector<const PlannedPlace*>;
 
 /// Holes nearer than this to each other weaken the sheet and tell little.
@@ -35,15 +35,15 @@ std::vector<PlannedPlace> candidates(const model::Machine& machine, double margi
   for (int iy = 0; iy < kRows; ++iy) {
     for (int ix = 0; ix < kColumns; ++ix) {
       // Whole millimetres: that is what is typed and drilled.
-      const BedPoint place{std::trunc(half_width * (2.0 * ix / (kColumns - 1) - 1.0)),
-                           std::trunc(half_height * (2.0 * iy / (kRows - 1) - 1.0))};
+      const MarkPoint place{std::trunc(half_width * (2.0 * ix / (kColumns - 1) - 1.0)),
+                            std::trunc(half_height * (2.0 * iy / (kRows - 1) - 1.0))};
       if (const auto planned = planned_place(model, place)) result.push_back(*planned);
     }
   }
   return result;
 }
 
-bool is_free(const Holes& holes, std::size_t moving, BedPoint place) {
+bool is_free(const Holes& holes, std::size_t moving, MarkPoint place) {
   for (std::size_t i = 0; i < holes.size(); ++i) {
     if (i == moving) continue;
     if (std::hypot(holes[i]->place.x_mm - place.x_mm, holes[i]->place.y_mm - place.y_mm) <
@@ -115,8 +115,8 @@ MeasuredHoles set_of(const model::Machine& machine,
   std::vector<std::size_t> order(holes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const BedPoint p = holes[a]->place;
-    const BedPoint q = holes[b]->place;
+    const MarkPoint p = holes[a]->place;
+    const MarkPoint q = holes[b]->place;
     return p.y_mm != q.y_mm ? p.y_mm > q.y_mm : p.x_mm < q.x_mm;
   });
   std::vector<std::size_t> number(holes.size());
@@ -127,7 +127,8 @@ MeasuredHoles set_of(const model::Machine& machine,
   set.hole_sigma_mm = request.hole_sigma_mm;
   for (std::size_t i = 0; i < order.size(); ++i) {
     number[order[i]] = i;
-    set.holes.push_back({std::string(1, static_cast<char>('A' + i)), holes[order[i]]->place});
+    set.holes.push_back(
+        {std::string(1, static_cast<char>('A' + i)), model::laid_as_bed(holes[order[i]]->place)});
   }
   for (const HoleDistance& distance : distances) {
     if (distance.edge) {
@@ -211,10 +212,13 @@ std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
 /// The sheet's place where it counts is not known beforehand.
 Eigen::MatrixXd prior_of(const model::Machine& machine, bool edges) {
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns);
-  prior.topLeftCorner<estimation::kMachineUnknowns, estimation::kMachineUnknowns>() = estimation::stated_knowledge(machine).covariance;
+  prior.topLeftCorner<estimation::kMachineUnknowns, estimation::kMachineUnknowns>() =
+      estimation::stated_knowledge(machine).covariance;
   if (edges) {
     prior.diagonal().tail<3>() =
-        Eigen::Array3d(observation::kSheetShiftMm, observation::kSheetShiftMm, observation::kSheetTurnRad).square();
+        Eigen::Array3d(
+            observation::kSheetShiftMm, observation::kSheetShiftMm, observation::kSheetTurnRad)
+            .square();
   }
   return prior;
 }
@@ -254,7 +258,8 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
   HolesPlan plan;
   plan.set = set_of(machine, request, holes, choice.distances);
   plan.expected_rms_mm = std::sqrt(choice.variance_mm2);
-  plan.expected_before_mm = tool_sigma_mm(machine, estimation::stated_knowledge(machine).covariance);
+  plan.expected_before_mm =
+      tool_sigma_mm(machine, estimation::stated_knowledge(machine).covariance);
   plan.knowledge =
       knowledge_of(prior, after, request.edges ? std::optional(error.whole) : std::nullopt);
   plan.effects = seen_effects(plan.set);

@@ -40,7 +40,9 @@ double as_cut_rms_mm(const MeasuredHoles& set, const std::vector<BedPoint>& want
 }  // namespace
 
 HolesPasses::HolesPasses(model::Machine stated, double worthwhile_mm)
-    : stated_(std::move(stated)), worthwhile_mm_(worthwhile_mm), prior_(estimation::stated_knowledge(stated_)) {}
+    : stated_(std::move(stated)),
+      worthwhile_mm_(worthwhile_mm),
+      prior_(estimation::stated_knowledge(stated_)) {}
 
 tl::expected<HolesPass, FitFailure> HolesPasses::add(const MeasuredHoles& set,
                                                      const std::vector<BedPoint>& wanted) {
@@ -86,7 +88,7 @@ double true_error_mm(const model::Machine& truth,
                           0.9 * stated.bed.height_mm * ((i / kAcross + 0.5) / kUp - 0.5)};
     std::optional<model::ChainLengths> lengths;
     if (map != nullptr) {
-      if (const auto answer = map->lengths(wanted)) lengths = answer->lengths;
+      if (const auto answer = map->lengths(model::laid_as_bed(wanted))) lengths = answer->lengths;
     } else if (const auto paid_out = controller->lengths(wanted)) {
       lengths = *paid_out;
     }
@@ -130,7 +132,7 @@ tl::expected<SimulatedPasses, FitFailure> simulate_passes(const model::Machine& 
     tell(request.progress, {"a set of holes, fitted", number, request.most});
     MeasuredHoles design = plan->set;
     for (std::size_t i = 0; map && i < wanted.size(); ++i) {
-      const auto lengths = map->lengths(wanted[i]);
+      const auto lengths = map->lengths(model::laid_as_bed(wanted[i]));
       const auto command = lengths ? controller->command(lengths->lengths)
                                    : tl::expected<BedPoint, model::PoseFailure>(wanted[i]);
       if (!command) {

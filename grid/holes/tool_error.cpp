@@ -10,10 +10,10 @@
 
 namespace chaintrue::grid {
 
-using model::BedPoint;
+using model::MarkPoint;
 
-std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, BedPoint place) {
-  const auto reading = model.at(place);
+std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, MarkPoint place) {
+  const auto reading = model.at(model::laid_as_bed(place));
   if (!reading) return std::nullopt;
   Eigen::Matrix<double, 2, estimation::kMachineUnknowns> lengths;
   for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {
@@ -35,8 +35,8 @@ ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
   std::vector<PlannedPlace> places;
   for (int iy = 0; iy < kUp; ++iy) {
     for (int ix = 0; ix < kAcross; ++ix) {
-      const BedPoint place{machine.bed.width_mm * ((ix + 0.5) / kAcross - 0.5),
-                           machine.bed.height_mm * ((iy + 0.5) / kUp - 0.5)};
+      const MarkPoint place{machine.bed.width_mm * ((ix + 0.5) / kAcross - 0.5),
+                            machine.bed.height_mm * ((iy + 0.5) / kUp - 0.5)};
       if (const auto planned = planned_place(model, place)) places.push_back(*planned);
     }
   }
@@ -62,7 +62,8 @@ ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
 }
 
 double tool_sigma_mm(const model::Machine& machine, const Eigen::MatrixXd& covariance) {
-  const Eigen::MatrixXd root = tool_error(machine, false).root.leftCols(estimation::kMachineUnknowns);
+  const Eigen::MatrixXd root =
+      tool_error(machine, false).root.leftCols(estimation::kMachineUnknowns);
   return std::sqrt(std::max(0.0, (root * covariance * root.transpose()).trace()));
 }
 

@@ -14,7 +14,7 @@ namespace chaintrue::grid {
 /// How the unknowns move, on the sheet, what is cut with the chain lengths that belong to a place;
 /// nothing where the machine has no pose.
 [[nodiscard]] std::optional<PlannedPlace> planned_place(const model::ReadingModel& model,
-                                                        model::BedPoint place);
+                                                        model::MarkPoint place);
 
 /// By the unknowns of a plan, kPlanUnknowns columns.
 struct ToolError {

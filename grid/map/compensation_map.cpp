@@ -15,6 +15,7 @@ namespace chaintrue::grid {
 
 using model::BedPoint;
 using model::ChainLengths;
+using model::MarkPoint;
 
 std::string explain(const MapFailure& failure) {
   switch (failure.reason) {
@@ -94,22 +95,18 @@ const model::Machine* CompensationMap::machine() const {
   return surface == nullptr ? nullptr : &surface->machine;
 }
 
-BedPoint CompensationMap::to_mark(BedPoint bed) const { return field_->to_mark(bed); }
+MarkPoint CompensationMap::to_mark(BedPoint bed) const { return field_->to_mark(bed); }
 
-BedPoint CompensationMap::to_bed(BedPoint mark) const { return field_->to_bed(mark); }
+BedPoint CompensationMap::to_bed(MarkPoint mark) const { return field_->to_bed(mark); }
 
-BedPoint CompensationMap::mark_of(BedPoint point, Frame frame) const {
-  return frame == Frame::bed ? field_->to_mark(point) : point;
-}
-
-MapStatus CompensationMap::status(BedPoint point, Frame frame) const {
-  const MapStatus status = area_.status(mark_of(point, frame));
+MapStatus CompensationMap::status(MarkPoint mark) const {
+  const MapStatus status = area_.status(mark);
   const bool refused =
       contents_.outside.way == Outside::refuse && status == MapStatus::extrapolated;
   return refused ? MapStatus::outside : status;
 }
 
-bool CompensationMap::answers_at(BedPoint mark) const {
+bool CompensationMap::answers_at(MarkPoint mark) const {
   if (!contents_.domain.contains(mark.x_mm, mark.y_mm)) return false;
   return contents_.outside.way != Outside::refuse || area_.status(mark) != MapStatus::extrapolated;
 }
@@ -132,15 +129,12 @@ CompensationMap CompensationMap::with_outside(OutsideRule rule) const {
   return CompensationMap(std::move(contents));
 }
 
-tl::expected<CompensationMap::Lengths, MapFailure> CompensationMap::lengths(BedPoint point,
-                                                                            Frame frame) const {
-  const BedPoint mark = mark_of(point, frame);
+tl::expected<CompensationMap::Lengths, MapFailure> CompensationMap::lengths(MarkPoint mark) const {
   if (!answers_at(mark)) return tl::unexpected(MapFailure::outside_map);
   return field_->at(mark);
 }
 
-tl::expected<MapAnswer, MapFailure> CompensationMap::query(BedPoint point, Frame frame) const {
-  const BedPoint mark = mark_of(point, frame);
+tl::expected<MapAnswer, MapFailure> CompensationMap::query(MarkPoint mark) const {
   if (!answers_at(mark)) return tl::unexpected(MapFailure::outside_map);
   const auto found = field_->with_covariance(mark);
   if (!found) return tl::unexpected(found.error());
@@ -155,13 +149,12 @@ tl::expected<MapAnswer, MapFailure> CompensationMap::query(BedPoint point, Frame
   return answer;
 }
 
-tl::expected<BedPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted,
-                                                            Frame frame) const {
+tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted) const {
   constexpr int kSteps = 30;
   constexpr double kSettledMm = 1e-9;
   const interp::Rectangle& domain = contents_.domain;
   const std::shared_ptr<const MapField> field = field_to_search(contents_, field_);
-  BedPoint mark{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
+  MarkPoint mark{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
   for (int step = 0; step < kSteps; ++step) {
     const auto here = field->at(mark);
     if (!here) return tl::unexpected(here.error());
@@ -175,11 +168,11 @@ tl::expected<BedPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted,
     mark.y_mm = std::clamp(mark.y_mm + move.y(), domain.y_min - 50.0, domain.y_max + 50.0);
     if (move.norm() < kSettledMm) {
       // On the domain's edge the last step may end beside it by what it may miss.
-      const BedPoint within{std::clamp(mark.x_mm, domain.x_min, domain.x_max),
-                            std::clamp(mark.y_mm, domain.y_min, domain.y_max)};
+      const MarkPoint within{std::clamp(mark.x_mm, domain.x_min, domain.x_max),
+                             std::clamp(mark.y_mm, domain.y_min, domain.y_max)};
       if (std::hypot(within.x_mm - mark.x_mm, within.y_mm - mark.y_mm) < kSettledMm) mark = within;
       if (!answers_at(mark)) return tl::unexpected(MapFailure::outside_map);
-      return frame == Frame::bed ? field_->to_bed(mark) : mark;
+      return mark;
     }
   }
   return tl::unexpected(MapFailure::not_converged);

@@ -3,8 +3,8 @@
 /// The compensation map: true chain lengths for any point of the bed, with what is known of their
 /// error.
 ///
-/// Frame: answers are in the frame of the grid's points (the marks) unless Frame::bed is asked for;
-/// the two differ by the sheet's placement. Lengths are what a reading would be without drift,
+/// Frame: the map is asked by the numbers of the grid's points (the marks); a place on the bed goes
+/// through to_mark() first, the two differ by the sheet's placement. Lengths are what a reading would be without drift,
 /// skips and hysteresis.
 ///
 /// \code
@@ -65,7 +65,7 @@ struct MapAccuracy {
   HeldOutError blocked;
   /// Of the tool over the measured part of the bed.
   ErrorSummary expected_tool;
-  model::BedPoint expected_worst_at;
+  model::MarkPoint expected_worst_at;
 };
 
 /// The noise that the fit went by.
@@ -81,7 +81,7 @@ struct MapNoise {
 /// A measured point as the map sees it, in millimetres at the tool: how far the tool was beyond
 /// where each model thinks. As stated, of a point that gives a command, is where it was told to be.
 struct MapPoint {
-  model::BedPoint mark;
+  model::MarkPoint mark;
   model::ChainLengths lengths;
   bool bad = false;
   /// Left-out residual in sigmas, both chains together.
@@ -98,7 +98,7 @@ struct MirrorTest {
   std::size_t points = 0;  ///< whose mirror image lies on the map
   ErrorSummary difference;
   double mean_mm = 0.0;
-  model::BedPoint worst_at;
+  model::MarkPoint worst_at;
   double worst_signed_mm = 0.0;
   /// No point differs by more than chance (4.5 sigmas of noise and map) allows.
   bool holds = true;
@@ -158,7 +158,7 @@ struct OutsideRule {
 struct MapContents {
   std::string name;
   std::variant<DirectSurface, ModelSurface> surface;
-  std::vector<model::BedPoint> hull;
+  std::vector<model::MarkPoint> hull;
   double edge_mm = 0.0;
   interp::Rectangle domain;
   OutsideRule outside;
@@ -178,8 +178,6 @@ struct MapContents {
 [[nodiscard]] interp::EdgeSlopes parabola_slopes(const std::vector<double>& x_nodes_mm,
                                                  const std::vector<double>& y_nodes_mm,
                                                  const Eigen::MatrixXd& values);
-
-enum class Frame { marks, bed };
 
 struct MapAnswer {
   model::ChainLengths lengths;
@@ -230,26 +228,23 @@ class CompensationMap {
   [[nodiscard]] CompensationMap with_mirror(std::optional<MirrorTest> mirror) const;
   [[nodiscard]] const MapContents& contents() const { return contents_; }
 
-  [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::BedPoint point,
-                                                          Frame frame = Frame::marks) const;
+  [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::MarkPoint mark) const;
   /// Lengths and their derivative alone, some ten times faster: what a path needs between its
   /// corners.
   using Lengths = MapLengths;
-  [[nodiscard]] tl::expected<Lengths, MapFailure> lengths(model::BedPoint point,
-                                                          Frame frame = Frame::marks) const;
+  [[nodiscard]] tl::expected<Lengths, MapFailure> lengths(model::MarkPoint mark) const;
   /// Where the tool is when these lengths are paid out: Newton to 1e-9 mm, at most 30 steps.
-  [[nodiscard]] tl::expected<model::BedPoint, MapFailure> inverse(model::ChainLengths lengths,
-                                                                  Frame frame = Frame::marks) const;
-  [[nodiscard]] MapStatus status(model::BedPoint point, Frame frame = Frame::marks) const;
+  [[nodiscard]] tl::expected<model::MarkPoint, MapFailure> inverse(
+      model::ChainLengths lengths) const;
+  [[nodiscard]] MapStatus status(model::MarkPoint mark) const;
   /// The same place in the other frame; a direct map knows only one.
-  [[nodiscard]] model::BedPoint to_mark(model::BedPoint bed) const;
-  [[nodiscard]] model::BedPoint to_bed(model::BedPoint mark) const;
+  [[nodiscard]] model::MarkPoint to_mark(model::BedPoint bed) const;
+  [[nodiscard]] model::BedPoint to_bed(model::MarkPoint mark) const;
   /// Null for a direct map.
   [[nodiscard]] const model::Machine* machine() const;
 
  private:
-  [[nodiscard]] bool answers_at(model::BedPoint mark) const;
-  [[nodiscard]] model::BedPoint mark_of(model::BedPoint point, Frame frame) const;
+  [[nodiscard]] bool answers_at(model::MarkPoint mark) const;
 
   MapContents contents_;
   MeasuredArea area_;

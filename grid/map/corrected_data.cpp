@@ -60,7 +60,8 @@ tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid,
   const auto points = length_points(grid);
   if (!points) return tl::unexpected(points.error());
   std::vector<model::Visit> visits;
-  for (const MeasuredPoint& point : grid.points) visits.push_back({point.mark, *point.order});
+  for (const MeasuredPoint& point : grid.points)
+    visits.push_back({model::laid_as_bed(point.mark), *point.order});
   const auto disturbed = readings_with(with_visits, visits);
   if (!disturbed) return tl::unexpected(disturbed.error());
   const auto quiet = readings_with(without, visits);

@@ -147,7 +147,7 @@ tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
                 lattice.x_nodes_mm.back(),
                 lattice.y_nodes_mm.front(),
                 lattice.y_nodes_mm.back()};
-  std::vector<model::BedPoint> marks;
+  std::vector<model::MarkPoint> marks;
   for (const LengthPoint& point : *points) marks.push_back(point.mark);
   const MeasuredArea area(marks, map.domain);
   map.hull = area.hull();

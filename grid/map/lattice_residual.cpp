@@ -75,7 +75,8 @@ model::PerSide<Eigen::MatrixXd> left_by_machine(const PointsFit& fit, const Plac
     // The fit reached every point at these very settings.
     const model::ChainLengths lengths = model.at(fit.sheet().to_bed(point.mark)).value().lengths;
     const auto [ix, iy] = places.of_point[i];
-    values.left(ix, iy) = point.lengths.left_mm - (1.0 + fit.estimate.surface.scale.left) * lengths.left_mm;
+    values.left(ix, iy) =
+        point.lengths.left_mm - (1.0 + fit.estimate.surface.scale.left) * lengths.left_mm;
     values.right(ix, iy) =
         point.lengths.right_mm - (1.0 + fit.estimate.surface.scale.right) * lengths.right_mm;
   }
@@ -105,11 +106,11 @@ LatticeSplines::LatticeSplines(const LatticeResidual& residual)
       doubt_mm_(residual.doubt_mm),
       interpolation_sigma_mm_(residual.interpolation_sigma_mm) {}
 
-model::PerSide<interp::ValueGradient> LatticeSplines::at(model::BedPoint mark) const {
+model::PerSide<interp::ValueGradient> LatticeSplines::at(model::MarkPoint mark) const {
   return {left_->at(mark.x_mm, mark.y_mm), right_->at(mark.x_mm, mark.y_mm)};
 }
 
-Eigen::Matrix2d LatticeSplines::covariance(model::BedPoint mark,
+Eigen::Matrix2d LatticeSplines::covariance(model::MarkPoint mark,
                                            const Eigen::Matrix2d& node) const {
   const Eigen::MatrixXd weights = weights_.cardinal_weights(mark.x_mm, mark.y_mm);
   const double squares = weights.squaredNorm();
@@ -137,8 +138,8 @@ std::optional<LatticeFit> fit_lattice(const PointsFit& fit) {
     }
     lattice.left_out_residual_mm.push_back(residual);
   }
-  const bool noisy =
-      fit.estimate.effective_parameters < kMetClosely * 2.0 * static_cast<double>(errors_here.size());
+  const bool noisy = fit.estimate.effective_parameters <
+                     kMetClosely * 2.0 * static_cast<double>(errors_here.size());
   if (noisy || rms(errors_here) > kStillPredicts * rms(errors_there)) return std::nullopt;
 
   lattice.residual.x_nodes_mm = places->x_nodes_mm;

@@ -42,14 +42,15 @@ class LatticeSplines {
   /// \throws std::invalid_argument where the shapes do not fit the nodes or the nodes do not rise.
   explicit LatticeSplines(const LatticeResidual& residual);
 
-  [[nodiscard]] model::PerSide<interp::ValueGradient> at(model::BedPoint mark) const;
+  [[nodiscard]] model::PerSide<interp::ValueGradient> at(model::MarkPoint mark) const;
   [[nodiscard]] model::PerSide<const interp::Surface*> surfaces() const {
     return {left_.get(), right_.get()};
   }
   /// Of both corrections, `node` being that of one measured node. The bicubic's weights stand for
   /// the quintic's. Inside the lattice the interpolation's own error counts in full; beyond it, it
   /// grows with the weights.
-  [[nodiscard]] Eigen::Matrix2d covariance(model::BedPoint mark, const Eigen::Matrix2d& node) const;
+  [[nodiscard]] Eigen::Matrix2d covariance(model::MarkPoint mark,
+                                           const Eigen::Matrix2d& node) const;
 
  private:
   std::shared_ptr<const interp::Surface> left_;

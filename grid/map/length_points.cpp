@@ -97,7 +97,7 @@ std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoin
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto near = [&](const std::vector<std::size_t>& group) {
-      const model::BedPoint first = points[group.front()].mark;
+      const model::MarkPoint first = points[group.front()].mark;
       return std::hypot(first.x_mm - points[i].mark.x_mm, first.y_mm - points[i].mark.y_mm) <=
              kRepeatDistanceMm;
     };

@@ -16,7 +16,7 @@ namespace chaintrue::grid {
 /// A point with its lengths, however they were given.
 struct LengthPoint {
   std::size_t index = 0;  ///< into the grid's points
-  model::BedPoint mark;
+  model::MarkPoint mark;
   model::ChainLengths lengths;
   /// What the controller was told, where the lengths come of a command.
   std::optional<model::BedPoint> commanded = std::nullopt;

@@ -57,8 +57,8 @@ void measure_expected_error(const CompensationMap& map, MapAccuracy& accuracy) {
   double worst = -1.0;
   for (int iy = 0; iy < kRows; ++iy) {
     for (int ix = 0; ix < kColumns; ++ix) {
-      const model::BedPoint mark{domain.x_min + domain.width() * ix / (kColumns - 1),
-                                 domain.y_min + domain.height() * iy / (kRows - 1)};
+      const model::MarkPoint mark{domain.x_min + domain.width() * ix / (kColumns - 1),
+                                  domain.y_min + domain.height() * iy / (kRows - 1)};
       if (map.status(mark) != MapStatus::inside) continue;
       const auto answer = map.query(mark);
       if (!answer) continue;
@@ -81,7 +81,7 @@ MirrorTest test_mirror(const CompensationMap& map) {
   const double middle_mm = map.machine() == nullptr ? 0.5 * (domain.x_min + domain.x_max) : 0.0;
   for (const MapPoint& point : map.contents().points) {
     const model::BedPoint bed = map.to_bed(point.mark);
-    const model::BedPoint mirrored = map.to_mark({2.0 * middle_mm - bed.x_mm, bed.y_mm});
+    const model::MarkPoint mirrored = map.to_mark({2.0 * middle_mm - bed.x_mm, bed.y_mm});
     const MapStatus status = map.status(mirrored);
     if (point.bad || (status != MapStatus::inside && status != MapStatus::edge)) continue;
     const auto here = map.query(point.mark);

@@ -11,6 +11,7 @@ namespace chaintrue::grid {
 namespace {
 
 using model::BedPoint;
+using model::MarkPoint;
 using model::Setting;
 using model::Side;
 
@@ -41,22 +42,22 @@ class ModelField final : public MapField {
     surface_.covariance_factor.resize(0, 0);
   }
 
-  [[nodiscard]] BedPoint to_mark(BedPoint bed) const override {
+  [[nodiscard]] MarkPoint to_mark(BedPoint bed) const override {
     return surface_.sheet.to_mark(bed);
   }
-  [[nodiscard]] BedPoint to_bed(BedPoint mark) const override {
+  [[nodiscard]] BedPoint to_bed(MarkPoint mark) const override {
     return surface_.sheet.to_bed(mark);
   }
 
  private:
-  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(BedPoint mark) const override {
+  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(MarkPoint mark) const override {
     const auto reading = model_.at(surface_.sheet.to_bed(mark));
     if (!reading) return tl::unexpected(MapFailure(reading.error()));
     return corrected(mark, *reading);
   }
 
   [[nodiscard]] tl::expected<WithCovariance, MapFailure> continued_with_covariance(
-      BedPoint mark) const override {
+      MarkPoint mark) const override {
     const auto reading = model_.at(surface_.sheet.to_bed(mark));
     if (!reading) return tl::unexpected(MapFailure(reading.error()));
     return WithCovariance{corrected(mark, *reading), covariance(mark, *reading)};
@@ -66,14 +67,14 @@ class ModelField final : public MapField {
     return {&left_, &right_};
   }
 
-  [[nodiscard]] MapLengths corrected(BedPoint mark, const model::PointReading& reading) const {
+  [[nodiscard]] MapLengths corrected(MarkPoint mark, const model::PointReading& reading) const {
     const auto result = surface_.residual.apply(
         mark, reading.lengths, reading.position_jacobian * surface_.sheet.rotation());
     return {result.lengths, result.mark_jacobian};
   }
 
   /// G C G' = |F' G'|^2, G being the two rows of the design: few of its entries are not zero.
-  [[nodiscard]] Eigen::Matrix2d covariance(BedPoint mark,
+  [[nodiscard]] Eigen::Matrix2d covariance(MarkPoint mark,
                                            const model::PointReading& reading) const {
     const FitColumns& columns = surface_.columns;
     const Eigen::Matrix<double, 2, 3> by_sheet =
@@ -121,11 +122,11 @@ class LatticeField final : public MapField {
         splines_(surface.lattice.value()),
         noise_(noise) {}
 
-  [[nodiscard]] BedPoint to_mark(BedPoint bed) const override { return sheet_.to_mark(bed); }
-  [[nodiscard]] BedPoint to_bed(BedPoint mark) const override { return sheet_.to_bed(mark); }
+  [[nodiscard]] MarkPoint to_mark(BedPoint bed) const override { return sheet_.to_mark(bed); }
+  [[nodiscard]] BedPoint to_bed(MarkPoint mark) const override { return sheet_.to_bed(mark); }
 
  private:
-  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(BedPoint mark) const override {
+  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(MarkPoint mark) const override {
     const auto reading = model_.at(sheet_.to_bed(mark));
     if (!reading) return tl::unexpected(MapFailure(reading.error()));
     const auto spline = splines_.at(mark);
@@ -139,7 +140,7 @@ class LatticeField final : public MapField {
   }
 
   [[nodiscard]] tl::expected<WithCovariance, MapFailure> continued_with_covariance(
-      BedPoint mark) const override {
+      MarkPoint mark) const override {
     const auto here = continued(mark);
     if (!here) return tl::unexpected(here.error());
     const Eigen::Matrix2d node = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
@@ -176,14 +177,14 @@ class DirectField final : public MapField {
         interpolation_sigma_mm_(surface.interpolation_sigma_mm) {}
 
  private:
-  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(BedPoint mark) const override {
+  [[nodiscard]] tl::expected<MapLengths, MapFailure> continued(MarkPoint mark) const override {
     return lengths(mark);
   }
 
   /// Each node errs by the readings' noise, the place's error as its slope carries it into the
   /// chains; what lies between the nodes by the estimate of the interpolation's own error.
   [[nodiscard]] tl::expected<WithCovariance, MapFailure> continued_with_covariance(
-      BedPoint mark) const override {
+      MarkPoint mark) const override {
     const MapLengths here = lengths(mark);
     const double squares = left_.cardinal_weights(mark.x_mm, mark.y_mm).squaredNorm();
     const Eigen::Matrix2d node = noise_.length_mm * noise_.length_mm * Eigen::Matrix2d::Identity() +
@@ -194,7 +195,7 @@ class DirectField final : public MapField {
                                                Eigen::Matrix2d::Identity()};
   }
 
-  [[nodiscard]] MapLengths lengths(BedPoint mark) const {
+  [[nodiscard]] MapLengths lengths(MarkPoint mark) const {
     const auto left = left_.at(mark.x_mm, mark.y_mm);
     const auto right = right_.at(mark.x_mm, mark.y_mm);
     MapLengths here;
@@ -236,14 +237,14 @@ std::shared_ptr<const MapField> MapField::make(const MapContents& contents) {
   const OutsideRule& rule = contents.outside;
   if (rule.way == Outside::continued) return field;
   std::vector<interp::PlanePoint> corners;
-  for (const BedPoint corner : contents.hull) corners.push_back({corner.x_mm, corner.y_mm});
+  for (const MarkPoint corner : contents.hull) corners.push_back({corner.x_mm, corner.y_mm});
   field->beyond_.emplace(Beyond{
       interp::ConvexHull(corners),
       {kPolicies[static_cast<std::size_t>(rule.way)], contents.edge_mm, rule.fade_width_mm}});
   return field;
 }
 
-std::optional<MapField::Change> MapField::change(BedPoint mark) const {
+std::optional<MapField::Change> MapField::change(MarkPoint mark) const {
   if (!beyond_ || beyond_->hull.contains(mark.x_mm, mark.y_mm)) return std::nullopt;
   Change change;
   const model::PerSide<const interp::Surface*> both = surfaces();
@@ -258,7 +259,7 @@ std::optional<MapField::Change> MapField::change(BedPoint mark) const {
   return change;
 }
 
-tl::expected<MapLengths, MapFailure> MapField::at(BedPoint mark) const {
+tl::expected<MapLengths, MapFailure> MapField::at(MarkPoint mark) const {
   auto here = continued(mark);
   if (!here) return here;
   if (const auto by = change(mark)) {
@@ -269,7 +270,7 @@ tl::expected<MapLengths, MapFailure> MapField::at(BedPoint mark) const {
   return here;
 }
 
-tl::expected<MapField::WithCovariance, MapFailure> MapField::with_covariance(BedPoint mark) const {
+tl::expected<MapField::WithCovariance, MapFailure> MapField::with_covariance(MarkPoint mark) const {
   auto answer = continued_with_covariance(mark);
   if (!answer) return answer;
   if (const auto by = change(mark)) {

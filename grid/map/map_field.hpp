@@ -23,20 +23,24 @@ class MapField {
   virtual ~MapField() = default;
   [[nodiscard]] static std::shared_ptr<const MapField> make(const MapContents& contents);
 
-  [[nodiscard]] tl::expected<MapLengths, MapFailure> at(model::BedPoint mark) const;
+  [[nodiscard]] tl::expected<MapLengths, MapFailure> at(model::MarkPoint mark) const;
   /// Where the map's way of going on beyond the points answers otherwise than the surfaces
   /// themselves would, the difference counts as an error of one sigma.
   [[nodiscard]] tl::expected<WithCovariance, MapFailure> with_covariance(
-      model::BedPoint mark) const;
-  [[nodiscard]] virtual model::BedPoint to_mark(model::BedPoint bed) const { return bed; }
-  [[nodiscard]] virtual model::BedPoint to_bed(model::BedPoint mark) const { return mark; }
+      model::MarkPoint mark) const;
+  [[nodiscard]] virtual model::MarkPoint to_mark(model::BedPoint bed) const {
+    return model::laid_as_bed(bed);
+  }
+  [[nodiscard]] virtual model::BedPoint to_bed(model::MarkPoint mark) const {
+    return model::laid_as_bed(mark);
+  }
 
  protected:
   /// Lengths and covariance with the surfaces' own continuation.
   [[nodiscard]] virtual tl::expected<MapLengths, MapFailure> continued(
-      model::BedPoint mark) const = 0;
+      model::MarkPoint mark) const = 0;
   [[nodiscard]] virtual tl::expected<WithCovariance, MapFailure> continued_with_covariance(
-      model::BedPoint mark) const = 0;
+      model::MarkPoint mark) const = 0;
   [[nodiscard]] virtual model::PerSide<const interp::Surface*> surfaces() const = 0;
 
  private:
@@ -45,7 +49,7 @@ class MapField {
     Eigen::Vector2d lengths_mm = Eigen::Vector2d::Zero();
     Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();
   };
-  [[nodiscard]] std::optional<Change> change(model::BedPoint mark) const;
+  [[nodiscard]] std::optional<Change> change(model::MarkPoint mark) const;
 
   struct Beyond {
     interp::ConvexHull hull;

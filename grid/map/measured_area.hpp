@@ -28,15 +28,15 @@ class MeasuredArea {
  public:
   /// `domain` is where answers are given at all. \throws std::invalid_argument for fewer than 3
   /// points.
-  MeasuredArea(const std::vector<model::BedPoint>& points, const interp::Rectangle& domain);
+  MeasuredArea(const std::vector<model::MarkPoint>& points, const interp::Rectangle& domain);
   /// From a hull as written in a file: counter-clockwise corners, and half the points' spacing.
-  MeasuredArea(const std::vector<model::BedPoint>& hull,
+  MeasuredArea(const std::vector<model::MarkPoint>& hull,
                double edge_mm,
                const interp::Rectangle& domain);
 
-  [[nodiscard]] MapStatus status(model::BedPoint mark) const;
+  [[nodiscard]] MapStatus status(model::MarkPoint mark) const;
   /// Corners, counter-clockwise.
-  [[nodiscard]] std::vector<model::BedPoint> hull() const;
+  [[nodiscard]] std::vector<model::MarkPoint> hull() const;
   [[nodiscard]] double edge_mm() const { return edge_mm_; }
   [[nodiscard]] const interp::Rectangle& domain() const { return domain_; }
 

@@ -16,7 +16,7 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::BedPoint;
+using model::MarkPoint;
 
 /// What good calibration leaves on real machines (root mean square 0.2 to 0.5 mm on the optical
 /// scans of tests/accuracy/real_scans_test.cpp).
@@ -35,13 +35,13 @@ class Planner {
       : machine_(machine), model_(machine), request_(request) {}
 
   [[nodiscard]] tl::expected<CompensationMap, PlanFailure> map_of(
-      const std::vector<BedPoint>& marks) const {
+      const std::vector<MarkPoint>& marks) const {
     MeasuredGrid grid;
     grid.name = "plan";
     grid.machine = machine_;
     grid.noise = StatedNoise{request_.noise.length_mm, request_.noise.position_mm, kCertainDof};
-    for (const BedPoint& mark : marks) {
-      const auto reading = model_.at(mark);
+    for (const MarkPoint& mark : marks) {
+      const auto reading = model_.at(model::laid_as_bed(mark));
       if (!reading) {
         return tl::unexpected(
             PlanFailure{PlanFailure::Reason::unreachable,
@@ -51,7 +51,7 @@ class Planner {
                                     mark.y_mm,
                                     model::explain(reading.error()))});
       }
-      const model::ChainLengths beside = synthetic::unmodelled(mark);
+      const model::ChainLengths beside = synthetic::unmodelled(model::laid_as_bed(mark));
       grid.points.push_back(
           {mark,
            model::ChainLengths{reading->lengths.left_mm + kDisturbanceMm * beside.left_mm,
@@ -65,24 +65,24 @@ class Planner {
   }
 
   /// The cell of the raster with the largest expected error that a mark may stand in.
-  [[nodiscard]] std::optional<BedPoint> worst_free(const CompensationMap& map,
-                                                   const std::vector<BedPoint>& marks) const {
+  [[nodiscard]] std::optional<MarkPoint> worst_free(const CompensationMap& map,
+                                                    const std::vector<MarkPoint>& marks) const {
     const model::Bed& bed = machine_.bed;
     const double half_x = 0.5 * bed.width_mm - request_.margin_mm;
     const double half_y = 0.5 * bed.height_mm - request_.margin_mm;
     const auto errors = expected_error_mm(map, bed, kRasterColumns, kRasterRows);
-    std::optional<BedPoint> worst;
+    std::optional<MarkPoint> worst;
     double largest = 0.0;
     for (std::size_t i = 0; i < errors.size(); ++i) {
       const auto column = static_cast<double>(i % kRasterColumns);
       const auto row = static_cast<double>(i / kRasterColumns);
-      const BedPoint place{
+      const MarkPoint place{
           std::trunc(
               std::clamp(bed.width_mm * ((column + 0.5) / kRasterColumns - 0.5), -half_x, half_x)),
           std::trunc(
               std::clamp(bed.height_mm * ((row + 0.5) / kRasterRows - 0.5), -half_y, half_y))};
       // Nearer than this a point repeats its neighbour rather than tells something new.
-      const bool taken = std::any_of(marks.begin(), marks.end(), [&](const BedPoint& mark) {
+      const bool taken = std::any_of(marks.begin(), marks.end(), [&](const MarkPoint& mark) {
         return std::hypot(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm) <=
                2.0 * kRepeatDistanceMm;
       });
@@ -107,14 +107,14 @@ std::vector<double> whole_mm(std::vector<double> nodes) {
 
 /// Rows from the bottom, every other from right to left; an extra point goes with the row that it
 /// is nearest to.
-void walk(std::vector<BedPoint>& marks, const std::vector<double>& rows) {
-  const auto row_of = [&rows](const BedPoint& mark) {
+void walk(std::vector<MarkPoint>& marks, const std::vector<double>& rows) {
+  const auto row_of = [&rows](const MarkPoint& mark) {
     const auto nearest = std::min_element(rows.begin(), rows.end(), [&](double a, double b) {
       return std::abs(a - mark.y_mm) < std::abs(b - mark.y_mm);
     });
     return nearest - rows.begin();
   };
-  std::sort(marks.begin(), marks.end(), [&](const BedPoint& a, const BedPoint& b) {
+  std::sort(marks.begin(), marks.end(), [&](const MarkPoint& a, const MarkPoint& b) {
     const auto row_a = row_of(a);
     const auto row_b = row_of(b);
     if (row_a != row_b) return row_a < row_b;
@@ -161,7 +161,7 @@ tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const model::Machine
   const interp::GridShape shape = interp::grid_shape(width, height, request.points);
   const auto x = whole_mm(interp::chebyshev_lobatto(-0.5 * width, 0.5 * width, shape.columns));
   const auto y = whole_mm(interp::chebyshev_lobatto(-0.5 * height, 0.5 * height, shape.rows));
-  std::vector<BedPoint> marks;
+  std::vector<MarkPoint> marks;
   for (double row : y) {
     for (double column : x) marks.push_back({column, row});
   }

@@ -12,7 +12,7 @@
 ///
 /// \code
 ///   const auto plan = plan_measurement(machine, {.points = 28});
-///   if (plan) for (const BedPoint& mark : plan->marks) visit(mark);
+///   if (plan) for (const MarkPoint& mark : plan->marks) visit(mark);
 /// \endcode
 #pragma once
 
@@ -39,7 +39,7 @@ struct PlanRequest {
 
 struct MeasurementPlan {
   /// In whole mm, in walking order: row by row from the bottom, turning round at the end of each.
-  std::vector<model::BedPoint> marks;
+  std::vector<model::MarkPoint> marks;
   int columns = 0;
   int rows = 0;
   /// Points beyond columns * rows.

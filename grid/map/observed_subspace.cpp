@@ -25,7 +25,7 @@ Eigen::MatrixXd bending_root(const Eigen::MatrixXd& penalty, const Eigen::Matrix
 
 ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
                                    int bending_order,
-                                   const std::vector<model::BedPoint>& marks)
+                                   const std::vector<model::MarkPoint>& marks)
     : polynomials_(basis.polynomial_coefficients(bending_order - 1)) {
   const auto points = static_cast<Eigen::Index>(marks.size());
   const Eigen::Index size = basis.size();
@@ -36,7 +36,7 @@ ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
   polynomial_rows_ = Eigen::MatrixXd::Zero(points, polynomials_.cols());
   squares_ = Eigen::VectorXd::Zero(points);
   for (Eigen::Index i = 0; i < points; ++i) {
-    const model::BedPoint mark = marks[static_cast<std::size_t>(i)];
+    const model::MarkPoint mark = marks[static_cast<std::size_t>(i)];
     const interp::BasisSupport support = basis.at(mark.x_mm, mark.y_mm);
     for (std::size_t k = 0; k < support.index.size(); ++k) {
       bend_rows_.row(i) += support.value[k] * root.row(support.index[k]);

@@ -31,7 +31,7 @@ class ObservedSubspace {
  public:
   ObservedSubspace(const interp::BsplineBasis& basis,
                    int bending_order,
-                   const std::vector<model::BedPoint>& marks);
+                   const std::vector<model::MarkPoint>& marks);
 
   [[nodiscard]] Eigen::Index polynomials() const { return polynomials_.cols(); }
   [[nodiscard]] Eigen::Index bends() const { return bends_.cols(); }

@@ -13,8 +13,6 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::BedPoint;
-
 Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vector2d& chain_mm) {
   return mark_jacobian.inverse() * chain_mm;
 }
@@ -23,7 +21,7 @@ Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vecto
 /// neither the stated machine nor the catenary: a machine that goes where it is told is right.
 Eigen::Vector2d beyond_mark(model::BedPoint commanded,
                             const model::SheetPlacement& sheet,
-                            model::BedPoint mark) {
+                            model::MarkPoint mark) {
   const model::BedPoint place = sheet.to_bed(mark);
   return sheet.rotation().transpose() *
          Eigen::Vector2d(commanded.x_mm - place.x_mm, commanded.y_mm - place.y_mm);
@@ -177,7 +175,7 @@ CompensationMap map_of(const MeasuredGrid& grid, const FittedGrid& fitted) {
   MapContents map;
   map.name = grid.name;
   map.surface = model_surface(fit.estimate);
-  std::vector<BedPoint> good;
+  std::vector<model::MarkPoint> good;
   for (const FittedPoint& point : fit.points) {
     if (!point.bad) good.push_back(point.point.mark);
   }
@@ -185,7 +183,10 @@ CompensationMap map_of(const MeasuredGrid& grid, const FittedGrid& fitted) {
   map.hull = area.hull();
   map.edge_mm = area.edge_mm();
   map.domain = input.domain;
-  map.noise = {input.noise.length_mm, input.noise.position_mm, fitted.noise_source, fit.estimate.noise_factor};
+  map.noise = {input.noise.length_mm,
+               input.noise.position_mm,
+               fitted.noise_source,
+               fit.estimate.noise_factor};
   map.accuracy = held_out_accuracy(fit.points);
   map.settings = setting_results(input.machine, fit.estimate, input.sheet);
   map.points = map_points(input, fit, grid);
@@ -203,6 +204,5 @@ CompensationMap map_of(const MeasuredGrid& grid, const FittedGrid& fitted) {
   const CompensationMap finished = with_expected_error(std::move(map));
   return finished.with_mirror(test_mirror(finished));
 }
-
 
 }  // namespace chaintrue::grid

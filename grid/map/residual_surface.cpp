@@ -5,7 +5,7 @@ namespace chaintrue::grid {
 
 using model::Side;
 
-ResidualSurface::Corrected ResidualSurface::apply(model::BedPoint mark,
+ResidualSurface::Corrected ResidualSurface::apply(model::MarkPoint mark,
                                                   model::ChainLengths lengths,
                                                   const Eigen::Matrix2d& mark_jacobian) const {
   const auto left = basis.evaluate(coefficients.left, mark.x_mm, mark.y_mm);
@@ -22,7 +22,7 @@ ResidualSurface::Corrected ResidualSurface::apply(model::BedPoint mark,
 
 Eigen::MatrixXd design_rows(const interp::BsplineBasis& basis,
                             const FitColumns& columns,
-                            model::BedPoint mark,
+                            model::MarkPoint mark,
                             model::ChainLengths lengths,
                             const Eigen::MatrixXd& settings_jacobian) {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, columns.total());

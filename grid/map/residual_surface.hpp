@@ -47,7 +47,7 @@ struct ResidualSurface {
     model::ChainLengths lengths;
     Eigen::Matrix2d mark_jacobian;
   };
-  [[nodiscard]] Corrected apply(model::BedPoint mark,
+  [[nodiscard]] Corrected apply(model::MarkPoint mark,
                                 model::ChainLengths lengths,
                                 const Eigen::Matrix2d& mark_jacobian) const;
 };
@@ -56,7 +56,7 @@ struct ResidualSurface {
 /// x settings.
 [[nodiscard]] Eigen::MatrixXd design_rows(const interp::BsplineBasis& basis,
                                           const FitColumns& columns,
-                                          model::BedPoint mark,
+                                          model::MarkPoint mark,
                                           model::ChainLengths lengths,
                                           const Eigen::MatrixXd& settings_jacobian);
 

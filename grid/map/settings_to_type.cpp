@@ -72,8 +72,9 @@ std::vector<Place> measured_places(const CompensationMap& map) {
     for (int column = 0; column < kColumns; ++column) {
       const model::BedPoint at{bed.width_mm * ((column + 0.5) / kColumns - 0.5),
                                bed.height_mm * ((row + 0.5) / kRows - 0.5)};
-      if (map.status(at, Frame::bed) != MapStatus::inside) continue;
-      if (const auto answer = map.lengths(at, Frame::bed))
+      const model::MarkPoint mark = map.to_mark(at);
+      if (map.status(mark) != MapStatus::inside) continue;
+      if (const auto answer = map.lengths(mark))
         places.push_back({at, answer->lengths, answer->mark_jacobian.inverse()});
     }
   }

@@ -92,11 +92,10 @@ tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
   line.by_setting.resize(rows(), static_cast<Eigen::Index>(settings.size()));
   line.by_nuisance.resize(rows(), 0);
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const model::BedPoint place = frame.place(places_[i].mark);
+    const model::MarkPoint place = frame.place(places_[i].mark);
     const auto reading = view.model.at(view.sheet.to_bed(place));
     if (!reading) return tl::unexpected(Unreachable{i, reading.error()});
-    PlaceState state{
-        *reading, places_[i].mark, reading->position_jacobian * view.sheet.rotation()};
+    PlaceState state{*reading, places_[i].mark, reading->position_jacobian * view.sheet.rotation()};
     model::ChainLengths lengths = reading->lengths;
     if (view.correction != nullptr) {
       const auto corrected = view.correction->at(places_[i].mark, lengths, state.by_mark);

@@ -40,7 +40,7 @@ Eigen::MatrixXd marginal_covariance(const Linearisation& line,
 
 Eigen::Matrix2Xd lengths_by_setting(const View& view,
                                     const model::PointReading& reading,
-                                    model::BedPoint place,
+                                    model::MarkPoint place,
                                     const std::vector<model::Setting>& settings) {
   const Eigen::Matrix<double, 2, 3> by_sheet =
       reading.position_jacobian * view.sheet.sensitivity(place);

@@ -52,9 +52,9 @@ struct Kind {
 
 /// Where the tool stood.
 struct Place {
-  std::size_t index = 0;  ///< into the file's points, or holes
-  std::string name;       ///< "3", "A"
-  model::BedPoint mark;   ///< as it was written, or commanded
+  std::size_t index = 0;        ///< into the file's points, or holes
+  std::string name;             ///< "3", "A"
+  model::MarkPoint mark;        ///< as it was written, or commanded
   model::ChainLengths lengths;  ///< read there, or paid out to get there
   int order = 0;                ///< of the visit
   /// What the controller was told, where the lengths come of a command at this mark.
@@ -90,7 +90,7 @@ class LengthCorrection {
     Eigen::Vector2d by_length = Eigen::Vector2d::Ones();
   };
   /// At a mark where the machine alone has `lengths` and their derivative by the mark.
-  [[nodiscard]] virtual At at(model::BedPoint mark,
+  [[nodiscard]] virtual At at(model::MarkPoint mark,
                               model::ChainLengths lengths,
                               const Eigen::Matrix2d& by_mark) const = 0;
 };
@@ -105,7 +105,7 @@ struct View {
 /// A place as a view has it.
 struct PlaceState {
   model::PointReading reading;  ///< of the machine alone
-  model::BedPoint mark;         ///< on the sheet; of a hole where the machine puts it
+  model::MarkPoint mark;        ///< on the sheet; of a hole where the machine puts it
   Eigen::Matrix2d by_mark;      ///< d(L, R)/d(mark), corrected
   /// d(corrected)/d(the machine's own lengths), a chain each.
   Eigen::Vector2d by_length = Eigen::Vector2d::Ones();
@@ -124,9 +124,9 @@ struct UnitState {
 
 /// (1) about one view.
 struct Linearisation {
-  Eigen::VectorXd predicted;   ///< f, n
-  Eigen::MatrixXd by_setting;  ///< A, n x p
-  Eigen::MatrixXd by_nuisance; ///< B, n x q
+  Eigen::VectorXd predicted;    ///< f, n
+  Eigen::MatrixXd by_setting;   ///< A, n x p
+  Eigen::MatrixXd by_nuisance;  ///< B, n x q
   std::vector<PlaceState> places;
   std::vector<UnitState> units;
 };
@@ -208,7 +208,7 @@ using Observations = std::vector<std::shared_ptr<const Observation>>;
 /// the sheet, with what the machine's effects of the paper do to it taken out.
 [[nodiscard]] Eigen::Matrix2Xd lengths_by_setting(const View& view,
                                                   const model::PointReading& reading,
-                                                  model::BedPoint place,
+                                                  model::MarkPoint place,
                                                   const std::vector<model::Setting>& settings);
 
 }  // namespace chaintrue::grid::observation

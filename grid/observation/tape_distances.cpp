@@ -19,6 +19,7 @@ namespace chaintrue::grid::observation {
 namespace {
 
 using model::BedPoint;
+using model::MarkPoint;
 
 struct EdgeRow {
   double size_mm;  ///< of the sheet, square to the edge
@@ -97,15 +98,15 @@ Sorted sorted_set(const MeasuredHoles& set) {
   return result;
 }
 
-std::vector<BedPoint> marks_of(const std::vector<PlaceState>& states) {
-  std::vector<BedPoint> marks;
+std::vector<MarkPoint> marks_of(const std::vector<PlaceState>& states) {
+  std::vector<MarkPoint> marks;
   for (const PlaceState& state : states) marks.push_back(state.mark);
   return marks;
 }
 
 /// The machine's own lengths, which corrected at the mark are those that were paid out.
 model::ChainLengths own_lengths(const LengthCorrection& correction,
-                                BedPoint mark,
+                                MarkPoint mark,
                                 model::ChainLengths paid_out,
                                 model::ChainLengths own) {
   const auto corrected = correction.at(mark, own, Eigen::Matrix2d::Zero());
@@ -117,7 +118,7 @@ model::ChainLengths own_lengths(const LengthCorrection& correction,
 
 const Kind tape_distances{"tape_distances", "distance", "distances", "hole", false};
 
-DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<BedPoint>& marks) {
+DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<MarkPoint>& marks) {
   const auto count = static_cast<Eigen::Index>(set.distances.size());
   DistanceGeometry geometry{
       Eigen::VectorXd::Zero(count),
@@ -125,7 +126,7 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<B
       Eigen::MatrixXd::Zero(count, 2)};
   for (Eigen::Index k = 0; k < count; ++k) {
     const HoleDistance& distance = set.distances[static_cast<std::size_t>(k)];
-    const BedPoint from = marks.at(distance.from);
+    const MarkPoint from = marks.at(distance.from);
     const auto a = 2 * static_cast<Eigen::Index>(distance.from);
     if (distance.edge) {
       const EdgeRow row = edge_row(set, *distance.edge);
@@ -136,7 +137,7 @@ DistanceGeometry distance_geometry(const MeasuredHoles& set, const std::vector<B
       geometry.by_size(k, row.axis) = 0.5;
       continue;
     }
-    const BedPoint to = marks.at(distance.to);
+    const MarkPoint to = marks.at(distance.to);
     const auto b = 2 * static_cast<Eigen::Index>(distance.to);
     const Eigen::Vector2d way(from.x_mm - to.x_mm, from.y_mm - to.y_mm);
     geometry.predicted_mm[k] = way.norm();
@@ -212,7 +213,8 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(
                       hole.commanded.y_mm,
                       model::explain(lengths.error()))});
     }
-    result.places_.push_back({i, hole.name, hole.commanded, *lengths, static_cast<int>(i)});
+    result.places_.push_back(
+        {i, hole.name, model::laid_as_bed(hole.commanded), *lengths, static_cast<int>(i)});
   }
   const std::size_t count = result.set_.distances.size();
   result.measured_.resize(static_cast<Eigen::Index>(count));
@@ -241,7 +243,7 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::with_hooks(
 }
 
 tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::of(const MeasuredHoles& set,
-                                                                  NumberedFrom first) {
+                                                                    NumberedFrom first) {
   const Sorted sorted = sorted_set(set);
   auto result = in_given_order(sorted.set);
   if (!result) return result;
@@ -255,8 +257,8 @@ void TapeDistances::state_nuisances() {
   const Eigen::Index of_holes = 2 * static_cast<Eigen::Index>(set_.holes.size());
   nuisance_sigma_.resize(2 + hooks + of_holes);
   nuisance_sigma_.head(2).setConstant(std::max(set_.sheet.size_sigma_mm, kKnownNuisanceMm));
-  nuisance_sigma_.segment(2, hooks)
-      .setConstant(std::max(set_.tape.hook_sigma_mm.value_or(0.0), kKnownNuisanceMm));
+  nuisance_sigma_.segment(2, hooks).setConstant(
+      std::max(set_.tape.hook_sigma_mm.value_or(0.0), kKnownNuisanceMm));
   nuisance_sigma_.tail(of_holes).setConstant(std::max(set_.hole_sigma_mm, kKnownNuisanceMm));
 }
 
@@ -280,9 +282,10 @@ tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const V
   constexpr double kSettledMm = 1e-9;
   std::vector<PlaceState> states;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    model::BedPoint start = places_[i].mark;
+    model::BedPoint start = model::laid_as_bed(places_[i].mark);
     model::ChainLengths own = places_[i].lengths;
-    if (view.correction != nullptr) own = own_lengths(*view.correction, start, places_[i].lengths, own);
+    if (view.correction != nullptr)
+      own = own_lengths(*view.correction, places_[i].mark, places_[i].lengths, own);
     auto reading = view.model.find(own, start);
     for (int turn = 1; reading && view.correction != nullptr && turn < kTurns; ++turn) {
       start = reading->pose.position;

@@ -41,7 +41,7 @@ struct DistanceGeometry {
   Eigen::MatrixXd by_size;       ///< n x 2, by what the sheet is wider and higher than said
 };
 [[nodiscard]] DistanceGeometry distance_geometry(const MeasuredHoles& set,
-                                                 const std::vector<model::BedPoint>& marks);
+                                                 const std::vector<model::MarkPoint>& marks);
 
 /// (2) in its parts: the tape's alone (a diagonal), the holes', that of the sheet's size and that
 /// of the hook.

@@ -15,7 +15,7 @@
 namespace chaintrue::grid::synthetic {
 namespace {
 
-using model::BedPoint;
+using model::MarkPoint;
 
 constexpr double kRoundNumberMm = 100.0;
 constexpr int kBands = 5;
@@ -46,7 +46,7 @@ double position(DesignKind kind, int i, int count) {
   return kind == DesignKind::chebyshev ? -std::cos(std::numbers::pi * share) : 2.0 * share - 1.0;
 }
 
-bool within(Region region, BedPoint p) {
+bool within(Region region, MarkPoint p) {
   switch (region) {
     case Region::left:
       return p.x_mm <= 0.0;
@@ -87,14 +87,14 @@ std::vector<Mark> lattice(const Design& design, double half_x, double half_y) {
   return result;
 }
 
-std::vector<BedPoint> scattered(const Design& design,
-                                double half_x,
-                                double half_y,
-                                Random& random) {
+std::vector<MarkPoint> scattered(const Design& design,
+                                 double half_x,
+                                 double half_y,
+                                 Random& random) {
   if (design.points < 1) throw precondition("design: {} points", design.points);
-  std::vector<BedPoint> result;
+  std::vector<MarkPoint> result;
   // Corners that are left out are a fifth of the half span wide.
-  const auto in_corner = [&](BedPoint p) {
+  const auto in_corner = [&](MarkPoint p) {
     return std::abs(p.x_mm) > 0.8 * half_x && std::abs(p.y_mm) > 0.8 * half_y;
   };
   while (result.size() < static_cast<std::size_t>(design.points)) {
@@ -116,9 +116,9 @@ std::vector<Mark> marks(const model::Bed& bed, const Design& design, Random& ran
   if (design.kind == DesignKind::regular || design.kind == DesignKind::chebyshev) {
     result = lattice(design, half_x, half_y);
   } else {
-    const std::vector<BedPoint> places =
+    const std::vector<MarkPoint> places =
         design.kind == DesignKind::given ? design.given : scattered(design, half_x, half_y, random);
-    for (const BedPoint& p : places) {
+    for (const MarkPoint& p : places) {
       result.push_back({p, band(p.x_mm, 0.5 * bed.width_mm), band(p.y_mm, 0.5 * bed.height_mm)});
     }
   }

@@ -35,12 +35,12 @@ struct Design {
   bool without_corners = false;
   Region region = Region::whole;
   /// The marks of DesignKind::given, in any order.
-  std::vector<model::BedPoint> given;
+  std::vector<model::MarkPoint> given;
 };
 
 /// A mark and its place in the pattern; scattered marks belong to a few even bands.
 struct Mark {
-  model::BedPoint place;
+  model::MarkPoint place;
   int column = 0;
   int row = 0;
 };

@@ -16,7 +16,7 @@ namespace chaintrue::grid::synthetic {
 
 /// A tool sent to a mark.
 struct ShiftedMark {
-  model::BedPoint mark;
+  model::MarkPoint mark;
   /// Where the tool goes less where it was sent, on the machine as stated ...
   Eigen::Vector2d as_stated_mm;
   /// ... and once the settings are calibrated on these marks.

@@ -13,6 +13,7 @@ namespace {
 using model::BedPoint;
 using model::ChainLengths;
 using model::Machine;
+using model::MarkPoint;
 using model::Setting;
 using model::Visit;
 
@@ -53,7 +54,7 @@ double draw(Random& random, const SyntheticNoise& noise, double sigma) {
 }
 
 // Up to `radius` away, evenly over the disc.
-BedPoint beside(BedPoint place, double radius_mm, Random& random) {
+MarkPoint beside(MarkPoint place, double radius_mm, Random& random) {
   if (radius_mm == 0.0) return place;
   for (;;) {
     const double x = random.uniform(-1.0, 1.0);
@@ -64,8 +65,8 @@ BedPoint beside(BedPoint place, double radius_mm, Random& random) {
 
 // A visit of every mark in order, and the repeats spread evenly between: after a share of the
 // marks, one of them again.
-std::vector<BedPoint> session_of(const std::vector<Mark>& marks, int repeats, Random& random) {
-  std::vector<BedPoint> session;
+std::vector<MarkPoint> session_of(const std::vector<Mark>& marks, int repeats, Random& random) {
+  std::vector<MarkPoint> session;
   std::vector<std::size_t> unrepeated;
   int done = 0;
   for (std::size_t i = 0; i < marks.size(); ++i) {
@@ -118,7 +119,7 @@ std::vector<std::size_t> miscounted(const Machine& machine, const std::vector<Vi
 
 // Noise, slips and rounding on top of what was truly written and read; `bad_points` receives the
 // slips.
-std::vector<MeasuredPoint> written_down(const std::vector<BedPoint>& marks,
+std::vector<MeasuredPoint> written_down(const std::vector<MarkPoint>& marks,
                                         const std::vector<ChainLengths>& lengths,
                                         const SyntheticSpec& spec,
                                         std::vector<std::size_t>& bad_points) {
@@ -136,7 +137,7 @@ std::vector<MeasuredPoint> written_down(const std::vector<BedPoint>& marks,
   const double length_step = step_of(noise.length_rounding_mm, noise.length_mm);
   std::vector<MeasuredPoint> points;
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    BedPoint mark = marks[i];
+    MarkPoint mark = marks[i];
     mark.x_mm += draw(position_noise, noise, noise.position_mm);
     mark.y_mm += draw(position_noise, noise, noise.position_mm);
     if (std::binary_search(shuffled.begin(), shuffled.end(), i)) {
@@ -222,8 +223,8 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   std::vector<Mark> pattern = marks(stated.bed, spec.design, mark_random);
   put_in_order(pattern, spec.order, order_random);
   std::vector<Visit> visits;
-  for (const BedPoint& intended : session_of(pattern, spec.repeats, repeat_random)) {
-    const BedPoint place = beside(intended, spec.jitter_mm, jitter_random);
+  for (const MarkPoint& intended : session_of(pattern, spec.repeats, repeat_random)) {
+    const MarkPoint place = beside(intended, spec.jitter_mm, jitter_random);
     visits.push_back({answer.sheet.to_bed(place), static_cast<int>(visits.size())});
     answer.places.push_back(visits.back().position);
   }
@@ -231,8 +232,8 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   const model::ReadingModel reading_model(answer.machine, spec.model);
   const auto lengths = model::readings(reading_model, visits);
   if (!lengths) {
-    return tl::unexpected(
-        UnreachableMark{visits[lengths.error().index].position, lengths.error().reason});
+    const BedPoint place = visits[lengths.error().index].position;
+    return tl::unexpected(UnreachableMark{answer.sheet.to_mark(place), lengths.error().reason});
   }
   answer.lengths = *lengths;
   for (std::size_t i = 0; spec.unmodelled_mm != 0.0 && i < visits.size(); ++i) {
@@ -241,7 +242,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
     answer.lengths[i].right_mm += spec.unmodelled_mm * added.right_mm;
   }
   const model::MarkFrame mark_frame(answer.machine);
-  std::vector<BedPoint> written;
+  std::vector<MarkPoint> written;
   for (const BedPoint& place : answer.places)
     written.push_back(mark_frame.written(answer.sheet.to_mark(place)));
 
@@ -277,8 +278,10 @@ PlacesRead read_places(const Machine& stated,
   const auto lengths = model::readings(reading_model, reached);
   result.grid.machine = stated;
   for (std::size_t i = 0; i < reached.size(); ++i) {
-    result.grid.points.push_back(
-        {mark_frame.written(reached[i].position), lengths->at(i), std::nullopt, reached[i].order});
+    result.grid.points.push_back({mark_frame.written(model::laid_as_bed(reached[i].position)),
+                                  lengths->at(i),
+                                  std::nullopt,
+                                  reached[i].order});
   }
   return result;
 }

@@ -122,7 +122,7 @@ struct SyntheticSession {
 
 /// A mark that the machine cannot reach.
 struct UnreachableMark {
-  model::BedPoint place;
+  model::MarkPoint place;
   model::PoseFailure reason = model::PoseFailure::not_converged;
 };
 

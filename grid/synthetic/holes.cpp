@@ -64,12 +64,13 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
                                                    design.holes[i].commanded.y_mm,
                                                    model::explain(reading.error()))});
     }
-    const model::BedPoint at = spec.sheet.to_mark(reading->pose.position);
+    const model::MarkPoint at = spec.sheet.to_mark(reading->pose.position);
     const double dx = design.hole_sigma_mm * hole_noise.normal();
     const double dy = design.hole_sigma_mm * hole_noise.normal();
     made.places.push_back({at.x_mm + dx, at.y_mm + dy});
   }
-  const observation::DistanceGeometry geometry = observation::distance_geometry(design, made.places);
+  const observation::DistanceGeometry geometry =
+      observation::distance_geometry(design, made.places);
   const double tape = observation::tape_factor(made.truth);
   Random tape_noise(spec.seed, kTapeStream);
   for (std::size_t k = 0; k < made.set.distances.size(); ++k) {

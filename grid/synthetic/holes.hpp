@@ -36,9 +36,9 @@ struct HolesSpec {
 };
 
 struct SyntheticHoles {
-  MeasuredHoles set;                    ///< with the machine as stated
-  model::Machine truth;                 ///< with what is hidden
-  std::vector<model::BedPoint> places;  ///< where the holes truly are, on the sheet
+  MeasuredHoles set;                     ///< with the machine as stated
+  model::Machine truth;                  ///< with what is hidden
+  std::vector<model::MarkPoint> places;  ///< where the holes truly are, on the sheet
 };
 
 struct CutFailure {

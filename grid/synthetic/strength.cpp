@@ -86,7 +86,7 @@ std::vector<Visit> regular_session(const Machine& machine, int columns, int rows
   Random unused(0);
   std::vector<Visit> visits;
   for (const Mark& mark : marks(machine.bed, design, unused)) {
-    visits.push_back({mark.place, static_cast<int>(visits.size())});
+    visits.push_back({model::laid_as_bed(mark.place), static_cast<int>(visits.size())});
   }
   return visits;
 }
@@ -115,8 +115,9 @@ SessionSignature signature(const Machine& stated,
     if (!reading) {
       throw precondition("signature: visit {}: {}", i, explain(reading.error()));
     }
-    const model::BedPoint written = mark_frame.written(visits[i].position);
-    const model::BedPoint usual = stated_mark_frame.written(visits[i].position);
+    const model::MarkPoint place = model::laid_as_bed(visits[i].position);
+    const model::MarkPoint written = mark_frame.written(place);
+    const model::MarkPoint usual = stated_mark_frame.written(place);
     const Eigen::Vector2d moved{written.x_mm - usual.x_mm, written.y_mm - usual.y_mm};
     const Eigen::Vector2d gained{after[i].left_mm - before[i].left_mm,
                                  after[i].right_mm - before[i].right_mm};
@@ -156,9 +157,9 @@ StrengthTable::StrengthTable(const Machine& stated,
   }
   for (Eigen::Index k = 0; k < settings; ++k) {
     by_setting(2 * count + k, k) =
-        1.0 / std::max(kKnownSigma,
-                       model::stated_sigma(stated,
-                                           model::kMachineSettings[static_cast<std::size_t>(k)]));
+        1.0 /
+        std::max(kKnownSigma,
+                 model::stated_sigma(stated, model::kMachineSettings[static_cast<std::size_t>(k)]));
   }
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(by_setting);
   settings_basis_ = qr.householderQ() * Eigen::MatrixXd::Identity(by_setting.rows(), settings);

@@ -13,18 +13,18 @@ Eigen::Matrix2d SheetPlacement::rotation() const {
   return result;
 }
 
-BedPoint SheetPlacement::to_bed(BedPoint mark) const {
+BedPoint SheetPlacement::to_bed(MarkPoint mark) const {
   const Eigen::Vector2d bed = rotation() * Eigen::Vector2d(mark.x_mm, mark.y_mm);
   return {bed.x() + x_mm, bed.y() + y_mm};
 }
 
-BedPoint SheetPlacement::to_mark(BedPoint bed) const {
+MarkPoint SheetPlacement::to_mark(BedPoint bed) const {
   const Eigen::Vector2d mark =
       rotation().transpose() * Eigen::Vector2d(bed.x_mm - x_mm, bed.y_mm - y_mm);
   return {mark.x(), mark.y()};
 }
 
-Eigen::Matrix<double, 2, 3> SheetPlacement::sensitivity(BedPoint mark) const {
+Eigen::Matrix<double, 2, 3> SheetPlacement::sensitivity(MarkPoint mark) const {
   const Eigen::Vector2d turned = rotation() * Eigen::Vector2d(mark.x_mm, mark.y_mm);
   Eigen::Matrix<double, 2, 3> result;
   result << 1.0, 0.0, -turned.y(), 0.0, 1.0, turned.x();

@@ -22,7 +22,7 @@ constexpr EffectParameter kParameters[] = {{
 }};
 
 // (1)
-BedPoint write(BedPoint mark, EffectSide, Values values) {
+MarkPoint write(MarkPoint mark, EffectSide, Values values) {
   return {mark.x_mm + mark.y_mm * values[0], mark.y_mm};
 }
 

@@ -108,7 +108,7 @@ struct Effect {
   std::string_view remedy;  ///< what to do about it
 
   /// Where the mark is written that truly is at the point.
-  BedPoint (*write)(BedPoint, EffectSide, Values) = nullptr;
+  MarkPoint (*write)(MarkPoint, EffectSide, Values) = nullptr;
   void (*alter)(EquilibriumParameters&, Values) = nullptr;
   ChainAddition (*add)(const ChainAtRest&, Values) = nullptr;
   /// `direction` is +1 where the chain has been paid out to get here, -1 where it has been taken

@@ -21,7 +21,7 @@ constexpr EffectParameter kParameters[] = {{
 }};
 
 // (1)
-BedPoint write(BedPoint mark, EffectSide side, Values values) {
+MarkPoint write(MarkPoint mark, EffectSide side, Values values) {
   const double factor = 1.0 + values[0];
   if (side != EffectSide::y) mark.x_mm *= factor;
   if (side != EffectSide::x) mark.y_mm *= factor;

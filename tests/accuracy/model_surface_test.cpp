@@ -17,8 +17,8 @@ namespace chaintrue {
 namespace {
 
 using grid::CompensationMap;
-using model::BedPoint;
 using model::ChainLengths;
+using model::MarkPoint;
 
 model::Machine true_machine() {
   model::Machine machine;
@@ -31,8 +31,8 @@ const model::ReadingModel& true_model() {
   return model;
 }
 
-ChainLengths truth_at(BedPoint p) {
-  const ChainLengths machine = true_model().at(p).value().lengths;
+ChainLengths truth_at(MarkPoint p) {
+  const ChainLengths machine = true_model().at(model::laid_as_bed(p)).value().lengths;
   return {machine.left_mm + 0.8 * std::sin(p.x_mm / 500.0 + 0.3) * std::cos(p.y_mm / 400.0),
           machine.right_mm + 0.8 * std::cos(p.x_mm / 450.0) * std::sin(p.y_mm / 420.0 + 0.5)};
 }
@@ -43,11 +43,11 @@ struct Layout {
   double margin_mm = 0.0;
 };
 
-std::vector<BedPoint> marks(const Layout& layout) {
+std::vector<MarkPoint> marks(const Layout& layout) {
   const model::Bed bed;
   const double half_x = 0.5 * bed.width_mm - layout.margin_mm;
   const double half_y = 0.5 * bed.height_mm - layout.margin_mm;
-  std::vector<BedPoint> result;
+  std::vector<MarkPoint> result;
   for (int iy = 0; iy < layout.rows; ++iy) {
     for (int ix = 0; ix < layout.columns; ++ix) {
       result.push_back({half_x * (2.0 * ix / (layout.columns - 1) - 1.0),
@@ -57,10 +57,10 @@ std::vector<BedPoint> marks(const Layout& layout) {
   return result;
 }
 
-grid::MeasuredGrid measured(const std::vector<BedPoint>& places) {
+grid::MeasuredGrid measured(const std::vector<MarkPoint>& places) {
   grid::MeasuredGrid grid;
   grid.machine = model::Machine{};
-  for (BedPoint place : places)
+  for (MarkPoint place : places)
     grid.points.push_back({place, truth_at(place), std::nullopt, std::nullopt});
   return grid;
 }
@@ -84,7 +84,7 @@ double largest_error_mm(const CompensationMap& map) {
   double largest = 0.0;
   for (int iy = 0; iy <= 24; ++iy) {
     for (int ix = 0; ix <= 48; ++ix) {
-      const BedPoint p{bed.width_mm * (ix / 48.0 - 0.5), bed.height_mm * (iy / 24.0 - 0.5)};
+      const MarkPoint p{bed.width_mm * (ix / 48.0 - 0.5), bed.height_mm * (iy / 24.0 - 0.5)};
       const ChainLengths told = map.lengths(p).value().lengths;
       const ChainLengths truth = truth_at(p);
       largest = std::max({largest,
@@ -102,8 +102,8 @@ BedError error_of(const CompensationMap& map) {
   int covered = 0;
   for (int iy = 0; iy < 12; ++iy) {
     for (int ix = 0; ix < 24; ++ix) {
-      const BedPoint p{bed.width_mm * ((ix + 0.5) / 24.0 - 0.5),
-                       bed.height_mm * ((iy + 0.5) / 12.0 - 0.5)};
+      const MarkPoint p{bed.width_mm * ((ix + 0.5) / 24.0 - 0.5),
+                        bed.height_mm * ((iy + 0.5) / 12.0 - 0.5)};
       const auto answer = map.query(p).value();
       const ChainLengths truth = truth_at(p);
       const double left = answer.lengths.left_mm - truth.left_mm;
@@ -149,7 +149,7 @@ TEST_P(ModelSurface, TakesTheSledWhereItStood) {
     SCOPED_TRACE(draw);
     grid::synthetic::Random random(1000 + static_cast<std::uint64_t>(draw));
     auto places = marks(GetParam().layout);
-    for (BedPoint& place : places) {
+    for (MarkPoint& place : places) {
       place.x_mm += 40.0 * random.uniform() - 20.0;
       place.y_mm += 40.0 * random.uniform() - 20.0;
     }

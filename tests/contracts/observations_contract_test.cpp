@@ -69,7 +69,8 @@ MeasuredHoles holes_design() {
   const double y[] = {-450, 0, 450};
   for (const double at_y : y) {
     for (const double at_x : x) {
-      set.holes.push_back({std::string(1, static_cast<char>('A' + set.holes.size())), {at_x, at_y}});
+      set.holes.push_back(
+          {std::string(1, static_cast<char>('A' + set.holes.size())), {at_x, at_y}});
     }
   }
   for (std::size_t i = 0; i < set.holes.size(); ++i) {
@@ -92,7 +93,8 @@ std::shared_ptr<const Observation> holes(const Wanted& wanted) {
   const double wider[] = {random.normal(), random.normal()};
   for (HoleDistance& distance : set.distances) {
     distance.distance_mm += hook[distance.session];
-    if (distance.edge) distance.distance_mm += 0.5 * wider[*distance.edge == SheetEdge::top ? 1 : 0];
+    if (distance.edge)
+      distance.distance_mm += 0.5 * wider[*distance.edge == SheetEdge::top ? 1 : 0];
   }
   if (wanted.slip) set.distances[kSpoilt].distance_mm += 20.0;
   if (wanted.turn) {
@@ -198,8 +200,8 @@ TEST_P(EveryObservation, DerivativesBySettingAreDifferences) {
 /// Adds c to the chains in the neighbourhood of one place.
 class AtOnePlace final : public LengthCorrection {
  public:
-  AtOnePlace(model::BedPoint centre, model::ChainLengths c) : centre_(centre), c_(c) {}
-  [[nodiscard]] At at(model::BedPoint mark,
+  AtOnePlace(model::MarkPoint centre, model::ChainLengths c) : centre_(centre), c_(c) {}
+  [[nodiscard]] At at(model::MarkPoint mark,
                       model::ChainLengths lengths,
                       const Eigen::Matrix2d& by_mark) const override {
     const bool near = std::hypot(mark.x_mm - centre_.x_mm, mark.y_mm - centre_.y_mm) < 50.0;
@@ -208,7 +210,7 @@ class AtOnePlace final : public LengthCorrection {
   }
 
  private:
-  model::BedPoint centre_;
+  model::MarkPoint centre_;
   model::ChainLengths c_;
 };
 
@@ -232,7 +234,8 @@ TEST_P(EveryObservation, WhatIsPaidOutMovesAUnitAsItsColumnsSay) {
           if (columns.place == i) expected += columns.by_chain * c;
         }
         // As for the settings: third derivatives, and poses to 1e-9 mm.
-        EXPECT_LT((change.segment(unit.first_row, unit.rows) - expected).cwiseAbs().maxCoeff(), 2e-8)
+        EXPECT_LT((change.segment(unit.first_row, unit.rows) - expected).cwiseAbs().maxCoeff(),
+                  2e-8)
             << observation->name_of(u);
       }
     }
@@ -313,10 +316,9 @@ TEST_P(EveryObservation, EveryEffectIsShownOrRefusedInWords) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds,
-                         EveryObservation,
-                         testing::ValuesIn(kinds()),
-                         [](const auto& kind) { return std::string(kind.param->id); });
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryObservation, testing::ValuesIn(kinds()), [](const auto& kind) {
+  return std::string(kind.param->id);
+});
 
 }  // namespace
 }  // namespace chaintrue::grid::observation

@@ -211,7 +211,7 @@ class WithCandidate {
   static void add_distances(const NextMeasurement& what,
                             const Eigen::VectorXd& read,
                             MeasuredHoles& set) {
-    if (what.mark) set.holes.push_back({"new", *what.mark});
+    if (what.mark) set.holes.push_back({"new", model::laid_as_bed(*what.mark)});
     const std::size_t from = hole_of(set, what.mark ? "new" : what.from);
     for (std::size_t k = 0; k < what.to.size(); ++k) {
       HoleDistance distance{.from = from, .to = hole_of(set, what.to[k])};

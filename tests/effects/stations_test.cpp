@@ -90,10 +90,10 @@ TEST(MarkFrame, ScalesAndSkewsWhatIsWritten) {
 TEST(MarkFrame, ScalesBeforeItSkews) {
   const MarkFrame mark_frame(machine_with(
       {{"axes_skew", "", {{"angle_rad", 0.01}}}, {"tape_scale", "both", {{"scale", 0.02}}}}));
-  const BedPoint written = mark_frame.written({1000.0, 500.0});
+  const MarkPoint written = mark_frame.written({1000.0, 500.0});
   EXPECT_NEAR(written.x_mm, 1000.0 * 1.02 + 500.0 * 1.02 * 0.01, kRoundingMm);
   EXPECT_NEAR(written.y_mm, 500.0 * 1.02, kRoundingMm);
-  const BedPoint back = mark_frame.place(written);
+  const MarkPoint back = mark_frame.place(written);
   EXPECT_NEAR(back.x_mm, 1000.0, kRoundingMm);
   EXPECT_NEAR(back.y_mm, 500.0, kRoundingMm);
 }

@@ -44,7 +44,7 @@ Outcome machine_outcome(const std::string& text, const std::string& name) {
 
 Outcome points_outcome(const std::string& text, const std::string& name) {
   std::string written = "x_mm,y_mm\n";
-  for (const model::BedPoint& point : parse_points(text, name)) {
+  for (const model::MarkPoint& point : parse_points(text, name)) {
     written += fmt::format("{},{}\n", point.x_mm, point.y_mm);
   }
   return {written, {}, {}};
@@ -78,7 +78,9 @@ Outcome belts_outcome(const std::string& text, const std::string& name) {
 }
 
 Outcome anchors_outcome(const std::string& text, const std::string& name) {
-  return {write_anchors(parse_anchors(text, name)), {}, {}};
+  std::vector<Warning> warnings;
+  const FittedAnchors read = parse_anchors(text, name, &warnings);
+  return {write_anchors(read), messages_of(warnings), {}};
 }
 
 Outcome maslow4_outcome(const std::string& text, const std::string& name) {

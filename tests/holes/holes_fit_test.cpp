@@ -70,8 +70,9 @@ TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
   ASSERT_TRUE(made);
   // Lay the sheet elsewhere: the places on it are those of the bed, moved back.
   const model::SheetPlacement laid{7.0, -4.0, 0.006};
-  std::vector<model::BedPoint> marks;
-  for (const model::BedPoint& place : made->places) marks.push_back(laid.to_mark(place));
+  std::vector<model::MarkPoint> marks;
+  for (const model::MarkPoint& place : made->places)
+    marks.push_back(laid.to_mark(model::laid_as_bed(place)));
   const observation::DistanceGeometry on_sheet = observation::distance_geometry(design, marks);
   for (std::size_t k = 20; k < made->set.distances.size(); ++k)
     made->set.distances[k].distance_mm = on_sheet.predicted_mm[static_cast<Eigen::Index>(k)];
@@ -94,7 +95,7 @@ TEST(HolesFit, AFreeSheetLiesSoThatTheHolesAreWhereTheyWereCommanded) {
   double y = 0.0;
   double turn = 0.0;
   for (std::size_t i = 0; i < fit->holes.size(); ++i) {
-    const model::BedPoint at = fit->holes[i].predicted;
+    const model::MarkPoint at = fit->holes[i].predicted;
     const model::BedPoint wanted = made->set.holes[i].commanded;
     x += at.x_mm - wanted.x_mm;
     y += at.y_mm - wanted.y_mm;
@@ -123,8 +124,8 @@ TEST(HolesFit, ALeftOutPredictionIsThatOfAFitWithoutTheReading) {
     const auto fit = fit_holes(without);
     ASSERT_TRUE(fit);
     const auto distance = made->set.distances[k];
-    const model::BedPoint a = fit->holes[distance.from].predicted;
-    const model::BedPoint b = fit->holes[distance.to].predicted;
+    const model::MarkPoint a = fit->holes[distance.from].predicted;
+    const model::MarkPoint b = fit->holes[distance.to].predicted;
     const double predicted = std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm);
     // The two differ by the curvature of the model over what one reading moves, a few 1e-3 mm.
     EXPECT_NEAR(whole->distances[k].left_out_mm, distance.distance_mm - predicted, 0.01);

@@ -23,26 +23,26 @@
 namespace chaintrue::grid {
 namespace {
 
-using model::BedPoint;
+using model::MarkPoint;
 using synthetic::Random;
 using testing::HasSubstr;
 using testing_support::classic;
 
 constexpr double kNoiseMm = 0.3;
-const std::vector<BedPoint> kFive = {
+const std::vector<MarkPoint> kFive = {
     {-1100.0, 500.0}, {1100.0, 500.0}, {0.0, 0.0}, {-1100.0, -500.0}, {1100.0, -500.0}};
 
 struct MeasuredMachine {
   CompensationMap map;
   model::Machine truth;
-  std::vector<BedPoint> planned;  ///< by plan_check
+  std::vector<MarkPoint> planned;  ///< by plan_check
 };
 
 /// A map of 28 points as an owner measures them, and the machine that it is of.
 MeasuredMachine measured(std::uint64_t seed) {
   const auto session = synthetic::generate(classic(), testing_support::usual_spec(seed));
   CompensationMap map = *fit(session->grid);
-  std::vector<BedPoint> planned = plan_check(map, {})->marks;
+  std::vector<MarkPoint> planned = plan_check(map, {})->marks;
   return {std::move(map), session->answer.machine, std::move(planned)};
 }
 
@@ -55,14 +55,14 @@ const std::vector<MeasuredMachine>& machines() {
   return several;
 }
 
-MeasuredGrid measured_at(const std::vector<BedPoint>& marks,
+MeasuredGrid measured_at(const std::vector<MarkPoint>& marks,
                          const model::Machine& machine,
                          Random& random) {
   const model::ReadingModel model(machine);
   MeasuredGrid grid;
   grid.noise = StatedNoise{kNoiseMm, 0.0, 15.0};
-  for (const BedPoint& mark : marks) {
-    const auto reading = model.at(mark);
+  for (const MarkPoint& mark : marks) {
+    const auto reading = model.at(model::laid_as_bed(mark));
     const double left_mm = reading->lengths.left_mm + kNoiseMm * random.normal();
     const double right_mm = reading->lengths.right_mm + kNoiseMm * random.normal();
     grid.points.push_back({mark, model::ChainLengths{left_mm, right_mm}, {}, {}});
@@ -191,7 +191,7 @@ TEST(CheckPlan, NoSinglePointMovedTellsMore) {
   Random random(11);
   constexpr int kTries = 200;
   for (int k = 0; k < kTries; ++k) {
-    std::vector<BedPoint> moved = plan->marks;
+    std::vector<MarkPoint> moved = plan->marks;
     moved[static_cast<std::size_t>(k) % moved.size()] = {random.uniform(-1200.0, 1200.0),
                                                          random.uniform(-590.0, 590.0)};
     // Places off the lattice may tell a little more: a third of its spacing beside.
@@ -208,8 +208,8 @@ TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
   ASSERT_TRUE(told);
   const model::ReadingModel model(one.truth);
   model::PerSide<double> squares;
-  for (const BedPoint& mark : kFive) {
-    const model::ChainLengths lengths = model.at(mark)->lengths;
+  for (const MarkPoint& mark : kFive) {
+    const model::ChainLengths lengths = model.at(model::laid_as_bed(mark))->lengths;
     squares.left += lengths.left_mm * lengths.left_mm;
     squares.right += lengths.right_mm * lengths.right_mm;
   }

@@ -112,10 +112,10 @@ TEST(FitOnAnExtendedMachine, PutsNoEffectOfTheVisitOrThePaperIntoTheMap) {
   const auto clean_map = fit(clean.grid);
   ASSERT_TRUE(map) << map.error().sentence;
   ASSERT_TRUE(clean_map);
-  for (const model::BedPoint place : {model::BedPoint{0.0, 0.0},
-                                      model::BedPoint{-900.0, 400.0},
-                                      model::BedPoint{730.0, -410.0},
-                                      model::BedPoint{1100.0, 500.0}}) {
+  for (const model::MarkPoint place : {model::MarkPoint{0.0, 0.0},
+                                       model::MarkPoint{-900.0, 400.0},
+                                       model::MarkPoint{730.0, -410.0},
+                                       model::MarkPoint{1100.0, 500.0}}) {
     const auto answer = map->query(place);
     const auto clean_answer = clean_map->query(place);
     ASSERT_TRUE(answer);

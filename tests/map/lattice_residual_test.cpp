@@ -18,14 +18,14 @@ namespace chaintrue {
 namespace {
 
 using grid::CompensationMap;
-using model::BedPoint;
+using model::MarkPoint;
 using testing::Contains;
 using testing::HasSubstr;
 
 /// The default machine and something smooth that no setting explains.
-model::ChainLengths truth_at(BedPoint p) {
+model::ChainLengths truth_at(MarkPoint p) {
   static const model::ReadingModel kModel{model::Machine{}};
-  const model::ChainLengths machine = kModel.at(p).value().lengths;
+  const model::ChainLengths machine = kModel.at(model::laid_as_bed(p)).value().lengths;
   return {machine.left_mm + 0.8 * std::sin(p.x_mm / 500.0) * std::cos(p.y_mm / 400.0),
           machine.right_mm + 0.8 * std::cos(p.x_mm / 450.0) * std::sin(p.y_mm / 420.0)};
 }
@@ -67,7 +67,7 @@ TEST(LatticeResidual, TheMapsDerivativeIsThatOfItsLengths) {
   const CompensationMap map = fitted(lattice());
   ASSERT_TRUE(surface_of(map).lattice);
   constexpr double kStep = 0.01;
-  for (const BedPoint p : {BedPoint{12, 34}, {-1100, -500}, {1150, 590}, {333, -77}}) {
+  for (const MarkPoint p : {MarkPoint{12, 34}, {-1100, -500}, {1150, 590}, {333, -77}}) {
     const auto jacobian = map.lengths(p)->mark_jacobian;
     const auto at = [&](double dx, double dy) {
       return map.lengths({p.x_mm + dx, p.y_mm + dy})->lengths;
@@ -85,7 +85,7 @@ TEST(LatticeResidual, TheMapsDerivativeIsThatOfItsLengths) {
 
 TEST(LatticeResidual, AnEmptyNodeIsFilledNamedAndDoubted) {
   auto grid = lattice();
-  const BedPoint empty = grid.points[17].mark;
+  const MarkPoint empty = grid.points[17].mark;
   grid.points.erase(grid.points.begin() + 17);
   const CompensationMap map = fitted(grid);
   ASSERT_TRUE(surface_of(map).lattice);
@@ -145,7 +145,7 @@ TEST(LatticeResidual, TheFileKeepsIt) {
   const CompensationMap read = grid::files::parse_map(text, "map.json");
   ASSERT_TRUE(surface_of(read).lattice);
   EXPECT_EQ(grid::files::write_map(read), text);
-  for (const BedPoint p : {BedPoint{-700.0, 333.0}, {0.0, 0.0}, {1200.0, -600.0}}) {
+  for (const MarkPoint p : {MarkPoint{-700.0, 333.0}, {0.0, 0.0}, {1200.0, -600.0}}) {
     const auto a = map.query(p).value();
     const auto b = read.query(p).value();
     EXPECT_EQ(a.lengths.left_mm, b.lengths.left_mm);

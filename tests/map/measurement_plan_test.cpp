@@ -17,7 +17,7 @@ namespace chaintrue {
 namespace {
 
 using grid::MeasurementPlan;
-using model::BedPoint;
+using model::MarkPoint;
 
 MeasurementPlan planned(const grid::PlanRequest& request) {
   auto plan = grid::plan_measurement(model::Machine{}, request);
@@ -62,7 +62,7 @@ TEST_P(Plan, HoldsEveryCrossingOfChebyshevLobattoLines) {
     for (double column : x) {
       EXPECT_TRUE(std::any_of(plan.marks.begin(),
                               plan.marks.end(),
-                              [&](const BedPoint& mark) {
+                              [&](const MarkPoint& mark) {
                                 // Marks are in whole mm.
                                 return std::abs(mark.x_mm - column) < 1.0 &&
                                        std::abs(mark.y_mm - row) < 1.0;

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::uint64_t kSeed = 5;
 
-std::vector<model::BedPoint> places(int count) {
+std::vector<model::MarkPoint> places(int count) {
   synthetic::Random random(kSeed);
-  std::vector<model::BedPoint> marks;
+  std::vector<model::MarkPoint> marks;
   for (int i = 0; i < count; ++i)
     marks.push_back({2400.0 * random.uniform() - 1200.0, 1200.0 * random.uniform() - 600.0});
   marks[1] = marks[0];  // a repeat

@@ -16,7 +16,7 @@ namespace {
 using grid::CompensationMap;
 using grid::MapStatus;
 using grid::Outside;
-using model::BedPoint;
+using model::MarkPoint;
 
 const std::vector<Outside> kWays = {
     Outside::continued, Outside::refuse, Outside::fade, Outside::linear, Outside::clamp};
@@ -78,7 +78,7 @@ TEST_P(OutsideTheMap, WithinThePointsAllWaysAreOne) {
   const CompensationMap own = map_of(middle_grid(GetParam()), Outside::continued);
   for (const Outside way : kWays) {
     const CompensationMap map = own.with_outside({way, 150.0});
-    for (const BedPoint p : {BedPoint{0.0, 0.0}, {-700.0, 300.0}, {650.0, -500.0}}) {
+    for (const MarkPoint p : {MarkPoint{0.0, 0.0}, {-700.0, 300.0}, {650.0, -500.0}}) {
       ASSERT_EQ(map.status(p), MapStatus::inside);
       EXPECT_EQ(map.query(p)->lengths.left_mm, own.query(p)->lengths.left_mm);
       EXPECT_EQ(map.query(p)->sigma.right_mm, own.query(p)->sigma.right_mm);
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(NoisyAndLattice, OutsideTheMap, testing::Bool());
 
 TEST(OutsideTheMapByName, FarOutFadeIsTheBareMachineAndRefuseAnswersNothing) {
   const grid::MeasuredGrid measured = middle_grid(true);
-  const BedPoint far{1210.0, 0.0};
+  const MarkPoint far{1210.0, 0.0};
   const CompensationMap faded = map_of(measured, Outside::fade);
   ASSERT_EQ(faded.status(far), MapStatus::extrapolated);
   const auto& surface = std::get<grid::ModelSurface>(faded.contents().surface);
@@ -130,8 +130,8 @@ TEST(OutsideTheMapByName, WhatADirectMapAnswersItsInverseFinds) {
     const interp::Rectangle& domain = map.contents().domain;
     for (int i = 0; i <= 20; ++i) {
       for (int j = 0; j <= 20; ++j) {
-        const model::BedPoint asked{domain.x_min + domain.width() * i / 20.0,
-                                    domain.y_min + domain.height() * j / 20.0};
+        const model::MarkPoint asked{domain.x_min + domain.width() * i / 20.0,
+                                     domain.y_min + domain.height() * j / 20.0};
         const auto answer = map.query(asked);
         if (!answer || answer->status != MapStatus::inside) continue;
         const auto found = map.inverse(answer->lengths);

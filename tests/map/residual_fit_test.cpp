@@ -81,10 +81,10 @@ TEST(ResidualFit, PlacesASheetThatWasLaidByHand) {
   const CompensationMap map = fitted(made.grid);
   EXPECT_LT(true_tool_rms_mm(map, made.answer),
             0.4);  // as without a sheet: its placement moves the frame alone
-  const model::BedPoint mark{300.0, -200.0};
+  const model::MarkPoint mark{300.0, -200.0};
   const model::BedPoint bed = map.to_bed(mark);
-  const auto by_mark = map.query(mark, grid::Frame::marks);
-  const auto by_bed = map.query(bed, grid::Frame::bed);
+  const auto by_mark = map.query(mark);
+  const auto by_bed = map.query(map.to_mark(bed));
   ASSERT_TRUE(by_mark && by_bed);
   EXPECT_NEAR(by_mark->lengths.left_mm,
               by_bed->lengths.left_mm,
@@ -116,7 +116,7 @@ TEST(ResidualFit, DoesNotDependOnTheOrderOfThePoints) {
   std::reverse(reversed.points.begin(), reversed.points.end());
   const CompensationMap a = fitted(made.grid);
   const CompensationMap b = fitted(reversed);
-  for (const model::BedPoint point : {model::BedPoint{0, 0}, {-1100, -550}, {900, 580}}) {
+  for (const model::MarkPoint point : {model::MarkPoint{0, 0}, {-1100, -550}, {900, 580}}) {
     // Sums in another order: rounding, magnified by the condition of the fit.
     EXPECT_NEAR(a.query(point)->lengths.left_mm, b.query(point)->lengths.left_mm, 1e-6);
   }
@@ -162,7 +162,8 @@ TEST(ResidualFit, InverseFindsTheQueriedPoint) {
 TEST(ResidualFit, TheMapsDerivativeIsThatOfItsLengths) {
   const CompensationMap map = fitted(session(usual_spec(2)).grid);
   constexpr double kStep = 0.01;
-  for (const model::BedPoint p : {model::BedPoint{0, 0}, {-1100, -500}, {1150, 590}, {333, -77}}) {
+  for (const model::MarkPoint p :
+       {model::MarkPoint{0, 0}, {-1100, -500}, {1150, 590}, {333, -77}}) {
     const auto jacobian = map.lengths(p)->mark_jacobian;
     const auto at = [&](double dx, double dy) {
       return map.lengths({p.x_mm + dx, p.y_mm + dy})->lengths;

@@ -153,7 +153,7 @@ TEST_F(DiagnosisPage, OfHolesDrawsDistances) {
   grid::diagnosis::NextMeasurement hole;
   hole.kind = grid::diagnosis::MeasurementKind::distance;
   hole.what = "a new hole at (0, -500), measured to A, C";
-  hole.mark = model::BedPoint{0.0, -500.0};
+  hole.mark = model::MarkPoint{0.0, -500.0};
   hole.to = {"A", "C"};
   grid::diagnosis::NextMeasurement pair;
   pair.kind = grid::diagnosis::MeasurementKind::distance;

@@ -18,6 +18,7 @@ namespace {
 using model::AppliedEffect;
 using model::BedPoint;
 using model::Machine;
+using model::MarkPoint;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -28,7 +29,9 @@ SyntheticSession session_of(const SyntheticSpec& spec, const Machine& machine = 
   return session ? *session : SyntheticSession{};
 }
 
-double distance(BedPoint a, BedPoint b) { return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm); }
+double distance(const auto& a, const auto& b) {
+  return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm);
+}
 
 TEST(Design, RegularGridStandsOnRoundNumbers) {
   Random random(1, 0);
@@ -130,7 +133,7 @@ TEST(Generator, WithoutNoiseIsTheReadingModelItself) {
   const model::ReadingModel model(machine);
   ASSERT_THAT(session.grid.points, SizeIs(28));
   for (const MeasuredPoint& point : session.grid.points) {
-    const auto reading = model.at(point.mark);
+    const auto reading = model.at(model::laid_as_bed(point.mark));
     ASSERT_TRUE(reading);
     EXPECT_EQ(point.lengths->left_mm, reading->lengths.left_mm);
     EXPECT_EQ(point.lengths->right_mm, reading->lengths.right_mm);
@@ -295,7 +298,7 @@ TEST(Generator, WritesThePaperInTheSheetsFrame) {
                   {model::Setting::sheet_rotation_rad, 0.005}};
   const SyntheticSession session = session_of(spec);
   for (std::size_t i = 0; i < session.grid.points.size(); ++i) {
-    const BedPoint mark = session.grid.points[i].mark;
+    const MarkPoint mark = session.grid.points[i].mark;
     const double x = mark.x_mm / 1.001;
     // bed = shift + R sheet, rounding of numbers of 1200
     EXPECT_NEAR(session.answer.places[i].x_mm,

@@ -77,7 +77,7 @@ tl::expected<std::vector<int>, std::string> assumed_order(const std::vector<Meas
   std::vector<Place> places;
   std::vector<std::size_t> second_visits;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const model::BedPoint& mark = points[i].mark;
+    const model::MarkPoint& mark = points[i].mark;
     if (is_second_visit(points, i)) {
       second_visits.push_back(i);
     } else if (by_rows) {

@@ -85,7 +85,7 @@ Chart support_chart(const Diagnosis& found) {
   for (const Removal* removal : points) {
     const auto picture = pictures.find(removal->index);
     if (picture == pictures.end()) continue;
-    const model::BedPoint& mark = picture->second->mark;
+    const model::MarkPoint& mark = picture->second->mark;
     const bool is_labelled =
         !removal->stands || std::find(heaviest.begin(), heaviest.end(), removal) != heaviest.end();
     largest = std::max(largest, std::abs(removal->support));

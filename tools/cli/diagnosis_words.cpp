@@ -51,7 +51,7 @@ std::string title(std::string_view id, std::string_view side) {
   return side.empty() ? spaced(id) : fmt::format("{}, {}", spaced(id), side);
 }
 
-bool same_place(const model::BedPoint& a, const model::BedPoint& b) {
+bool same_place(const model::MarkPoint& a, const model::MarkPoint& b) {
   return a.x_mm == b.x_mm && a.y_mm == b.y_mm;
 }
 
@@ -72,10 +72,10 @@ std::string reading_in_words(const NextMeasurement& next) {
 }
 
 /// `again`: an earlier one is at the same place.
-std::string follow_up_in_words(const NextMeasurement& next, bool again) {
+std::string follow_up_in_words(const NextMeasurement& next, bool again, bool by_belts) {
   if (next.kind == MeasurementKind::reading) return reading_in_words(next);
   if (next.kind == MeasurementKind::distance) return capitalised(next.what) + ".";
-  std::string text = again ? "the same place, the sled set down anew" : next.what;
+  std::string text = again && !by_belts ? "the same place, the sled set down anew" : next.what;
   if (text.empty() || text.back() != '.') text += '.';
   if (!next.mark) return text;
   const std::string place =
@@ -215,6 +215,18 @@ std::string_view what_stands_alone(const grid::diagnosis::Diagnosis& diagnosis) 
   return diagnosis.causes.empty() ? "One explanation alone" : "A single right name";
 }
 
+std::string chance_in_a_cell(const grid::diagnosis::Diagnosis& diagnosis, std::size_t position) {
+  const NextMeasurement& next = diagnosis.next_measurements.at(position);
+  const bool tells_scale = diagnosis.belts && next.kind == MeasurementKind::distance;
+  return tells_scale ? "" : percent(next.raises_probability_to);
+}
+
+std::string chance_then(const grid::diagnosis::Diagnosis& diagnosis, std::size_t position) {
+  const std::string chance = chance_in_a_cell(diagnosis, position);
+  if (chance.empty()) return chance;
+  return fmt::format(" {} then has probability {}.", what_stands_alone(diagnosis), chance);
+}
+
 std::vector<std::string> follow_ups_in_words(const grid::diagnosis::Diagnosis& diagnosis) {
   std::vector<std::string> sentences;
   const auto& list = diagnosis.next_measurements;
@@ -223,7 +235,7 @@ std::vector<std::string> follow_ups_in_words(const grid::diagnosis::Diagnosis& d
         list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i), [&](const auto& earlier) {
           return same_place(earlier, list[i]);
         });
-    sentences.push_back(follow_up_in_words(list[i], again));
+    sentences.push_back(follow_up_in_words(list[i], again, diagnosis.belts.has_value()));
   }
   return sentences;
 }

@@ -62,13 +62,21 @@ namespace chaintrue::cli {
 /// alone" where none is named.
 [[nodiscard]] std::string_view what_stands_alone(const grid::diagnosis::Diagnosis& diagnosis);
 
+/// " A single right name then has probability 95 %." of the next measurement with that position;
+/// nothing where it tells the scale of belts, which parts no causes.
+[[nodiscard]] std::string chance_then(const grid::diagnosis::Diagnosis& diagnosis,
+                                      std::size_t position);
+/// The same in a cell of a table: "95 %".
+[[nodiscard]] std::string chance_in_a_cell(const grid::diagnosis::Diagnosis& diagnosis,
+                                           std::size_t position);
+
 /// The next measurements as sentences: what to do, where, and how well.
 [[nodiscard]] std::vector<std::string> follow_ups_in_words(
     const grid::diagnosis::Diagnosis& diagnosis);
 /// Their places, each once: "3, 6" where the third and the sixth are at one mark.
 struct FollowUpPlace {
   std::string numbers;
-  model::BedPoint mark;
+  model::MarkPoint mark;
   std::string what;
   double raises_probability_to = 0.0;
 };

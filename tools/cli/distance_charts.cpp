@@ -16,7 +16,7 @@ namespace {
 using grid::diagnosis::Diagnosis;
 using grid::diagnosis::DistancePicture;
 using grid::diagnosis::NextMeasurement;
-using model::BedPoint;
+using model::MarkPoint;
 using report::Chart;
 using report::DataTable;
 
@@ -24,12 +24,12 @@ constexpr double kWidestPx = 9.0;
 constexpr double kThinPx = 1.2;
 
 struct Ends {
-  BedPoint from;
-  BedPoint to;
+  MarkPoint from;
+  MarkPoint to;
 };
 
 /// Where a hole lies, or an edge beside another place; a name that nobody bears lies there too.
-BedPoint place_of(const Diagnosis& found, const std::string& name, const BedPoint& beside) {
+MarkPoint place_of(const Diagnosis& found, const std::string& name, const MarkPoint& beside) {
   for (const auto& hole : found.holes) {
     if (hole.name == name) return hole.mark;
   }
@@ -42,7 +42,7 @@ BedPoint place_of(const Diagnosis& found, const std::string& name, const BedPoin
 }
 
 Ends ends_of(const Diagnosis& found, const DistancePicture& distance) {
-  const BedPoint from = place_of(found, distance.from, {});
+  const MarkPoint from = place_of(found, distance.from, {});
   return {from, place_of(found, distance.to, from)};
 }
 
@@ -80,7 +80,7 @@ class Panels {
     for (const auto& hole : found_.holes)
       holes_.rows.push_back({number_, hole.name, hole.mark.x_mm, hole.mark.y_mm});
   }
-  void hole(const std::string& name, const BedPoint& at) {
+  void hole(const std::string& name, const MarkPoint& at) {
     holes_.rows.push_back({number_, name, at.x_mm, at.y_mm});
     marks_.push_back({.x_mm = at.x_mm, .y_mm = at.y_mm});
   }
@@ -275,7 +275,7 @@ Chart next_distances_chart(const Diagnosis& found) {
   for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
     const NextMeasurement& next = found.next_measurements[i];
     const std::string number = fmt::format("{}.", i + 1);
-    const BedPoint from = next.mark ? *next.mark : place_of(found, next.from, {});
+    const MarkPoint from = next.mark ? *next.mark : place_of(found, next.from, {});
     if (next.mark) drawn.hole(number, from);
     for (const std::string& to : next.to)
       drawn.line({from, place_of(found, to, from)},

@@ -20,6 +20,7 @@
 #include "grid/files/parse_double.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/belts/belt_controller.hpp"
+#include "tools/cli/anchors_input.hpp"
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/progress.hpp"
@@ -43,6 +44,8 @@ constexpr KindName kKinds[] = {
     {"fluidnc_wallplotter", model::ControllerKind::fluidnc_wallplotter},
     {"ideal", model::ControllerKind::ideal},
 };
+
+constexpr std::string_view kFourBeltsName = "maslow4";
 
 bool number(std::string_view text, double& value) {
   const auto [end, error] =
@@ -76,6 +79,12 @@ model::BedPoint GcodeOptions::home_mm() const {
   return point;
 }
 
+const gcode::Firmware* stated_firmware(std::string_view name) {
+  if (name == kFourBeltsName) return &gcode::firmware_of_four_belts();
+  const auto kind = controller_kind(name);
+  return kind ? &gcode::firmware(*kind) : nullptr;
+}
+
 std::optional<model::ControllerKind> controller_kind(std::string_view name) {
   for (const KindName& kind : kKinds) {
     if (kind.name == name) return kind.kind;
@@ -93,12 +102,12 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options) {
 
 void GcodeMachine::take_belts(const GcodeOptions& options, const std::string& text) {
   const std::string file = grid::files::name_in_messages(options.map);
-  const grid::files::FittedAnchors found = grid::files::parse_anchors(text, file);
+  const grid::files::FittedAnchors found = parse_anchors_input(text, file);
   OptionProblems problems;
-  if (!options.controller.empty()) {
+  if (!options.controller.empty() && options.controller != kFourBeltsName) {
     problems.add("--controller",
                  options.controller,
-                 "to be left out: anchors of four belts are of a Maslow 4");
+                 "\"maslow4\", or to be left out: anchors of four belts are of a Maslow 4");
   }
   const grid::HolesBesideBelts* holes = found.holes ? &*found.holes : nullptr;
   if (holes == nullptr && !found.fit.coordinates.front().stated_mm) {
@@ -124,10 +133,17 @@ void GcodeMachine::take_belts(const GcodeOptions& options, const std::string& te
 }
 
 void GcodeMachine::take_map(const GcodeOptions& options, const std::string& text) {
+  if (options.controller == kFourBeltsName) {
+    throw InputError({{options.map,
+                       "/file_type",
+                       "",
+                       "\"chaintrue_anchors\", as chaintrue fit makes of belts: a Maslow 4 goes by "
+                       "these in place of a map"}});
+  }
   map_ = std::make_unique<grid::CompensationMap>(
       parse_map_input(text, grid::files::name_in_messages(options.map)));
   target_ = std::make_unique<gcode::CompensationTarget>(
-      *map_, options.frame == "bed" ? grid::Frame::bed : grid::Frame::marks);
+      *map_, options.frame == "bed" ? gcode::ProgramFrame::bed : gcode::ProgramFrame::marks);
   if (!options.machine.empty()) {
     machine_ = read_machine_input(options.machine);
   } else if (const auto stated = gcode::stated_machine(*map_)) {

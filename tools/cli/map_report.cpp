@@ -118,8 +118,8 @@ report::ErrorMap error_map_of(const grid::CompensationMap& map, const report::Ou
       (sheet.x_max_mm - sheet.x_min_mm) / kColumns, (sheet.y_max_mm - sheet.y_min_mm) / kRows, {}};
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
-      const model::BedPoint at{sheet.x_min_mm + (column + 0.5) * raster.cell_width_mm,
-                               sheet.y_min_mm + (row + 0.5) * raster.cell_height_mm};
+      const model::MarkPoint at{sheet.x_min_mm + (column + 0.5) * raster.cell_width_mm,
+                                sheet.y_min_mm + (row + 0.5) * raster.cell_height_mm};
       if (const auto answer = map.query(at)) {
         raster.cells.push_back(
             {at.x_mm, at.y_mm, answer->tool_sigma_mm, std::string(grid::name(answer->status))});

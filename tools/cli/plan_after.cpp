@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "grid/files/belts_file.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
@@ -17,6 +18,7 @@
 #include "tools/cli/follow_up_holes.hpp"
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/plan_after_belts.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
@@ -50,10 +52,10 @@ bool is_json(const std::string& text) {
 
 /// `few`: beside other files a reading or two are enough.
 void read(const std::string& path,
+          const std::string& text,
           const std::optional<model::Machine>& machine,
           bool few,
           Sources& sources) {
-  const std::string text = files::read_whole_file(path);
   const std::string name = files::name_in_messages(path);
   const bool of_holes = files::looks_like_holes(text);
   sources.all.push_back(
@@ -71,19 +73,21 @@ void read(const std::string& path,
   }
 }
 
-Sources read_sources(const PlanAfterOptions& options) {
+/// `text` is that of the first file.
+Sources read_sources(const PlanAfterOptions& options, const std::string& text) {
   std::optional<model::Machine> machine;
   if (!options.machine.empty()) machine = read_machine_input(options.machine);
   Sources sources;
-  read(options.file, machine, false, sources);
-  for (const std::string& path : options.with) read(path, machine, true, sources);
+  read(options.file, text, machine, false, sources);
+  for (const std::string& path : options.with)
+    read(path, files::read_whole_file(path), machine, true, sources);
   return sources;
 }
 
 /// The diagnosis is of the points of these grids. A CSV may round them.
 bool is_of(const Diagnosis& found, const std::vector<grid::MeasuredGrid>& grids) {
   constexpr double kSamePlaceMm = 1e-3;
-  std::vector<model::BedPoint> marks;
+  std::vector<model::MarkPoint> marks;
   for (const grid::MeasuredGrid& measured : grids) {
     for (const grid::MeasuredPoint& point : measured.points) marks.push_back(point.mark);
   }
@@ -91,7 +95,7 @@ bool is_of(const Diagnosis& found, const std::vector<grid::MeasuredGrid>& grids)
                     found.points.end(),
                     marks.begin(),
                     marks.end(),
-                    [&](const auto& pictured, const model::BedPoint& mark) {
+                    [&](const auto& pictured, const model::MarkPoint& mark) {
                       return std::abs(pictured.mark.x_mm - mark.x_mm) < kSamePlaceMm &&
                              std::abs(pictured.mark.y_mm - mark.y_mm) < kSamePlaceMm;
                     });
@@ -154,7 +158,8 @@ std::string drawing_of(const Diagnosis& found, const Sources& sources) {
     for (const auto& point : measured.points) drawing.measured.push_back(point.mark);
   }
   for (const grid::MeasuredHoles& set : sources.sets) {
-    for (const grid::Hole& hole : set.holes) drawing.measured.push_back(hole.commanded);
+    for (const grid::Hole& hole : set.holes)
+      drawing.measured.push_back(model::laid_as_bed(hole.commanded));
   }
   for (const FollowUpPlace& place : follow_up_places(found))
     drawing.next.push_back({place.numbers, place.mark});
@@ -164,7 +169,9 @@ std::string drawing_of(const Diagnosis& found, const Sources& sources) {
 }  // namespace
 
 int plan_after(const PlanAfterOptions& options) {
-  const Sources sources = read_sources(options);
+  const std::string text = files::read_whole_file(options.file);
+  if (files::looks_like_belts(text)) return plan_after_belts(options, text);
+  const Sources sources = read_sources(options, text);
   std::vector<files::Warning> warnings;
   const Diagnosis found = files::read_diagnosis(options.after, &warnings);
   print_warnings(warnings);

@@ -12,6 +12,7 @@ namespace chaintrue::cli {
 namespace {
 
 using model::BedPoint;
+using model::MarkPoint;
 
 // The picture, in its own units.
 constexpr double kBedWide = 900.0, kLeft = 30.0, kTop = 80.0, kBelow = 90.0;
@@ -117,7 +118,7 @@ void draw_errors(std::string& svg,
   svg += "</g>\n";
 }
 
-void draw_walk(std::string& svg, const Picture& picture, const std::vector<BedPoint>& marks) {
+void draw_walk(std::string& svg, const Picture& picture, const std::vector<MarkPoint>& marks) {
   svg +=
       "<polyline fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1\" stroke-opacity=\"0.6\" "
       "points=\"";
@@ -207,7 +208,7 @@ std::string draw_follow_up(const FollowUpDrawing& drawing, const model::Bed& bed
                  kTop,
                  kBedWide,
                  picture.bed_high());
-  for (const BedPoint& mark : drawing.measured) {
+  for (const MarkPoint& mark : drawing.measured) {
     fmt::format_to(std::back_inserter(svg),
                    "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3\" fill=\"#8a94a3\"/>\n",
                    picture.x(mark.x_mm),

@@ -18,7 +18,7 @@ struct ExpectedErrors {
   std::vector<double> cells_mm;  ///< negative where the map has no answer
   double rms_mm = 0.0;
   double largest_mm = 0.0;
-  model::BedPoint worst_at;
+  model::MarkPoint worst_at;
   std::size_t unanswered = 0;
 };
 [[nodiscard]] ExpectedErrors expected_errors(const grid::CompensationMap& map,
@@ -31,10 +31,10 @@ struct ExpectedErrors {
 
 /// Where a follow-up is measured: numbered crosses among the marks that are measured already.
 struct FollowUpDrawing {
-  std::vector<model::BedPoint> measured;
+  std::vector<model::MarkPoint> measured;
   struct Cross {
     std::string numbers;
-    model::BedPoint mark;
+    model::MarkPoint mark;
   };
   std::vector<Cross> next;
 };

@@ -12,12 +12,15 @@
 #include <string>
 #include <vector>
 
+#include "grid/files/anchors_file.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/effect_argument.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/query_anchors.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -39,7 +42,7 @@ struct QueryCommand {
 
 /// One line of the answer: numbers that are not there are empty cells, or null.
 struct AnswerLine {
-  model::BedPoint point;
+  model::MarkPoint point;
   tl::expected<grid::MapAnswer, grid::MapFailure> answer;
 };
 
@@ -92,39 +95,44 @@ std::string as_json(const std::vector<AnswerLine>& lines) {
   return text + "\n]\n";
 }
 
-std::vector<model::BedPoint> points_asked(const QueryCommand& command) {
+/// In the frame of --frame.
+std::vector<model::MarkPoint> points_asked(const QueryCommand& command) {
   if (!command.points.empty()) return files::read_points(command.points);
-  std::vector<model::BedPoint> points;
+  std::vector<model::MarkPoint> points;
   for (std::size_t i = 0; i + 1 < command.coordinates.size(); i += 2) {
     points.push_back({command.coordinates[i], command.coordinates[i + 1]});
   }
   return points;
 }
 
-grid::Frame frame_of(const QueryCommand& command) {
-  return command.frame == "bed" ? grid::Frame::bed : grid::Frame::marks;
+model::MarkPoint mark_of(model::MarkPoint asked,
+                         const grid::CompensationMap& map,
+                         const QueryCommand& command) {
+  return command.frame == "bed" ? map.to_mark(model::laid_as_bed(asked)) : asked;
 }
 
 int run_inverse(const grid::CompensationMap& map, const QueryCommand& command) {
-  const auto point = map.inverse({command.inverse[0], command.inverse[1]}, frame_of(command));
-  if (!point) {
+  const auto mark = map.inverse({command.inverse[0], command.inverse[1]});
+  if (!mark) {
     fmt::print(stderr,
                "left {} mm, right {} mm: {}\n",
                command.inverse[0],
                command.inverse[1],
-               grid::explain(point.error()));
+               grid::explain(mark.error()));
     return kNotSupportedOrOutside;
   }
+  const model::MarkPoint point =
+      command.frame == "bed" ? model::laid_as_bed(map.to_bed(*mark)) : *mark;
   write_output(command.output,
                command.json
                    ? fmt::format("{{\"x_mm\": {:.6f}, \"y_mm\": {:.6f}, \"status\": \"{}\"}}\n",
-                                 point->x_mm,
-                                 point->y_mm,
-                                 grid::name(map.status(*point, frame_of(command))))
+                                 point.x_mm,
+                                 point.y_mm,
+                                 grid::name(map.status(*mark)))
                    : fmt::format("x_mm,y_mm,status\n{:.6f},{:.6f},{}\n",
-                                 point->x_mm,
-                                 point->y_mm,
-                                 grid::name(map.status(*point, frame_of(command)))));
+                                 point.x_mm,
+                                 point.y_mm,
+                                 grid::name(map.status(*mark))));
   return kDone;
 }
 
@@ -132,8 +140,40 @@ std::string page_of(const std::string& map) {
   return std::filesystem::path(map).replace_extension(".html").string();
 }
 
+/// What a map alone has.
+void check_options_of_belts(const QueryCommand& command) {
+  OptionProblems problems;
+  if (command.frame == "bed")
+    problems.add("--frame",
+                 command.frame,
+                 "\"marks\": belts count from where their frame's diagonals "
+                 "cross, and know no other frame");
+  if (!command.outside.way.empty())
+    problems.add("--outside",
+                 command.outside.way,
+                 "to be left out: four belts have no surface that "
+                 "could end");
+  problems.throw_if_any();
+}
+
 int run_query(const QueryCommand& command) {
-  const grid::CompensationMap stored = read_map_input(command.map);
+  const std::string text = files::read_whole_file(command.map);
+  if (files::looks_like_anchors(text)) {
+    check_options_of_belts(command);
+    // A program for belts knows one frame.
+    std::vector<model::BedPoint> points;
+    if (command.inverse.empty()) {
+      for (const model::MarkPoint& point : points_asked(command))
+        points.push_back(model::laid_as_bed(point));
+    }
+    return query_anchors({command.map,
+                          text,
+                          std::move(points),
+                          command.inverse,
+                          command.output,
+                          command.json});
+  }
+  const grid::CompensationMap stored = parse_map_input(text, files::name_in_messages(command.map));
   if (command.outside.way == "fade" && stored.machine() == nullptr) {
     fmt::print(stderr,
                "{}: without a machine nothing is left where the map's surface fades out\n",
@@ -155,10 +195,10 @@ int run_query(const QueryCommand& command) {
   }
   std::vector<AnswerLine> lines;
   std::string outside;
-  const std::vector<model::BedPoint> points = points_asked(command);
-  for (const model::BedPoint& point : points) {
+  const std::vector<model::MarkPoint> points = points_asked(command);
+  for (const model::MarkPoint& point : points) {
     progress_is(static_cast<double>(lines.size()), static_cast<double>(points.size()));
-    lines.push_back({point, map.query(point, frame_of(command))});
+    lines.push_back({point, map.query(mark_of(point, map, command))});
     if (lines.back().answer) continue;
     fmt::format_to(std::back_inserter(outside),
                    "({}, {}): {}\n",
@@ -197,7 +237,9 @@ void add_query(Verb app, Run& run) {
   auto command = std::make_shared<QueryCommand>();
   Verb verb =
       app.add_verb("query", "Chain lengths for points of the bed, or the point for chain lengths");
-  add_input(verb, "map", command->map, "A chaintrue_map file; - is standard input").required();
+  add_input(
+      verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file; - is standard input")
+      .required();
   verb.add_option("coordinates", command->coordinates, "X Y, in mm, as many pairs as you like");
   add_input(verb,
             "--points",
@@ -218,7 +260,10 @@ void add_query(Verb app, Run& run) {
   verb.footer(
       "status: inside the measured points, at their edge, extrapolated beyond them, or outside the "
       "bed (exit code 4).\n"
-      "Sigmas are one standard deviation of the map at that point.\n\nExample:\n"
+      "Sigmas are one standard deviation of the map at that point.\n"
+      "Of anchors the answer is four belts' own lengths at the bed's height, from the anchor\n"
+      "slanting to the end, as the firmware pays them out; the upper two decide, and --inverse\n"
+      "takes these two.\n\nExample:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue query map.json 100 200 -1000 -450");
   verb.when_chosen([command, &run] {

@@ -31,7 +31,7 @@ inline constexpr double kReachableMm = 100.0;
 void add_measure_option(Verb verb, std::string& word);
 
 struct Sheet {
-  std::vector<model::BedPoint> marks;  ///< in driving order
+  std::vector<model::MarkPoint> marks;  ///< in driving order
   SheetOf of = SheetOf::places;
 };
 

@@ -13,7 +13,7 @@
 namespace chaintrue::cli {
 namespace {
 
-using model::BedPoint;
+using model::MarkPoint;
 
 constexpr std::string_view kStyle = R"(
 @page { margin: 14mm; }
@@ -70,8 +70,8 @@ std::string drawing_of(const Sheet& sheet, const model::Bed& bed) {
   constexpr double kEdge = 20.0;
   const double scale = kWide / bed.width_mm;
   const double high = scale * bed.height_mm;
-  const auto x = [&](BedPoint at) { return kEdge + scale * (at.x_mm + 0.5 * bed.width_mm); };
-  const auto y = [&](BedPoint at) { return kEdge + scale * (0.5 * bed.height_mm - at.y_mm); };
+  const auto x = [&](MarkPoint at) { return kEdge + scale * (at.x_mm + 0.5 * bed.width_mm); };
+  const auto y = [&](MarkPoint at) { return kEdge + scale * (0.5 * bed.height_mm - at.y_mm); };
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" "
       "font-family=\"sans-serif\" role=\"img\"><title>The bed with its numbered marks</title>\n"
@@ -84,7 +84,7 @@ std::string drawing_of(const Sheet& sheet, const model::Bed& bed) {
       kEdge,
       kWide,
       high);
-  for (const BedPoint& mark : sheet.marks)
+  for (const MarkPoint& mark : sheet.marks)
     fmt::format_to(std::back_inserter(svg), "{:.1f},{:.1f} ", x(mark), y(mark));
   svg += "\"/>\n";
   // As large as the nearest two marks leave room for.

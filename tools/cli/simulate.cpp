@@ -65,8 +65,8 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
   const model::Model model = parse_model(options.model, problems);
   problems.throw_if_any();
   std::vector<model::Visit> visits;
-  for (const model::BedPoint& place : files::read_points(options.points)) {
-    visits.push_back({place, static_cast<int>(visits.size())});
+  for (const model::MarkPoint& place : files::read_points(options.points)) {
+    visits.push_back({model::laid_as_bed(place), static_cast<int>(visits.size())});
   }
   synthetic::PlacesRead read = synthetic::read_places(machine, hidden, visits, model);
   read.grid.name = options.name.empty() ? "readings at given places" : options.name;

@@ -105,7 +105,7 @@ tl::expected<model::CutSquare, SquareRefusal> by_map(const SquareOptions& option
     const auto tool = map.inverse(*lengths);
     if (!tool)
       return tl::unexpected(SquareRefusal{"the map", commanded, grid::explain(tool.error())});
-    cut.push_back(*tool);
+    cut.push_back(map.to_bed(*tool));
   }
   return model::measured_square(task, std::move(cut));
 }

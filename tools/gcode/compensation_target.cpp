@@ -33,29 +33,33 @@ TargetStatus from(grid::MapStatus status) {
 
 }  // namespace
 
+model::MarkPoint CompensationTarget::mark_of(model::BedPoint point) const {
+  return frame_ == ProgramFrame::bed ? map_.to_mark(point) : model::laid_as_bed(point);
+}
+
 tl::expected<model::ChainLengths, CorrectionFailure> CompensationTarget::lengths(
     model::BedPoint point) const {
-  const auto found = map_.lengths(point, frame_);
+  const auto found = map_.lengths(mark_of(point));
   if (!found) return tl::unexpected(from(found.error()));
   return found->lengths;
 }
 
 tl::expected<TargetAnswer, CorrectionFailure> CompensationTarget::query(
     model::BedPoint point) const {
-  const auto found = map_.query(point, frame_);
+  const auto found = map_.query(mark_of(point));
   if (!found) return tl::unexpected(from(found.error()));
   return TargetAnswer{found->lengths, found->sigma, from(found->status)};
 }
 
 TargetStatus CompensationTarget::status(model::BedPoint point) const {
-  return from(map_.status(point, frame_));
+  return from(map_.status(mark_of(point)));
 }
 
 tl::expected<model::BedPoint, CorrectionFailure> CompensationTarget::tool(
     model::ChainLengths lengths) const {
-  const auto found = map_.inverse(lengths, frame_);
+  const auto found = map_.inverse(lengths);
   if (!found) return tl::unexpected(from(found.error()));
-  return *found;
+  return frame_ == ProgramFrame::bed ? map_.to_bed(*found) : model::laid_as_bed(*found);
 }
 
 BedRectangle CompensationTarget::bounds() const {

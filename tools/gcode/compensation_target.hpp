@@ -12,11 +12,14 @@
 
 namespace chaintrue::gcode {
 
+/// What a program's x and y count in.
+enum class ProgramFrame { marks, bed };
+
 class CompensationTarget final : public TargetMap {
  public:
   /// Keeps the reference.
   explicit CompensationTarget(const grid::CompensationMap& map,
-                              grid::Frame frame = grid::Frame::marks)
+                              ProgramFrame frame = ProgramFrame::marks)
       : map_(map), frame_(frame) {}
 
   [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> lengths(
@@ -29,8 +32,10 @@ class CompensationTarget final : public TargetMap {
   [[nodiscard]] BedRectangle bounds() const override;
 
  private:
+  [[nodiscard]] model::MarkPoint mark_of(model::BedPoint point) const;
+
   const grid::CompensationMap& map_;
-  grid::Frame frame_;
+  ProgramFrame frame_;
 };
 
 /// The machine that the controller believes in where a file does not say otherwise: the map's, with

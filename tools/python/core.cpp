@@ -167,8 +167,6 @@ grid::CompensationMap fit_distances(const grid::MeasuredHoles& holes) {
   return grid::map_of(holes, value_or_throw(grid::fit_holes(holes)));
 }
 
-grid::Frame frame_of(bool bed) { return bed ? grid::Frame::bed : grid::Frame::marks; }
-
 py::dict query(const grid::CompensationMap& map, const Pairs& points, bool bed) {
   check_pairs(points, "points");
   const auto count = static_cast<std::size_t>(points.shape(0));
@@ -177,7 +175,8 @@ py::dict query(const grid::CompensationMap& map, const Pairs& points, bool bed) 
   py::array_t<bool> outside(static_cast<py::ssize_t>(count));
   std::vector<std::string> status;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto answer = map.query({points.data()[2 * i], points.data()[2 * i + 1]}, frame_of(bed));
+    const model::BedPoint asked{points.data()[2 * i], points.data()[2 * i + 1]};
+    const auto answer = map.query(bed ? map.to_mark(asked) : model::laid_as_bed(asked));
     outside.mutable_data()[i] = !answer;
     tool.mutable_data()[i] = answer ? answer->tool_sigma_mm : 0.0;
     status.emplace_back(grid::name(answer ? answer->status : grid::MapStatus::outside));
@@ -200,10 +199,11 @@ py::tuple inverse(const grid::CompensationMap& map, const Pairs& lengths, bool b
   Pairs points = new_pairs(count);
   py::array_t<bool> outside(static_cast<py::ssize_t>(count));
   for (std::size_t i = 0; i < count; ++i) {
-    const auto point =
-        map.inverse({lengths.data()[2 * i], lengths.data()[2 * i + 1]}, frame_of(bed));
-    outside.mutable_data()[i] = !point;
-    if (point) put(points, i, point->x_mm, point->y_mm);
+    const auto mark = map.inverse({lengths.data()[2 * i], lengths.data()[2 * i + 1]});
+    outside.mutable_data()[i] = !mark;
+    if (!mark) continue;
+    const model::BedPoint point = bed ? map.to_bed(*mark) : model::laid_as_bed(*mark);
+    put(points, i, point.x_mm, point.y_mm);
   }
   return py::make_tuple(points, outside);
 }

@@ -116,8 +116,8 @@ std::optional<std::vector<Lengths>> predicted_by(const model::Machine& machine,
   const model::MarkFrame mark_frame(machine);
   std::vector<model::Visit> visits;
   for (std::size_t i = 0; i < fresh.marks.size(); ++i) {
-    const model::BedPoint mark{fresh.marks[i].x, fresh.marks[i].y};
-    visits.push_back({mark_frame.place(mark), fresh.numbers[i]});
+    const model::MarkPoint mark{fresh.marks[i].x, fresh.marks[i].y};
+    visits.push_back({model::laid_as_bed(mark_frame.place(mark)), fresh.numbers[i]});
   }
   const auto read = model::readings(model::ReadingModel(machine), visits);
   if (!read) return std::nullopt;
