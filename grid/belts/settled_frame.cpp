@@ -182,8 +182,7 @@ std::optional<SettledFrame> settle_robustly(const MeasuredBelts& belts) {
 }
 
 FrameView::FrameView(const MeasuredBelts& belts, const SettledFrame& frame)
-    : belts_(belts),
-      frame_(frame),
+    : frame_(frame),
       solver_(belts, frame.counting, frame.spread_mm),
       equations_(solver_.equations(frame.state)),
       reduced_(solver_.reduce(equations_, 0.0)) {

@@ -56,7 +56,6 @@ class FrameView {
   [[nodiscard]] AnchorVector anchors_without(std::size_t point) const;
 
  private:
-  const MeasuredBelts& belts_;
   SettledFrame frame_;
   FrameSolver solver_;
   FrameEquations equations_;

@@ -25,6 +25,8 @@ struct Analysis {
   NullDistribution null;
   double score = 0.0;          ///< of the strongest single effect, log Bayes factor against nothing
   double family_wise_p = 1.0;  ///< chance that noise alone scores as high
+  /// Score of each cause where the test has rows of its own (belts_significance.hpp); else empty.
+  std::vector<std::pair<CauseId, double>> tested;
   Decision decision;
   /// Of the discrepancy that the decision leaves; null where it leaves none.
   std::shared_ptr<const DiscrepancyNoise> noise;

@@ -8,22 +8,13 @@
 #include <limits>
 #include <set>
 
+#include "grid/diagnosis/belts_pattern.hpp"
 #include "grid/diagnosis/model_collector.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-/// A pattern over the places, and half of it over the visits where it changes with these as well.
-struct Kernel {
-  double length_mm;
-  double visits;  ///< 0: it does not
-};
-/// From twice the usual distance of two places to a quarter of a frame; over the visits of a row.
-constexpr std::array kKernels = {
-    Kernel{150.0, 0.0}, Kernel{300.0, 0.0}, Kernel{600.0, 0.0}, Kernel{300.0, 6.0}, Kernel{600.0, 6.0}};
-/// In sigmas: from what is hardly seen to what real frames leave, four times over.
-constexpr std::array kStrengths = {6.0, 12.0, 24.0, 48.0};
 /// Regressors of a cause that are weighed, the best of its places: alone, and beside what leads.
 constexpr std::size_t kOfACause = 3;
 /// Of what leads so many are taken out in turn.
@@ -45,54 +36,6 @@ struct Choice {
 Choice choice_of(Look look, std::size_t rows) {
   if (look == Look::first) return rows > kManyRows ? Choice{} : Choice{1, 1, 2};
   return rows > kManyRows ? Choice{1, 3, 2} : Choice{kMostSets, 1, 1};
-}
-
-double log_share(std::size_t strength) {
-  // A half-Cauchy density in steps of equal ratio (discrepancy.hpp).
-  const auto weight = [](double s) { return s / (1.0 + std::pow(s / kDiscrepancyScale, 2)); };
-  double all = 0.0;
-  for (const double s : kStrengths) all += weight(s);
-  return std::log(weight(kStrengths.at(strength)) / all / kKernels.size());
-}
-
-double bell(double away, double length) {
-  const double in_lengths = away / length;
-  // Beyond six lengths there is nothing: e^-18.
-  return std::abs(in_lengths) < 6.0 ? std::exp(-0.5 * in_lengths * in_lengths) : 0.0;
-}
-
-/// Of what is added to a belt at two points.
-double alike(const BeltsAnalysis& a, std::size_t k, std::size_t l, const Kernel& kernel) {
-  const model::FramePoint p = a.state.frame.state.places[k];
-  const model::FramePoint q = a.state.frame.state.places[l];
-  const double by_place = bell(std::hypot(p.x_mm - q.x_mm, p.y_mm - q.y_mm), kernel.length_mm);
-  const auto& first = a.belts.points[k].order;
-  const auto& second = a.belts.points[l].order;
-  if (kernel.visits == 0.0 || !first || !second) return by_place;
-  return 0.5 * (by_place + bell(*first - *second, kernel.visits));
-}
-
-/// (1) of the kept rows for s = 1 mm, in units of noise.
-Eigen::MatrixXd covariance_of(const BeltsAnalysis& a,
-                              const std::vector<Eigen::Index>& kept,
-                              const Kernel& kernel) {
-  const auto n = static_cast<Eigen::Index>(kept.size());
-  Eigen::MatrixXd checks(4, n);
-  std::vector<std::size_t> point;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index row = kept[static_cast<std::size_t>(i)];
-    point.push_back(static_cast<std::size_t>(row / 2));
-    checks.col(i) = a.linear.checks[point.back()].col(row % 2) / a.sigma_mm;
-  }
-  Eigen::MatrixXd covariance(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      covariance(i, j) = covariance(j, i) =
-          checks.col(i).dot(checks.col(j)) *
-          alike(a, point[static_cast<std::size_t>(i)], point[static_cast<std::size_t>(j)], kernel);
-    }
-  }
-  return covariance;
 }
 
 /// Adds of each cause the places that explain most of `e`.
@@ -164,26 +107,6 @@ bool one_event(const Regressor& a, const Regressor& b) {
          std::abs(a.values.back() - b.values.back()) <= kAboutOneVisit;
 }
 
-/// V = L L' of a pattern in the kept rows.
-struct Pattern {
-  Eigen::LLT<Eigen::MatrixXd> root;
-  double log_det = 0.0;
-};
-
-Pattern pattern_of(const Eigen::MatrixXd& covariance, double trace, double strength) {
-  Eigen::MatrixXd v = covariance * (strength * strength / std::max(trace, 1e-300));
-  v.diagonal().array() += 1.0;
-  Pattern pattern{Eigen::LLT<Eigen::MatrixXd>(v), 0.0};
-  pattern.log_det =
-      2.0 * Eigen::MatrixXd(pattern.root.matrixL()).diagonal().array().log().sum();
-  return pattern;
-}
-
-/// Trace of the covariance once the anchors have taken their share.
-double trace_of(const Eigen::MatrixXd& covariance, const CovarianceRoot& root) {
-  return root.solve(root.solve(covariance).transpose()).trace();
-}
-
 /// Sets of causes beside one pattern.
 class Search {
  public:
@@ -200,7 +123,7 @@ class Search {
     return run();
   }
 
-  std::vector<CandidateModel> run_beside(const Pattern& pattern, int number, double log_share) {
+  std::vector<CandidateModel> run_beside(const PatternNoise& pattern, int number, double log_share) {
     prepare(pattern);
     discrepancy_ = number;
     log_share_ = log_share;
@@ -233,7 +156,7 @@ class Search {
     return std::move(models_);
   }
 
-  void prepare(const Pattern& pattern) {
+  void prepare(const PatternNoise& pattern) {
     const auto whitened = [&](Eigen::MatrixXd m) {
       pattern.root.matrixL().solveInPlace(m);
       return m;
@@ -332,56 +255,20 @@ void compare_belts(const std::vector<std::vector<bool>>& sets, Look look, BeltsA
   for (std::size_t k = 0; k < std::min(choice.sets, best.size()); ++k) {
     const std::size_t number = best[k].second;
     const MarginalisedSystem& space = comparison.marginalised_systems[number];
-    for (std::size_t l = choice.kernel_step / 2; l < kKernels.size(); l += choice.kernel_step) {
-      const Eigen::MatrixXd covariance = covariance_of(a, space.kept, kKernels.at(l));
-      const double trace = trace_of(covariance, space.root);
-      for (std::size_t s = choice.strength_step - 1; s < kStrengths.size();
+    const std::vector<PatternRow> rows = pattern_rows(a, space.kept);
+    for (std::size_t l = choice.kernel_step / 2; l < kPatternKernels; l += choice.kernel_step) {
+      const Eigen::MatrixXd covariance = pattern_covariance(rows, rows, l);
+      for (std::size_t s = choice.strength_step - 1; s < kPatternStrengths;
            s += choice.strength_step) {
+        const auto number_of = static_cast<int>(l * kPatternStrengths + s);
         take(Search(a, number, columns[number])
-                 .run_beside(pattern_of(covariance, trace, kStrengths.at(s)),
-                             static_cast<int>(l * kStrengths.size() + s),
-                             log_share(s)));
+                 .run_beside(beside_pattern(covariance, space.root, number_of),
+                             number_of,
+                             log_share_of_pattern(number_of)));
       }
     }
   }
   sort_and_sum(comparison);
-}
-
-void integrate_pattern(BeltsAnalysis& a) {
-  Analysis& own = a.analysis;
-  Decision& decision = own.decision;
-  if (!decision.discrepancy_left || decision.best_discrepancy < 0) return;
-  MarginalisedSystem& space = own.comparison.marginalised_systems[decision.marginalised];
-  const auto which = static_cast<std::size_t>(decision.best_discrepancy);
-  const Kernel& kernel = kKernels.at(which / kStrengths.size());
-  a.pattern_length_mm = kernel.length_mm;
-  const Eigen::MatrixXd covariance = covariance_of(a, space.kept, kernel);
-  const double trace = trace_of(covariance, space.root);
-  const Pattern pattern = pattern_of(covariance, trace, kStrengths.at(which % kStrengths.size()));
-  LinearisedSystem& system = own.system;
-  const auto whiten = [&](auto&& columns) {
-    Eigen::MatrixXd kept = columns(space.kept, Eigen::all);
-    pattern.root.matrixL().solveInPlace(kept);
-    columns(space.kept, Eigen::all) = kept;
-  };
-  Eigen::MatrixXd e = system.e;
-  whiten(e);
-  system.e = e;
-  whiten(system.by_setting);
-  Eigen::MatrixXd g = system.g.dense();
-  whiten(g);
-  system.g = RegressorColumns(std::move(g));
-  space = marginalise(system, space.outliers, own.options.steps);
-  own.estimate = estimate(system, space, decision.regressors, -1);
-  const Eigen::VectorXd beside = own.estimate.left(space.kept);
-  // Of what anchors and causes leave the pattern takes (V - I) V^-1; L^-1 of it is at hand.
-  const Eigen::VectorXd all = pattern.root.matrixL() * beside;
-  const Eigen::VectorXd taken = all - pattern.root.matrixU().solve(beside);
-  a.pattern_rms_mm =
-      a.sigma_mm * std::sqrt(taken.squaredNorm() / static_cast<double>(taken.size()));
-  a.pattern_share = std::min(1.0, taken.squaredNorm() / std::max(all.squaredNorm(), 1e-300));
-  decision.discrepancy_left = false;
-  decision.best_discrepancy = -1;
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -5,6 +5,7 @@
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/diagnosis/belts_analysis.hpp"
+#include "grid/diagnosis/belts_next.hpp"
 #include "grid/diagnosis/diagnosis.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -29,7 +30,16 @@ struct Explained {
 /// Readings set aside: of a place of which more than one is, the place.
 [[nodiscard]] std::vector<Outlier> bad_belts(const Explained& explained);
 
+/// What to measure next, the distance that tells the scale last where nothing taped tells it.
+[[nodiscard]] std::vector<NextMeasurement> measurements_of(const BeltsNext& next,
+                                                           const MeasuredBelts& belts,
+                                                           const BeltsFit& alone,
+                                                           const Decision& decision);
+
 /// verdict, sentence, what_to_do, not_proved and notes from everything else.
-void put_belts_into_words(const MeasuredBelts& belts, const BeltsFit& alone, Diagnosis& diagnosis);
+void put_belts_into_words(const MeasuredBelts& belts,
+                          const BeltsFit& alone,
+                          const BeltsNext& next,
+                          Diagnosis& diagnosis);
 
 }  // namespace chaintrue::grid::diagnosis

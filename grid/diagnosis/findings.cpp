@@ -172,7 +172,10 @@ std::vector<Term> terms(const Analysis& a) {
                  alone.coefficient_sigma(0);
     term.signal_to_noise = std::abs(alone.coefficient(0)) * length;
     term.share_left = length / std::max(raw_length(a, column), 1e-12);
-    term.p_value = a.null.p_value(by_cause(static_cast<Eigen::Index>(k)));
+    const auto tested = std::find_if(
+        a.tested.begin(), a.tested.end(), [&](const auto& one) { return one.first == cause; });
+    term.p_value = a.null.p_value(tested != a.tested.end() ? tested->second
+                                                           : by_cause(static_cast<Eigen::Index>(k)));
     for (std::size_t c = 0; c < a.decision.classes.size(); ++c) {
       const auto& members = a.decision.classes[c];
       if (std::find(members.begin(), members.end(), cause) != members.end())

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "grid/diagnosis/next_candidates.hpp"
-#include "grid/diagnosis/outlook.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
@@ -46,15 +44,17 @@ double leading_share(const std::vector<Alternative>& alternatives) {
 
 }  // namespace
 
-std::vector<NextMeasurement> next_measurements(const Analysis& a) {
+bool is_left_alone(const Analysis& a, const std::vector<Alternative>& alternatives) {
+  return alternatives.empty() ||
+         (a.decision.listed.empty() && leading_share(alternatives) > kLeftAlone);
+}
+
+std::vector<NextMeasurement> most_telling(const Analysis& a,
+                                          const std::vector<Alternative>& alternatives,
+                                          std::vector<Candidate> options) {
   std::vector<NextMeasurement> result;
-  NextCandidates next = next_candidates(a);
-  const auto alternatives = alternatives_about(a, next.session);
-  if (!alternatives || alternatives->empty()) return {};
-  if (a.decision.listed.empty() && leading_share(*alternatives) > kLeftAlone) return {};
-  std::vector<Candidate>& options = next.all;
   std::vector<Eigen::Index> chosen;
-  Outlook now = outlook(*alternatives, chosen);
+  Outlook now = outlook(alternatives, chosen);
   double reached = a.decision.verdict == Verdict::named ? kEnough : now.named_alone;
   while (result.size() < kMostNextMeasurements && reached < kEnough) {
     std::size_t best = options.size();
@@ -63,7 +63,7 @@ std::vector<NextMeasurement> next_measurements(const Analysis& a) {
       if (options[c].times == 0) continue;
       std::vector<Eigen::Index> more = chosen;
       more.insert(more.end(), options[c].rows.begin(), options[c].rows.end());
-      const Outlook tried = outlook(*alternatives, more);
+      const Outlook tried = outlook(alternatives, more);
       if (tried.confusion < then.confusion) {
         then = tried;
         best = c;
@@ -79,6 +79,14 @@ std::vector<NextMeasurement> next_measurements(const Analysis& a) {
     result.back().raises_probability_to = reached;
     now = then;
   }
+  return result;
+}
+
+std::vector<NextMeasurement> next_measurements(const Analysis& a) {
+  NextCandidates next = next_candidates(a);
+  const auto alternatives = alternatives_about(a, next.session);
+  if (!alternatives || is_left_alone(a, *alternatives)) return {};
+  std::vector<NextMeasurement> result = most_telling(a, *alternatives, std::move(next.all));
   add_link_reading(a, result);
   return result;
 }

@@ -91,10 +91,15 @@ double NullDistribution::p_value(double score) const {
   return (above + 1.0) / (static_cast<double>(largest.size()) + 1.0);
 }
 
-NullDistribution draw_null(const SingleScore& score,
-                           Eigen::Index rows,
-                           int draws,
-                           std::uint64_t seed) {
+namespace {
+
+/// `prepare` makes residuals of a block of standard normals.
+template <class Prepare>
+NullDistribution drawn(const SingleScore& score,
+                       Eigen::Index rows,
+                       int draws,
+                       std::uint64_t seed,
+                       const Prepare& prepare) {
   constexpr std::uint64_t kStream = 61;
   synthetic::Random random(seed, kStream);
   NullDistribution result;
@@ -103,11 +108,32 @@ NullDistribution draw_null(const SingleScore& score,
     for (Eigen::Index k = 0; k < e.cols(); ++k) {
       for (Eigen::Index i = 0; i < rows; ++i) e(i, k) = random.normal();
     }
+    prepare(e);
     const Eigen::VectorXd largest = score.largest(e);
     result.largest.insert(result.largest.end(), largest.begin(), largest.end());
   }
   std::sort(result.largest.begin(), result.largest.end());
   return result;
+}
+
+}  // namespace
+
+NullDistribution draw_null(const SingleScore& score,
+                           Eigen::Index rows,
+                           int draws,
+                           std::uint64_t seed) {
+  return drawn(score, rows, draws, seed, [](Eigen::MatrixXd&) {});
+}
+
+NullDistribution draw_null_of_length(const SingleScore& score,
+                                     const MarginalisedSystem& marginalised,
+                                     int draws,
+                                     std::uint64_t seed) {
+  const double length = marginalised.e.norm();
+  return drawn(score, marginalised.e.size(), draws, seed, [&](Eigen::MatrixXd& e) {
+    e = marginalised.root.solve(e);
+    for (Eigen::Index k = 0; k < e.cols(); ++k) e.col(k) *= length / e.col(k).norm();
+  });
 }
 
 }  // namespace chaintrue::grid::diagnosis

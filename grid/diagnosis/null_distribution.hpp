@@ -55,5 +55,11 @@ struct NullDistribution {
                                          Eigen::Index rows,
                                          int draws,
                                          std::uint64_t seed);
+/// Of residuals as long as those of `marginalised`: noise of unknown size, the settings' share of it
+/// taken out as it is of theirs.
+[[nodiscard]] NullDistribution draw_null_of_length(const SingleScore& score,
+                                                   const MarginalisedSystem& marginalised,
+                                                   int draws,
+                                                   std::uint64_t seed);
 
 }  // namespace chaintrue::grid::diagnosis

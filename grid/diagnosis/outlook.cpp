@@ -61,43 +61,6 @@ std::vector<Group> groups_of(const Analysis& a) {
   return result;
 }
 
-std::vector<Alternative> leading(const Analysis& a) {
-  std::vector<Group> groups = groups_of(a);
-  double all = 0.0;
-  for (const Group& group : groups) all += group.probability;
-  std::erase_if(groups, [&](const Group& g) { return g.probability < kLeastProbability * all; });
-  std::stable_sort(groups.begin(), groups.end(), [](const Group& x, const Group& y) {
-    return x.probability > y.probability;
-  });
-  if (groups.size() > kMostGroups) groups.resize(kMostGroups);
-  std::vector<Alternative> result;
-  for (std::size_t number = 0; number < groups.size(); ++number) {
-    for (auto& [causes, one] : groups[number].members) {
-      if (one.probability < kLeastProbability * groups[number].probability) continue;
-      one.group = number;
-      result.push_back(std::move(one));
-    }
-  }
-  double sum = 0.0;
-  for (const Alternative& one : result) sum += one.probability;
-  for (Alternative& one : result) one.probability /= sum;
-  return result;
-}
-
-/// S with S S' = a positive semidefinite matrix of whitened rows, but for a hundredth of the noise.
-Eigen::MatrixXd square_root(const Eigen::MatrixXd& matrix) {
-  constexpr double kNegligible = 1e-4;
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(matrix);
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
-    if (ldlt.vectorD()(k) > kNegligible) columns.push_back(k);
-  }
-  const Eigen::MatrixXd lower = ldlt.matrixL();
-  const Eigen::MatrixXd result =
-      lower(Eigen::all, columns) * ldlt.vectorD()(columns).cwiseSqrt().asDiagonal();
-  return ldlt.transpositionsP().transpose() * result;
-}
-
 /// Adds the discrepancy of the estimate to what is expected of the rows of `system`, by kriging: K
 /// of the rows to come with those measured, C of these with their noise, X their design.
 ///   mean + K C^-1 (what is left),  design - K C^-1 X,  and K** - K C^-1 K' of its own
@@ -205,10 +168,46 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> groups_in(
 
 }  // namespace
 
+std::vector<Alternative> leading_alternatives(const Analysis& a) {
+  std::vector<Group> groups = groups_of(a);
+  double all = 0.0;
+  for (const Group& group : groups) all += group.probability;
+  std::erase_if(groups, [&](const Group& g) { return g.probability < kLeastProbability * all; });
+  std::stable_sort(groups.begin(), groups.end(), [](const Group& x, const Group& y) {
+    return x.probability > y.probability;
+  });
+  if (groups.size() > kMostGroups) groups.resize(kMostGroups);
+  std::vector<Alternative> result;
+  for (std::size_t number = 0; number < groups.size(); ++number) {
+    for (auto& [causes, one] : groups[number].members) {
+      if (one.probability < kLeastProbability * groups[number].probability) continue;
+      one.group = number;
+      result.push_back(std::move(one));
+    }
+  }
+  double sum = 0.0;
+  for (const Alternative& one : result) sum += one.probability;
+  for (Alternative& one : result) one.probability /= sum;
+  return result;
+}
+
+Eigen::MatrixXd square_root(const Eigen::MatrixXd& matrix) {
+  constexpr double kNegligible = 1e-4;
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(matrix);
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+    if (ldlt.vectorD()(k) > kNegligible) columns.push_back(k);
+  }
+  const Eigen::MatrixXd lower = ldlt.matrixL();
+  const Eigen::MatrixXd result =
+      lower(Eigen::all, columns) * ldlt.vectorD()(columns).cwiseSqrt().asDiagonal();
+  return ldlt.transpositionsP().transpose() * result;
+}
+
 std::optional<std::vector<Alternative>> alternatives_about(const Analysis& a, const Session& next) {
   const auto system = linearise(next, a.state, {});
   if (!system) return std::nullopt;
-  std::vector<Alternative> alternatives = leading(a);
+  std::vector<Alternative> alternatives = leading_alternatives(a);
   for (Alternative& one : alternatives) predict(a, next, *system, one);
   return alternatives;
 }

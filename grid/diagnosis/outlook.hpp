@@ -50,6 +50,11 @@ struct Alternative {
 [[nodiscard]] std::optional<std::vector<Alternative>> alternatives_about(const Analysis& analysis,
                                                                          const Session& next);
 
+/// The same before anything is foretold: without means and spreads.
+[[nodiscard]] std::vector<Alternative> leading_alternatives(const Analysis& analysis);
+/// S with S S' = a positive semidefinite matrix of whitened rows, but for a hundredth of the noise.
+[[nodiscard]] Eigen::MatrixXd square_root(const Eigen::MatrixXd& matrix);
+
 struct Outlook {
   double confusion = 0.0;
   double named_alone = 0.0;  ///< probability that the right group is named alone

@@ -246,8 +246,15 @@ const Record<FittedAnchors>& anchors_record() {
 
 Json anchors_schema() { return anchors_record().schema(); }
 
-FittedAnchors parse_anchors(const std::string& text, const std::string& file) {
-  return read_document(anchors_record(), text, file);
+FittedAnchors parse_anchors(const std::string& text,
+                            const std::string& file,
+                            std::vector<Warning>* warnings) {
+  Problems problems(file);
+  FittedAnchors anchors = read_document(anchors_record(), text, problems);
+  if (warnings != nullptr) {
+    warnings->insert(warnings->end(), problems.warnings().begin(), problems.warnings().end());
+  }
+  return anchors;
 }
 
 bool looks_like_anchors(std::string_view text) {

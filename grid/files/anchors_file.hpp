@@ -3,7 +3,7 @@
 /// chaintrue_anchors files: what a fit of four belts found. Unknown keys are errors, except
 /// "comment". Same fit, same bytes.
 ///
-///     { "file_type": "chaintrue_anchors", "format_version": "1.0", "name": "...",
+///     { "file_type": "chaintrue_anchors", "format_version": "1.1", "name": "...",
 ///       "fit": {
 ///       "machine": { as in a chaintrue_belts file, with the anchors fitted },
 ///       "coordinates": [ {"coordinate": "tl_x_mm", "stated_mm": -27.6, "fitted_mm": -31.2,
@@ -43,8 +43,11 @@ struct FittedAnchors {
   std::optional<HolesBesideBelts> holes = std::nullopt;  ///< where some were fitted beside them
 };
 
-/// `file` is the name used in messages. \throws InputError with every problem.
-[[nodiscard]] FittedAnchors parse_anchors(const std::string& text, const std::string& file);
+/// `file` is the name used in messages; what was assumed is added to `warnings`.
+/// \throws InputError with every problem.
+[[nodiscard]] FittedAnchors parse_anchors(const std::string& text,
+                                          const std::string& file,
+                                          std::vector<Warning>* warnings = nullptr);
 /// True for the text of such a file, whole or damaged.
 [[nodiscard]] bool looks_like_anchors(std::string_view text);
 /// \throws std::logic_error where a number is not finite.

@@ -53,4 +53,32 @@ std::string write_check(const MapCheck& check) {
   return print_json(json);
 }
 
+std::string write_check(const AnchorsCheck& check) {
+  Json json = headed(kCheckFormat);
+  json["verdict"] = std::string(name(check.verdict));
+  json["decided"] = check.decided;
+  json["sentence"] = check.sentence;
+  json["not_told_apart"] = check.not_told_apart;
+  for (const CheckVerdict verdict :
+       {CheckVerdict::valid, CheckVerdict::valid_after_rezeroing, CheckVerdict::measure_again}) {
+    json["probability"][std::string(name(verdict))] =
+        check.probability[static_cast<std::size_t>(verdict)];
+  }
+  json["hypotheses"] = Json::array();
+  for (const AnchorsHypothesis& h : check.hypotheses) {
+    Json one;
+    one["what"] = h.what;
+    one["side"] = h.belt ? Json(std::string(model::name(*h.belt))) : Json(nullptr);
+    one["verdict"] = std::string(name(h.verdict));
+    one["probability"] = h.probability;
+    if (h.what == "bad_point") one["point"] = h.point;
+    if (h.what == "zero" || h.what == "anchor") one["size_mm"] = h.size_mm;
+    json["hypotheses"].push_back(std::move(one));
+  }
+  json["places"] = Json::array();
+  for (const CheckedPlace& place : check.places)
+    json["places"].push_back({{"rms_mm", place.rms_mm}, {"sigma_mm", place.sigma_mm}});
+  return print_json(json);
+}
+
 }  // namespace chaintrue::grid::files

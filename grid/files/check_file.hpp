@@ -5,10 +5,12 @@
 
 #include <string>
 
+#include "grid/belts/anchors_check.hpp"
 #include "grid/holes/map_check.hpp"
 
 namespace chaintrue::grid::files {
 
+[[nodiscard]] std::string write_check(const AnchorsCheck& check);
 [[nodiscard]] std::string write_check(const MapCheck& check);
 
 }  // namespace chaintrue::grid::files

@@ -41,15 +41,26 @@ inline constexpr std::array kOlderDiagnoses = {
                  "written before a diagnosis said what remains besides its causes and what the "
                  "error is made of; "
                  "taken to leave nothing unexplained"},
-    OlderVersion{"1.1", "written before belts were diagnosed; taken to be of chains"}};
+    OlderVersion{"1.1", "written before belts were diagnosed; taken to be of chains"},
+    OlderVersion{"1.2",
+                 "written before belts were told what to measure next; what it proposes is taken as "
+                 "it stands"}};
+
+inline constexpr std::array kOlderHoles = {
+    OlderVersion{"1.0",
+                 "written before a machine on four belts could cut holes; taken to be of the machine "
+                 "that it names"}};
+
+inline constexpr std::array kOlderAnchors = {
+    OlderVersion{"1.0", "written before holes stood beside belts; taken to be of belts alone"}};
 
 inline constexpr Format kMachineFormat{"chaintrue_machine", "1.0"};
 inline constexpr Format kGridFormat{"chaintrue_grid", "1.0"};
-inline constexpr Format kHolesFormat{"chaintrue_holes", "1.0"};
+inline constexpr Format kHolesFormat{"chaintrue_holes", "1.1", kOlderHoles};
 inline constexpr Format kBeltsFormat{"chaintrue_belts", "1.0"};
-inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.0"};
+inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.1", kOlderAnchors};
 inline constexpr Format kMapFormat{"chaintrue_map", "1.1", kOlderMaps};
-inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.2", kOlderDiagnoses};
+inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.3", kOlderDiagnoses};
 inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};
 inline constexpr Format kSweepSummaryFormat{"chaintrue_sweep_summary", "1.0", {}, false};
 inline constexpr Format kAnswerFormat{"chaintrue_answer", "1.0", {}, false};

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "grid/belts/scale_by_tape.hpp"
 #include "grid/statistics.hpp"
 #include "grid/synthetic/random.hpp"
 #include "model/belts/belt_kinematics.hpp"
@@ -233,6 +234,41 @@ TEST(BeltsFit, BeltsAloneKnowNoScaleAndATapeTellsIt) {
   // 1 mm of tape and 0.5 mm of br_x over 3 m.
   EXPECT_LT(taped->scale->sigma, 1e-3);
   EXPECT_GT(taped->scale->sigma, 2e-4);
+}
+
+TEST(BeltsFit, TheDistanceThatIsProposedTellsTheScaleAsWellAsItSaysAndNoAnchorsTellItBetter) {
+  for (const bool known : {true, false}) {
+    for (const int columns : {3, 9}) {
+      SCOPED_TRACE(testing::Message() << "anchors known " << known << ", columns " << columns);
+      const SimulatedBelts set =
+          simulate({.seed = 33, .columns = columns, .rows = columns == 3 ? 2 : 9, .anchors_known = known});
+      const auto fit = fit_belts(set.belts);
+      ASSERT_TRUE(fit);
+      const auto best = distance_for_scale(set.belts, *fit);
+      ASSERT_TRUE(best);
+      const auto sigma_of = [&](BeltDistance distance) {
+        const auto& a = fit->machine.anchors;
+        const auto* from = std::get_if<Belt>(&distance.from);
+        const auto* to = std::get_if<Belt>(&distance.to);
+        if (from != nullptr && to != nullptr)
+          distance.distance_mm =
+              std::hypot(a[*from].x_mm - a[*to].x_mm, a[*from].y_mm - a[*to].y_mm);
+        MeasuredBelts taped = set.belts;
+        taped.distances.push_back(distance);
+        return fit_belts(taped)->scale->sigma;
+      };
+      // As expected of the fit, so that neither scale nor spread moves: rounding of one solver.
+      EXPECT_NEAR(sigma_of(best->distance), best->sigma, 0.01 * best->sigma);
+      for (const Belt from : model::kBelts) {
+        for (const Belt to : model::kBelts) {
+          // A hundredth worse is taken for as good.
+          if (from < to) {
+            EXPECT_GT(sigma_of({from, to, 0.0, 1.0}), 0.98 * best->sigma);
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(BeltsFit, ScalesOfTapedPointsAnchorsAndHolesAreOffByAsMuchAsIsSaid) {

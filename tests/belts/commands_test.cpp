@@ -4,6 +4,7 @@
 
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
+#include "grid/files/json_text.hpp"
 #include "tests/belts/simulated_belts.hpp"
 #include "tests/cli/command_fixture.hpp"
 
@@ -39,6 +40,7 @@ TEST_F(BeltCommands, FromTheLogToTheLinesToPaste) {
                     HasSubstr("(Find Anchors fit: rms) that is 0.61 mm"),
                     HasSubstr("Its own message said rms 0.61 mm and max 1.53 mm."),
                     HasSubstr("Scale: not known."),
+                    HasSubstr("Tape the distance from the "),
                     HasSubstr("Lower belts as the upper two foretell them"),
                     HasSubstr("Next: chaintrue export maslow4 anchors.json")));
   const Outcome lines = run("export maslow4 anchors.json");
@@ -100,6 +102,92 @@ TEST_F(BeltCommands, ADiagnosisHasItsAnchorsToPasteAndSaysWhatNoNumberTakesOut) 
               HasSubstr("$/kinematics/MaslowKinematics/trZ=1"));  // 56 and some 90 mm
   const Outcome chains = run("export maslow4 " + fixtures_ + "/good/diagnosis_every_key.json");
   EXPECT_EQ(chains.code, 3);
+}
+
+TEST_F(BeltCommands, WhatIsLeftOpenIsToldWithWhatToMeasureAndTheLinesToAdd) {
+  // Seen, and not told from a belt's scale.
+  ASSERT_EQ(run("simulate --belts " + belts_ +
+                " --grid 7x6 --effect anchor_height:tr:offset_mm=30 --length-noise-mm 0.4 --seed 1 "
+                "-o b.json")
+                .code,
+            0);
+  const Outcome diagnosed = run("diagnose b.json -o d.json --report d.html");
+  ASSERT_EQ(diagnosed.code, 0) << diagnosed.err;
+  EXPECT_THAT(diagnosed.out, HasSubstr("What to measure next (chaintrue plan BELTS --after"));
+  EXPECT_THAT(diagnosed.err, HasSubstr("Next: chaintrue plan b.json --after d.json"));
+  EXPECT_THAT(content_of(folder_ / "d.html"), HasSubstr("What to measure next"));
+  const Outcome plan = run("plan b.json --after d.json --svg next.svg");
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  EXPECT_THAT(plan.out,
+              AllOf(HasSubstr("\"points\": add, each null filled in\n  {\"tl_mm\": null"),
+                    HasSubstr("\"order\": 42}"),
+                    HasSubstr("\"distances\": add, each null filled in\n  {\"from\": "),
+                    HasSubstr("\"distance_mm\": null, \"sigma_mm\": 1}")));
+  EXPECT_THAT(plan.err,
+              AllOf(HasSubstr("Measure, in this order:"),
+                    HasSubstr("A single right name then has probability"),
+                    HasSubstr("after which the scale is known to"),
+                    HasSubstr("Next: chaintrue diagnose b.json -o d.json")));
+  EXPECT_TRUE(exists("next.svg"));
+  const Outcome other = run("plan " + belts_ + " --after d.json");
+  EXPECT_EQ(other.code, 3);
+  EXPECT_THAT(other.err, HasSubstr("was made from other readings"));
+  EXPECT_EQ(run("plan b.json --after d.json --with " + belts_).code, 3);
+}
+
+TEST_F(BeltCommands, AnchorsAnswerQueriesHaveAPageAndAreChecked) {
+  ASSERT_EQ(run("fit " + belts_ + " -o anchors.json").code, 0);
+  const Outcome query = run("query anchors.json 100 200");
+  ASSERT_EQ(query.code, 0) << query.err;
+  EXPECT_THAT(query.out,
+              StartsWith("x_mm,y_mm,tl_mm,tr_mm,bl_mm,br_mm,tl_sigma_mm,tr_sigma_mm,status\n100,200,"));
+  // The upper two, written to a tenth of a micrometre, lead back.
+  const std::string line = query.out.substr(query.out.find('\n') + 1);
+  const std::size_t first = line.find(',', 4) + 1;
+  const std::size_t second = line.find(',', first) + 1;
+  const Outcome back = run("query anchors.json --json --inverse " +
+                           line.substr(first, second - first - 1) + " " +
+                           line.substr(second, line.find(',', second) - second));
+  ASSERT_EQ(back.code, 0) << back.err;
+  const auto tool = grid::files::Json::parse(back.out);
+  EXPECT_NEAR(tool["x_mm"].get<double>(), 100.0, 0.001);
+  EXPECT_NEAR(tool["y_mm"].get<double>(), 200.0, 0.001);
+  EXPECT_EQ(run("query anchors.json 9000 0").code, 4);
+  EXPECT_EQ(run("query anchors.json 1 2 --frame bed").code, 3);
+  ASSERT_EQ(run("report anchors.json -o anchors.html").code, 0);
+  EXPECT_THAT(content_of(folder_ / "anchors.html"),
+              AllOf(HasSubstr("The anchors are known to"), HasSubstr("belt_frame"), HasSubstr("rests on")));
+  EXPECT_EQ(run("report anchors.json --certificate -o c.html").code, 3);
+  ASSERT_EQ(run("simulate --belts anchors.json --grid 3x2 --length-noise-mm 0.6 --seed 5 -o new.json")
+                .code,
+            0);
+  const Outcome valid = run("check anchors.json new.json");
+  EXPECT_EQ(valid.code, 0) << valid.err;
+  EXPECT_THAT(valid.out, StartsWith("The anchors still hold"));
+  ASSERT_EQ(run("simulate --belts anchors.json --grid 3x2 --length-noise-mm 0.6 --seed 5 "
+                "--offset tr_x_mm=12 -o moved.json")
+                .code,
+            0);
+  EXPECT_EQ(run("check anchors.json moved.json --json").code, 1);
+  const Outcome holes = run("check anchors.json " + fixtures_ + "/holes/nine_holes.json");
+  EXPECT_EQ(holes.code, 3);
+  EXPECT_THAT(holes.err, HasSubstr("chaintrue fit BELTS --with HOLES"));
+  const Outcome plan = run("plan --check anchors.json -o points.csv");
+  EXPECT_EQ(plan.code, 3);
+  EXPECT_THAT(plan.err, HasSubstr("chaintrue query, report, check"));
+}
+
+TEST_F(BeltCommands, AProgramIsCheckedForAMaslow4WithoutAMap) {
+  write("tool_length.nc", "G21 G90\nG43 H1\nG1 X10 Y10 F500\nM2\n");
+  const Outcome check = run("gcode check tool_length.nc --controller maslow4");
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_THAT(check.err, HasSubstr("line 2: note: maslow4 stops with an error at G43"));
+  EXPECT_EQ(run("gcode check " + fixtures_ + "/gcode/bracket.nc --controller maslow4").code, 0);
+  ASSERT_EQ(run("fit " + fixtures_ + "/grids/seven_by_four.json -o map.json").code, 0);
+  const Outcome chains =
+      run("gcode check " + fixtures_ + "/gcode/bracket.nc --controller maslow4 --map map.json");
+  EXPECT_EQ(chains.code, 3);
+  EXPECT_THAT(chains.err, HasSubstr("chaintrue_anchors"));
 }
 
 TEST_F(BeltCommands, ABadReadingIsNamedInTurnsOfTheEncoder) {

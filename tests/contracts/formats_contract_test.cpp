@@ -69,13 +69,24 @@ std::string aged_map(std::string text, std::string_view) {
 }
 
 /// Diagnoses of version 1.0 said neither what remains nor what the error is made of; those of 1.1
-/// knew no belts, of which this one has none.
+/// knew no belts and those of 1.2 nothing that belts should measure next, of which this one has none.
 std::string aged_diagnosis(std::string text, std::string_view version) {
   if (version != "1.0") return text;
   Problems problems("diagnosis.json");
   Json json = parse_json(text, problems);
   json.erase("unexplained");
   json.erase("budget");
+  return print_json(json);
+}
+
+/// Holes of version 1.0 knew no machine on four belts; this one is of chains.
+std::string unchanged(std::string text, std::string_view) { return text; }
+
+/// Anchors of version 1.0 were of belts alone.
+std::string aged_anchors(std::string text, std::string_view) {
+  Problems problems("anchors.json");
+  Json json = parse_json(text, problems);
+  json.erase("holes");
   return print_json(json);
 }
 
@@ -107,16 +118,19 @@ const std::map<std::string_view, Sample>& samples() {
         text_of("grids/seven_by_four.json")}},
       {kHolesFormat.file_type,
        {[](const std::string& text) { return parse_holes(text, "holes.json").warnings; },
-        text_of("holes/nine_holes.json")}},
+        text_of("holes/nine_holes.json"),
+        unchanged}},
       {kBeltsFormat.file_type,
        {[](const std::string& text) { return parse_belts(text, "belts.json").warnings; },
         text_of("good/belts_every_key.json")}},
       {kAnchorsFormat.file_type,
        {[](const std::string& text) {
-          (void)parse_anchors(text, "anchors.json");
-          return std::vector<Warning>{};
+          std::vector<Warning> warnings;
+          (void)parse_anchors(text, "anchors.json", &warnings);
+          return warnings;
         },
-        text_of("good/anchors_every_key.json")}},
+        text_of("good/anchors_every_key.json"),
+        aged_anchors}},
       {kMapFormat.file_type,
        {[](const std::string& text) {
           std::vector<Warning> warnings;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "grid/belts/scale_by_tape.hpp"
+
 namespace chaintrue::cli {
 namespace {
 
@@ -109,12 +111,25 @@ std::string bad_readings_in_words(const BeltsFit& fit) {
 
 std::string scale_in_words(const MeasuredBelts& belts, const BeltsFit& fit) {
   if (!fit.scale) {
-    return fmt::format(
+    std::string text = fmt::format(
         "Scale: not known. Belts alone cannot tell it: anchors and parts are as true as a turn of "
         "the "
-        "encoder is {:g} mm of belt. Tape one long distance, between two anchors or two holes that "
-        "were cut, and add it to the file's \"distances\".\n",
+        "encoder is {:g} mm of belt. ",
         fit.machine.belt_turn_mm);
+    const auto best = grid::distance_for_scale(belts, fit);
+    if (!best) {
+      return text + "Tape one long distance, between two anchors or two holes that were cut, and add "
+                    "it to the file's \"distances\".\n";
+    }
+    return text + fmt::format(
+                      "Tape the distance from {} to {}, about {:.0f} mm, and add it to the file's "
+                      "\"distances\": read to {:g} mm it tells the scale to {:.2g} %, better than any "
+                      "other.\n",
+                      words_of(best->distance.from),
+                      words_of(best->distance.to),
+                      best->distance.distance_mm,
+                      best->distance.sigma_mm,
+                      100.0 * best->sigma);
   }
   std::string text = fmt::format(
       "Scale: by the tape everything is {:.5f} +- {:.5f} times what the belts make it, {:.1f} mm "

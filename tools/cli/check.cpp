@@ -9,9 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "grid/files/anchors_file.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/holes/map_check.hpp"
+#include "tools/cli/check_anchors.hpp"
+#include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/places.hpp"
@@ -64,8 +67,24 @@ void say_next_of(const grid::MapCheck& check, const CheckCommand& command) {
   say_next({"plan", "--check", command.map, "-o", "check.csv"});
 }
 
+/// What points and holes alone have.
+void check_options_of_belts(const CheckCommand& command) {
+  OptionProblems problems;
+  if (!command.input.machine.empty())
+    problems.add("--machine", command.input.machine, "to be left out: belts name their own machine");
+  if (!command.with.empty())
+    problems.add("--with", command.with.front(), "to be left out: one file of new places");
+  problems.throw_if_any();
+}
+
 int run_check(const CheckCommand& command) {
-  const grid::CompensationMap map = read_map_input(command.map);
+  const std::string text = grid::files::read_whole_file(command.map);
+  if (grid::files::looks_like_anchors(text)) {
+    check_options_of_belts(command);
+    return check_the_anchors({command.map, text, command.input.grid, command.output, command.json});
+  }
+  const grid::CompensationMap map =
+      parse_map_input(text, grid::files::name_in_messages(command.map));
   grid::Measured measured;
   std::vector<std::string> names = {command.input.grid};
   names.insert(names.end(), command.with.begin(), command.with.end());
@@ -94,7 +113,7 @@ void add_check(Verb app, Run& run) {
   auto command = std::make_shared<CheckCommand>();
   Verb verb = app.add_verb(
       "check", "A few new points: is the map still valid, does re-zeroing mend it, or not");
-  add_input(verb, "map", command->map, "A chaintrue_map file").required();
+  add_input(verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file").required();
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
   verb.add_option("--with",
@@ -107,7 +126,8 @@ void add_check(Verb app, Run& run) {
   verb.footer(
       "Three to five points far from each other will do, or holes and distances between them;\n"
       "chaintrue plan --check sets those points that tell best.\n"
-      "The exit code is 1 where the map is not valid as it is.\n\n"
+      "The exit code is 1 where the map is not valid as it is.\n"
+      "Anchors of four belts are checked by new places in a chaintrue_belts file.\n\n"
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue check map.json fixtures/grids/five_new_points.json");

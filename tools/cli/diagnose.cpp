@@ -234,7 +234,11 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
   if (!command.output.empty() && command.report.empty())
     return say_next({"report", command.output, "-o", page_beside(command.output)});
   std::vector<std::string> words;
-  if (found.belts) {
+  const bool parts_causes = std::any_of(
+      found.next_measurements.begin(), found.next_measurements.end(), [&](const auto& next) {
+        return !found.belts || next.kind != grid::diagnosis::MeasurementKind::distance;
+      });
+  if (found.belts && (command.output.empty() || !parts_causes)) {
     words = {"fit", command.input.grid, "-o", "anchors.json"};
   } else if (!command.output.empty() && !found.next_measurements.empty()) {
     words = {"plan", command.input.grid, "--after", command.output};

@@ -239,38 +239,8 @@ Section separation_section(const Diagnosis& found) {
   return section;
 }
 
-std::string_view where_it_goes(const Diagnosis& found) {
-  switch (found.observations) {
-    case grid::diagnosis::Observations::points:
-      return "Points go into the grid's file, readings into its \"readings\"";
-    case grid::diagnosis::Observations::distances:
-      return "Holes and distances go into the holes' file, readings into its \"readings\"";
-    case grid::diagnosis::Observations::belts:
-      return "Points and distances go into the belts' file";
-    case grid::diagnosis::Observations::both:
-      break;
-  }
-  return "Points go into the grid's file, holes and distances into the holes' file, readings into "
-         "the \"readings\" of either";
-}
-
 Section next_section(const Diagnosis& found) {
-  Section section{"What to measure next", {}};
-  Table table{
-      {{"no.", true}, {"what"}, {fmt::format("{} then", what_stands_alone(found)), true}}, {}, ""};
-  const std::vector<std::string> sentences = follow_ups_in_words(found);
-  for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
-    table.rows.push_back({{fmt::format("{}", i + 1),
-                           sentences[i],
-                           percent(found.next_measurements[i].raises_probability_to)},
-                          false});
-  }
-  table.caption = fmt::format(
-      "In this order; the probability is that of all up to this one done. {}; chaintrue plan {} "
-      "--after prints the lines.",
-      where_it_goes(found),
-      files_in_words(found));
-  section.blocks.emplace_back(std::move(table));
+  Section section = next_in_a_table(found);
   const bool has_places = std::any_of(found.next_measurements.begin(),
                                       found.next_measurements.end(),
                                       [](const auto& next) { return next.mark.has_value(); });

@@ -32,7 +32,42 @@ std::string fate_of(const Diagnosis& found, const grid::diagnosis::Term& term) {
   return "not named";
 }
 
+std::string_view where_it_goes(const Diagnosis& found) {
+  switch (found.observations) {
+    case grid::diagnosis::Observations::points:
+      return "Points go into the grid's file, readings into its \"readings\"";
+    case grid::diagnosis::Observations::distances:
+      return "Holes and distances go into the holes' file, readings into its \"readings\"";
+    case grid::diagnosis::Observations::belts:
+      return "Points and distances go into the belts' file";
+    case grid::diagnosis::Observations::both:
+      break;
+  }
+  return "Points go into the grid's file, holes and distances into the holes' file, readings into "
+         "the \"readings\" of either";
+}
+
 }  // namespace
+
+Section next_in_a_table(const Diagnosis& found) {
+  Section section{"What to measure next", {}};
+  Table table{
+      {{"no.", true}, {"what"}, {fmt::format("{} then", what_stands_alone(found)), true}}, {}, ""};
+  const std::vector<std::string> sentences = follow_ups_in_words(found);
+  for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
+    table.rows.push_back({{fmt::format("{}", i + 1),
+                           sentences[i],
+                           chance_in_a_cell(found, i)},
+                          false});
+  }
+  table.caption = fmt::format(
+      "In this order; the probability is that of all up to this one done. {}; chaintrue plan {} "
+      "--after prints the lines.",
+      where_it_goes(found),
+      files_in_words(found));
+  section.blocks.emplace_back(std::move(table));
+  return section;
+}
 
 Section causes_section(const Diagnosis& found) {
   Table table{{{"cause"}, {"size"}, {"probability", true}, {"what it is"}}, {}, ""};

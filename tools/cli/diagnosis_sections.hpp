@@ -10,6 +10,8 @@ namespace chaintrue::cli {
 
 /// What is named, with its size, probability and remedy. Precondition: a cause is named.
 [[nodiscard]] report::Section causes_section(const grid::diagnosis::Diagnosis& found);
+/// The next measurements, numbered. Precondition: there are some.
+[[nodiscard]] report::Section next_in_a_table(const grid::diagnosis::Diagnosis& found);
 /// Every cause that was tested, and what became of it.
 [[nodiscard]] report::Section terms_section(const grid::diagnosis::Diagnosis& found);
 /// What was looked for and is absent, and what these points cannot show.

@@ -140,11 +140,7 @@ void write_follow_up(Text& text, const Diagnosis& found) {
                            files_in_words(found)));
   const std::vector<std::string> sentences = follow_ups_in_words(found);
   for (std::size_t i = 0; i < sentences.size(); ++i) {
-    text.line("  {:>2}. {} {} then has probability {}.",
-              i + 1,
-              sentences[i],
-              what_stands_alone(found),
-              percent(found.next_measurements[i].raises_probability_to));
+    text.line("  {:>2}. {}{}", i + 1, sentences[i], chance_then(found, i));
   }
 }
 

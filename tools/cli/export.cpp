@@ -17,6 +17,7 @@
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/settings_to_type.hpp"
+#include "tools/cli/anchors_input.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
@@ -116,7 +117,7 @@ files::Maslow4Settings maslow4_settings_of(const std::string& path) {
   const std::string text = files::read_whole_file(path);
   const std::string file = files::name_in_messages(path);
   if (files::file_type_of(text, file) != "chaintrue_diagnosis")
-    return files::write_maslow4_settings(files::parse_anchors(text, file).fit);
+    return files::write_maslow4_settings(parse_anchors_input(text, file).fit);
   std::vector<files::Warning> warnings;
   const auto found = files::parse_diagnosis(text, file, &warnings);
   print_warnings(warnings);

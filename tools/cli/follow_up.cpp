@@ -45,11 +45,10 @@ std::string follow_up_list(const Diagnosis& found) {
   const std::vector<std::string> sentences = follow_ups_in_words(found);
   for (std::size_t i = 0; i < sentences.size(); ++i) {
     fmt::format_to(std::back_inserter(text),
-                   "{:>3}. {} {} then has probability {}.\n",
+                   "{:>3}. {}{}\n",
                    i + 1,
                    sentences[i],
-                   what_stands_alone(found),
-                   percent(found.next_measurements[i].raises_probability_to));
+                   chance_then(found, i));
   }
   return text;
 }

@@ -53,7 +53,7 @@ void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
       options.machine,
       "A machine file: what the controller believes, if not the map's machine as it was stated");
   verb.add_option("--controller", options.controller, "In place of the machine file's")
-      .one_of({"maslow_classic", "holey", "fluidnc_wallplotter", "ideal"});
+      .one_of({"maslow_classic", "holey", "fluidnc_wallplotter", "maslow4", "ideal"});
   verb.add_option("--frame", options.frame, "The program's zero: the marks' or the bed's")
       .one_of({"marks", "bed"})
       .shows_default();

@@ -119,8 +119,8 @@ void say_next_of_program(const GcodeOptions& options) {
 
 int run_gcode_check(const GcodeOptions& options) {
   const GcodeText text(options.program);
-  const auto kind = controller_kind(options.controller);
-  const int steps = 1 + (kind ? 1 : 0) + (options.map.empty() ? 0 : 1);
+  const gcode::Firmware* firmware = stated_firmware(options.controller);
+  const int steps = 1 + (firmware != nullptr ? 1 : 0) + (options.map.empty() ? 0 : 1);
   auto source = text.open({"the program", 1, steps});
   Findings findings;
   const auto survey =
@@ -129,8 +129,8 @@ int run_gcode_check(const GcodeOptions& options) {
     report(options.program, findings);
     return report(options.program, survey.error());
   }
-  if (kind) {
-    gcode::ControllerCheck check(gcode::firmware(*kind), findings);
+  if (firmware != nullptr) {
+    gcode::ControllerCheck check(*firmware, findings);
     auto once_more = text.open({"what the controller makes of it", 2, steps});
     const auto outcome = gcode::run_program(once_more, options.dialect(), check);
     if (!outcome) return report(options.program, outcome.error());

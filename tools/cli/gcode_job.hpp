@@ -50,6 +50,8 @@ struct GcodeOptions {
 
 /// Of --controller; empty where it is not given.
 [[nodiscard]] std::optional<model::ControllerKind> controller_kind(std::string_view name);
+/// That of --controller, a Maslow 4 among them; null where nothing is stated.
+[[nodiscard]] const gcode::Firmware* stated_firmware(std::string_view name);
 
 /// Map, machine and controller, which belong together.
 class GcodeMachine {

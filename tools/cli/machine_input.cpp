@@ -8,6 +8,7 @@
 #include "grid/files/belts_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/anchors_input.hpp"
 #include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
@@ -23,7 +24,7 @@ model::BeltMachine read_belt_machine_input(const std::string& path) {
   const std::string text = grid::files::read_whole_file(path);
   const std::string file = grid::files::name_in_messages(path);
   if (grid::files::looks_like_anchors(text))
-    return grid::files::machine_as_pasted(grid::files::parse_anchors(text, file).fit);
+    return grid::files::machine_as_pasted(parse_anchors_input(text, file).fit);
   model::BeltMachine machine = grid::files::parse_belts(text, file).belts.machine;
   if (!machine.anchors_known) {
     throw grid::files::InputError(

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "grid/files/anchors_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/warnings.hpp"
@@ -24,6 +25,14 @@ std::string& trusted() {
 const std::string& map_on_trust() { return trusted(); }
 
 grid::CompensationMap parse_map_input(const std::string& text, const std::string& file) {
+  if (files::looks_like_anchors(text)) {
+    throw files::InputError(
+        {{file,
+          "/file_type",
+          "\"chaintrue_anchors\"",
+          "\"chaintrue_map\"; anchors of four belts are taken by chaintrue query, report, check, "
+          "gcode and export maslow4"}});
+  }
   std::vector<files::Warning> warnings;
   grid::CompensationMap map = files::parse_map(text, file, &warnings);
   print_warnings(warnings);

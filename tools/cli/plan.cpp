@@ -163,7 +163,7 @@ void add_plan(Verb app, Run& run) {
   const Option grid = add_input(verb,
                                 "grid",
                                 options->follow_up.file,
-                                "With --after: the points, or the holes, measured so far");
+                                "With --after: the points, the holes or the belts, measured so far");
   const Option after =
       add_input(verb,
                 "--after",

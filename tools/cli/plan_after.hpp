@@ -10,7 +10,7 @@
 namespace chaintrue::cli {
 
 struct PlanAfterOptions {
-  std::string file;  ///< a grid or holes
+  std::string file;  ///< a grid, holes or belts
   std::string after;
   std::vector<std::string> with;  ///< the other files of the same diagnosis
   std::string machine;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue report: a map or a diagnosis as one HTML page that needs no network.
+/// chaintrue report: a map, a diagnosis or anchors as one HTML page that needs no network.
 #include <fmt/format.h>
 
 #include <array>
@@ -14,6 +14,8 @@
 #include "grid/files/file_type.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/anchors_input.hpp"
+#include "tools/cli/anchors_page.hpp"
 #include "tools/cli/certificate.hpp"
 #include "tools/cli/diagnosis_page.hpp"
 #include "tools/cli/map_input.hpp"
@@ -71,6 +73,13 @@ report::Page page_of_diagnosis(const std::string& text,
   return diagnosis_page(found, source);
 }
 
+report::Page page_of_anchors(const std::string& text,
+                             const std::string& file,
+                             std::string_view source) {
+  const files::FittedAnchors found = parse_anchors_input(text, file);
+  return anchors_page(found.fit, found.holes ? &*found.holes : nullptr, found.name, source);
+}
+
 std::vector<std::string> next_of_map(const std::string& text,
                                      const std::string& file,
                                      const std::string& path) {
@@ -86,9 +95,16 @@ std::vector<std::string> next_of_diagnosis(const std::string& text,
   return {"export", "groundcontrol", path};
 }
 
+std::vector<std::string> next_of_anchors(const std::string&,
+                                         const std::string&,
+                                         const std::string& path) {
+  return {"export", "maslow4", path};
+}
+
 constexpr std::array kReportables = {
     Reportable{"chaintrue_map", "a map", page_of_map, certificate_of_map, next_of_map},
     Reportable{"chaintrue_diagnosis", "a diagnosis", page_of_diagnosis, nullptr, next_of_diagnosis},
+    Reportable{"chaintrue_anchors", "anchors", page_of_anchors, nullptr, next_of_anchors},
 };
 
 const Reportable& reportable(const std::string& text, const std::string& file) {
@@ -132,11 +148,11 @@ int run_report(const ReportCommand& command) {
 void add_report(Verb app, Run& run) {
   auto command = std::make_shared<ReportCommand>();
   Verb verb = app.add_verb(
-      "report", "A map or a diagnosis as a page for a browser, to be read without a network");
+      "report", "A map, a diagnosis or the anchors of four belts as a page for a browser, to be read without a network");
   add_input(verb,
             "file",
             command->input,
-            "A chaintrue_map or chaintrue_diagnosis file; - is standard input")
+            "A chaintrue_map, chaintrue_diagnosis or chaintrue_anchors file; - is standard input")
       .required();
   add_output(
       verb, "-o,--output", command->output, {Origin::page}, "The HTML file; - is standard output")

@@ -6,12 +6,12 @@
 #include <charconv>
 #include <cstdio>
 
-#include "grid/files/anchors_file.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/file_type.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_readings.hpp"
+#include "tools/cli/anchors_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -25,7 +25,7 @@ model::BeltMachine machine_of(const std::string& path) {
   const std::string text = files::read_whole_file(path);
   const std::string file = files::name_in_messages(path);
   const bool is_fitted = files::file_type_of(text, file) == "chaintrue_anchors";
-  const model::BeltMachine machine = is_fitted ? files::parse_anchors(text, file).fit.machine
+  const model::BeltMachine machine = is_fitted ? parse_anchors_input(text, file).fit.machine
                                                : files::parse_belts(text, file).belts.machine;
   if (!machine.anchors_known) {
     throw files::InputError({{file,

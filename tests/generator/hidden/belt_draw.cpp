@@ -63,10 +63,12 @@ BeltFrame drawn_frame(Dice& dice) {
   return frame;
 }
 
-/// Readings of all four without noise, each belt in the frame that is true for its visit.
+/// Readings of all four without noise, each belt in the frame that is true for its visit, from this
+/// visit on.
 std::vector<FourLengths> readings(const BeltFrame& frame,
                                   const BeltSecret& secret,
-                                  const std::vector<std::array<double, 2>>& commands) {
+                                  const std::vector<std::array<double, 2>>& commands,
+                                  int visit = 0) {
   BeltSession session{frame, commands};
   session.pull_noise = 0.0;
   session.noise_mm = 0.0;
@@ -86,7 +88,7 @@ std::vector<FourLengths> readings(const BeltFrame& frame,
     }
     const std::vector<FourLengths> after = read_session(session);
     for (std::size_t n = 0; n < read.size(); ++n) {
-      if (static_cast<int>(n) >= secret.first_visit) read[n] = after[n];
+      if (visit + static_cast<int>(n) >= secret.first_visit) read[n] = after[n];
     }
   }
   for (std::size_t n = 0; n < read.size(); ++n) {
@@ -94,8 +96,9 @@ std::vector<FourLengths> readings(const BeltFrame& frame,
       if (!own(i)) continue;
       if (secret.effect == "belt_scale") read[n][i] /= 1.0 + secret.size;
       if (secret.effect == "belt_zero") read[n][i] += secret.size;
-      if (secret.effect == "drift") read[n][i] += secret.size * static_cast<double>(n);
-      if (secret.effect == "tooth_skip" && static_cast<int>(n) >= secret.first_visit)
+      if (secret.effect == "drift") read[n][i] += secret.size * (visit + static_cast<double>(n));
+      if (secret.effect == "tooth_skip" &&
+          visit + static_cast<int>(n) >= secret.first_visit)
         read[n][i] += kToothMm * secret.size;
     }
   }
@@ -183,6 +186,18 @@ BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed) {
     draw.secret.bad.push_back({point, static_cast<int>(belt)});
   }
   return draw;
+}
+
+std::vector<FourLengths> measured_on(const BeltDraw& draw,
+                                     const std::vector<std::array<double, 2>>& places,
+                                     std::uint64_t seed) {
+  std::vector<FourLengths> read = readings(
+      draw.frame, draw.secret, places, static_cast<int>(draw.lengths_mm.size()));
+  Dice noise(seed, "belt noise of further places");
+  for (FourLengths& four : read) {
+    for (double& length : four) length += draw.noise_mm * noise.normal();
+  }
+  return read;
 }
 
 }  // namespace chaintrue::generator

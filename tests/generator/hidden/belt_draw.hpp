@@ -43,4 +43,9 @@ struct BeltDraw {
 };
 [[nodiscard]] BeltDraw draw_belts(const BeltRecipe& recipe, std::uint64_t seed);
 
+/// What the same machine reads at further places (in the frame, mm), after its last visit.
+[[nodiscard]] std::vector<FourLengths> measured_on(const BeltDraw& draw,
+                                                   const std::vector<std::array<double, 2>>& places,
+                                                   std::uint64_t seed);
+
 }  // namespace chaintrue::generator

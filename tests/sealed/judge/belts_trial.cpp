@@ -45,18 +45,55 @@ bool is_separable(const generator::BeltSecret& secret, const grid::diagnosis::Di
   return compared;
 }
 
+/// The places that are proposed, as the hidden machine reads them, added to what was measured.
+/// \returns how many.
+int measure_as_proposed(const generator::BeltDraw& draw,
+                        const grid::diagnosis::Diagnosis& found,
+                        std::uint64_t seed,
+                        grid::MeasuredBelts& belts) {
+  const model::FramePoint centre = model::centre_of(found.belts->machine);
+  std::vector<std::array<double, 2>> places;
+  for (const auto& next : found.next_measurements) {
+    if (next.mark) places.push_back({next.mark->x_mm + centre.x_mm, next.mark->y_mm + centre.y_mm});
+  }
+  int order = static_cast<int>(belts.points.size());
+  for (const generator::FourLengths& read : generator::measured_on(draw, places, seed)) {
+    grid::BeltPoint point;
+    point.lengths_mm = {read[0], read[1], read[2], read[3]};
+    point.order = order++;
+    belts.points.push_back(std::move(point));
+  }
+  return static_cast<int>(places.size());
+}
+
+bool holds_alone(const generator::BeltSecret& secret, const grid::diagnosis::Diagnosis& found) {
+  if (found.verdict != grid::diagnosis::Verdict::named) return false;
+  const auto is_hidden = [&](const auto& cause) {
+    return cause.cause.effect->id == secret.effect && name(cause.cause.side) == secret.side;
+  };
+  const auto& same = found.causes.front().same_as;
+  return is_hidden(found.causes.front()) || std::any_of(same.begin(), same.end(), is_hidden);
+}
+
 }  // namespace
 
-BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t seed) {
+BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t seed, bool go_on) {
   const generator::BeltDraw draw = generator::draw_belts(recipe, seed);
-  BeltsTrial trial{seed, draw.secret};
-  const auto found = grid::diagnosis::diagnose(measured(draw));
+  BeltsTrial trial;
+  trial.seed = seed;
+  trial.secret = draw.secret;
+  grid::MeasuredBelts belts = measured(draw);
+  grid::diagnosis::DiagnosisOptions how;
+  how.next_measurements = go_on;
+  const auto found = grid::diagnosis::diagnose(belts, how);
   if (!found) {
     trial.failed = true;
     trial.sentence = found.error().sentence;
     return trial;
   }
   trial.sentence = found->sentence;
+  trial.verdict = name(found->verdict);
+  trial.family_wise_p = found->family_wise_p;
   trial.named = !found->causes.empty();
   const auto is_hidden = [&](const auto& cause) {
     return cause.cause.effect->id == draw.secret.effect &&
@@ -71,6 +108,15 @@ BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t se
       trial.named && name(found->causes.front().cause.side) == draw.secret.side;
   trial.separable = is_separable(draw.secret, *found);
   trial.bad_found = same_bad(draw.secret, *found);
+  for (const auto& h : found->hypotheses) {
+    if (h.effect == draw.secret.effect && h.side == draw.secret.side) trial.probability = h.probability;
+  }
+  if (!go_on || found->verdict == grid::diagnosis::Verdict::named) return trial;
+  trial.proposed = measure_as_proposed(draw, *found, seed, belts);
+  if (trial.proposed == 0) return trial;
+  how.next_measurements = false;
+  const auto again = grid::diagnosis::diagnose(belts, how);
+  trial.parted = again && holds_alone(draw.secret, *again);
   return trial;
 }
 

@@ -23,7 +23,17 @@ struct BeltsTrial {
   bool separable = false;
   bool bad_found = false;    ///< the bad readings, each by point and belt, and no others
   std::string sentence;
+  std::string verdict;          ///< as files have it; empty where it failed
+  double family_wise_p = 1.0;
+  double probability = 0.0;     ///< that what is hidden acts, as the table of hypotheses has it
+  /// Where no single name was given and the trial went on: places that were proposed and measured,
+  /// and whether what is hidden was then named alone.
+  int proposed = 0;
+  bool parted = false;
 };
-[[nodiscard]] BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t seed);
+/// `go_on`: where no single name is given, what is proposed is measured and diagnosed once more.
+[[nodiscard]] BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe,
+                                         std::uint64_t seed,
+                                         bool go_on = false);
 
 }  // namespace chaintrue::sealed

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/belts/scale_by_tape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "grid/belts/settled_frame.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+constexpr int kDirections = 8;
+/// Holes are proposed at whole tens, which people type.
+constexpr double kWholeMm = 10.0;
+
+/// Points of the file that lie outermost in each direction, each once.
+std::vector<std::size_t> outermost(const BeltsFit& fit) {
+  std::vector<std::size_t> points;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kDirections;
+    const auto along = [&](const FittedPlace& place) {
+      return std::cos(angle) * place.at.x_mm + std::sin(angle) * place.at.y_mm;
+    };
+    const auto most = std::max_element(
+        fit.places.begin(), fit.places.end(), [&](const FittedPlace& a, const FittedPlace& b) {
+          return along(a) < along(b);
+        });
+    const auto index = static_cast<std::size_t>(most - fit.places.begin());
+    const bool bad =
+        std::find(fit.bad_points.begin(), fit.bad_points.end(), index) != fit.bad_points.end();
+    if (!bad && std::find(points.begin(), points.end(), index) == points.end())
+      points.push_back(index);
+  }
+  return points;
+}
+
+/// Where a tape may end.
+std::vector<BeltEnd> ends_of(const MeasuredBelts& belts, const BeltsFit& fit) {
+  std::vector<BeltEnd> ends;
+  for (const std::size_t index : outermost(fit)) {
+    if (!belts.machine.anchors_known) {
+      ends.emplace_back(index);
+      continue;
+    }
+    const model::FramePoint centre = model::centre_of(belts.machine);
+    const auto whole = [](double mm) { return kWholeMm * std::round(mm / kWholeMm) + 0.0; };
+    ends.emplace_back(CutHole{{whole(fit.places[index].at.x_mm - centre.x_mm),
+                               whole(fit.places[index].at.y_mm - centre.y_mm)}});
+  }
+  return ends;
+}
+
+belts::SettledFrame frame_of(const BeltsFit& fit) {
+  belts::SettledFrame frame;
+  frame.state.anchors = belts::anchors_of(fit.machine);
+  for (const FittedPlace& place : fit.places) {
+    frame.state.places.push_back(place.at);
+    model::PerBelt<bool>& counts = frame.counting.emplace_back();
+    for (const model::Belt belt : model::kBelts) counts[belt] = place.belts[belt].counts;
+  }
+  if (fit.scale) frame.state.log_scale = std::log(fit.scale->factor);
+  // Lengths without noise are as good as a hundredth of what anybody reads.
+  constexpr double kFinestMm = 1e-3;
+  frame.spread_mm = std::max(fit.spread_mm, kFinestMm);
+  return frame;
+}
+
+/// One sigma of the scale beside this distance; infinity where it is not determined.
+double sigma_beside(const MeasuredBelts& belts,
+                    const belts::SettledFrame& frame,
+                    BeltDistance& distance) {
+  // What it is expected to be changes no sigma: read from its residual, and then put in.
+  MeasuredBelts taped = belts;
+  taped.distances.push_back(distance);
+  const belts::FrameSolver solver(taped, frame.counting, frame.spread_mm);
+  const belts::FrameEquations at = solver.equations(frame.state);
+  if (!std::isfinite(at.cost)) return std::numeric_limits<double>::infinity();
+  const auto last = at.distance_residual.size() - 1;
+  distance.distance_mm = -at.distance_residual(last) * distance.sigma_mm;
+  taped.distances.back() = distance;
+  const belts::FrameView view(taped, frame);
+  const double variance = view.covariance()(belts::kAnchorUnknowns, belts::kAnchorUnknowns);
+  return variance > 0.0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::optional<DistanceForScale> distance_for_scale(const MeasuredBelts& belts,
+                                                   const BeltsFit& fit) {
+  if (fit.places.empty()) return std::nullopt;
+  std::vector<std::pair<BeltEnd, BeltEnd>> pairs;
+  const auto add_pairs = [&pairs](const std::vector<BeltEnd>& ends) {
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      for (std::size_t j = i + 1; j < ends.size(); ++j) pairs.emplace_back(ends[i], ends[j]);
+    }
+  };
+  add_pairs({model::kBelts.begin(), model::kBelts.end()});
+  add_pairs(ends_of(belts, fit));
+  const belts::SettledFrame frame = frame_of(fit);
+  std::optional<DistanceForScale> best;
+  for (const auto& [from, to] : pairs) {
+    BeltDistance distance{from, to, 0.0, kTapedDistanceMm};
+    const double sigma = sigma_beside(belts, frame, distance);
+    // A hundredth better is no reason for a hole where two anchors do.
+    constexpr double kBetter = 0.99;
+    if (std::isfinite(sigma) && (!best || sigma < kBetter * best->sigma))
+      best = DistanceForScale{distance, sigma};
+  }
+  return best;
+}
+
+}  // namespace chaintrue::grid

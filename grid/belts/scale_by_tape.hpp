@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Which distance to tape so that the scale of four belts is known best: between two anchors, two
+/// holes that the machine cuts, or two points of the file.
+///
+/// Tried are all pairs of anchors and all pairs of the outermost places in eight directions, each in
+/// a fit beside the belts with the distances that are there already (frame_solver.hpp). A long
+/// distance tells more; one between anchors that six places leave uncertain tells less than a shorter
+/// one between places.
+///
+/// \code
+///   const auto best = distance_for_scale(belts, *fit_belts(belts));
+///   if (best) say(words_of(best->distance.from), words_of(best->distance.to), best->sigma);
+/// \endcode
+#pragma once
+
+#include <optional>
+
+#include "grid/belts/belts_fit.hpp"
+
+namespace chaintrue::grid {
+
+/// One sigma of a long distance taped with care, mm: two metres to half a millimetre, and its ends.
+inline constexpr double kTapedDistanceMm = 1.0;
+
+struct DistanceForScale {
+  BeltDistance distance;  ///< `distance_mm` is what the fit expects, in the belts' own millimetres
+  double sigma = 0.0;     ///< of the scale once it is taped
+};
+/// Holes where the anchors in force are known, else points of the file. Empty for a fit without
+/// places.
+[[nodiscard]] std::optional<DistanceForScale> distance_for_scale(const MeasuredBelts& belts,
+                                                                 const BeltsFit& fit);
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The frame of four belts as it is drawn: anchors with their ellipses, and at each place a stroke a
+/// belt as long as what it is off by.
+#pragma once
+
+#include <string>
+
+#include "grid/diagnosis/belts_findings.hpp"
+#include "tools/report/page.hpp"
+
+namespace chaintrue::cli {
+
+inline constexpr const char* kFrameCaption =
+    "A stroke lies along its belt, in that anchor's colour: towards the anchor where the belt reads "
+    "long, away from it where it reads short. Circled: set aside.";
+
+/// Strokes of one and the same findings have one scale, whichever is drawn.
+[[nodiscard]] report::Chart frame_chart(
+    const grid::diagnosis::BeltsFindings& found,
+    std::string title,
+    model::PerBelt<double> grid::diagnosis::BeltPlacePicture::*which);
+
+}  // namespace chaintrue::cli

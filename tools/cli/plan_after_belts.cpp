@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/plan_after_belts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <optional>
+
+#include "grid/files/belts_file.hpp"
+#include "grid/files/diagnosis_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "model/belts/belt_kinematics.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/follow_up.hpp"
+#include "tools/cli/option_checks.hpp"
+#include "tools/cli/places.hpp"
+#include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/talk.hpp"
+#include "tools/cli/verb.hpp"
+#include "tools/cli/warnings.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+using grid::MeasuredBelts;
+using grid::diagnosis::BeltPlacePicture;
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::MeasurementKind;
+using grid::diagnosis::NextMeasurement;
+
+/// The diagnosis is of these places: each in its turn, with lengths that anchors and causes explain.
+bool is_of(const Diagnosis& found, const MeasuredBelts& belts) {
+  // Beyond what any cause adds, an arm that is left out included.
+  constexpr double kSamePlaceMm = 400.0;
+  if (!found.belts) return false;
+  return std::equal(
+      found.belts->places.begin(),
+      found.belts->places.end(),
+      belts.points.begin(),
+      belts.points.end(),
+      [&](const BeltPlacePicture& place, const grid::BeltPoint& point) {
+        if (place.order != point.order) return false;
+        const auto lengths = model::lengths_at(found.belts->machine, place.at);
+        return lengths &&
+               std::all_of(model::kBelts.begin(), model::kBelts.end(), [&](model::Belt belt) {
+                 return place.bad[belt] ||
+                        std::abs((*lengths)[belt] - point.lengths_mm[belt]) < kSamePlaceMm;
+               });
+      });
+}
+
+std::string points_of(const Diagnosis& found, const MeasuredBelts& belts) {
+  std::optional<int> visit;
+  for (const auto& point : belts.points) {
+    if (point.order) visit = std::max(visit.value_or(0), *point.order + 1);
+  }
+  std::string lines;
+  for (const NextMeasurement& next : found.next_measurements) {
+    if (!next.mark) continue;
+    std::string own = fmt::format(
+        "  {{\"tl_mm\": null, \"tr_mm\": null, \"bl_mm\": null, \"br_mm\": null, "
+        "\"commanded_x_mm\": {:g}, \"commanded_y_mm\": {:g}",
+        next.mark->x_mm + 0.0,
+        next.mark->y_mm + 0.0);
+    if (visit) fmt::format_to(std::back_inserter(own), ", \"order\": {}", (*visit)++);
+    if (!next.pulled.empty()) {
+      std::vector<std::string> names;
+      for (const model::Belt belt : next.pulled) names.push_back(fmt::format("\"{}\"", name(belt)));
+      fmt::format_to(std::back_inserter(own), ", \"pulled\": [{}]", fmt::join(names, ", "));
+    }
+    lines += own + "},\n";
+  }
+  return lines.empty() ? lines : "\"points\": add, each null filled in\n" + lines;
+}
+
+/// An anchor's name, a point's number or "(x, y)" as the belts' file has it.
+std::string end_of(const std::string& end) {
+  if (model::belt_of(end)) return fmt::format("\"{}\"", end);
+  const std::size_t comma = end.find(", ");
+  if (end.empty() || end.front() != '(' || comma == std::string::npos) return end;
+  return fmt::format("{{\"x_mm\": {}, \"y_mm\": {}}}",
+                     end.substr(1, comma - 1),
+                     end.substr(comma + 2, end.size() - comma - 3));
+}
+
+std::string distances_of(const Diagnosis& found) {
+  std::string lines;
+  for (const NextMeasurement& next : found.next_measurements) {
+    if (next.kind != MeasurementKind::distance || next.to.empty()) continue;
+    fmt::format_to(std::back_inserter(lines),
+                   "  {{\"from\": {}, \"to\": {}, \"distance_mm\": null, \"sigma_mm\": {:g}}},\n",
+                   end_of(next.from),
+                   end_of(next.to.front()),
+                   next.sigma);
+  }
+  return lines.empty() ? lines : "\"distances\": add, each null filled in\n" + lines;
+}
+
+std::string drawing_of(const Diagnosis& found) {
+  const model::BeltMachine& machine = found.belts->machine;
+  const model::FramePoint centre = model::centre_of(machine);
+  FollowUpDrawing drawing;
+  for (const BeltPlacePicture& place : found.belts->places)
+    drawing.measured.push_back({place.at.x_mm - centre.x_mm, place.at.y_mm - centre.y_mm});
+  for (const FollowUpPlace& place : follow_up_places(found))
+    drawing.next.push_back({place.numbers, place.mark});
+  const auto& a = machine.anchors;
+  return draw_follow_up(drawing,
+                        {std::max(a.tr.x_mm, a.br.x_mm) - std::min(a.tl.x_mm, a.bl.x_mm),
+                         std::max(a.tl.y_mm, a.tr.y_mm)});
+}
+
+/// Belts are diagnosed by themselves, on the machine in their own file.
+void check_options(const PlanAfterOptions& options) {
+  OptionProblems problems;
+  if (!options.machine.empty())
+    problems.add("--machine", options.machine, "to be left out: belts name their own machine");
+  if (!options.with.empty())
+    problems.add(
+        "--with", options.with.front(), "to be left out: belts are diagnosed by themselves");
+  problems.throw_if_any();
+}
+
+}  // namespace
+
+int plan_after_belts(const PlanAfterOptions& options, const std::string& text) {
+  check_options(options);
+  const std::string file = files::name_in_messages(options.file);
+  files::ReadBelts read = files::parse_belts(text, file);
+  std::vector<files::Warning> warnings = read.warnings;
+  const Diagnosis found = files::read_diagnosis(options.after, &warnings);
+  print_warnings(warnings);
+  if (!is_of(found, read.belts)) {
+    fmt::print(stderr,
+               "{} was made from other readings than those of {}: diagnose these first.\n",
+               options.after,
+               file);
+    return kBadInput;
+  }
+  std::vector<files::OutputFile> outputs;
+  if (!options.drawing.empty()) outputs.push_back({options.drawing, drawing_of(found)});
+  outputs.push_back({options.output, points_of(found, read.belts) + distances_of(found)});
+  write_outputs(outputs);
+  fmt::print(stderr, "{}", follow_up_list(found));
+  say_next({"diagnose", options.file, "-o", options.after});
+  return kDone;
+}
+
+}  // namespace chaintrue::cli

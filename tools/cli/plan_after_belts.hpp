@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// chaintrue plan BELTS --after: what a router on four belts should measure next.
+#pragma once
+
+#include <string>
+
+#include "tools/cli/plan_after.hpp"
+
+namespace chaintrue::cli {
+
+/// `text` is that of the belts' file. \throws files::InputError. Returns an exit code.
+[[nodiscard]] int plan_after_belts(const PlanAfterOptions& options, const std::string& text);
+
+}  // namespace chaintrue::cli
