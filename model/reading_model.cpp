@@ -324,8 +324,10 @@ class Session {
   PerSide<std::optional<double>> last_length_mm_;
 };
 
-tl::expected<std::vector<ChainLengths>, VisitFailure> readings(const ReadingModel& model,
-                                                               std::span<const Visit> visits) {
+tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
+    const ReadingModel& model,
+    std::span<const Visit> visits,
+    const std::function<void(std::size_t read)>& told) {
   std::vector<std::size_t> sequence(visits.size());
   std::iota(sequence.begin(), sequence.end(), std::size_t{0});
   std::sort(sequence.begin(), sequence.end(), [&](std::size_t a, std::size_t b) {
@@ -342,6 +344,7 @@ tl::expected<std::vector<ChainLengths>, VisitFailure> readings(const ReadingMode
     const auto lengths = session.read(visits[i]);
     if (!lengths) return tl::unexpected(VisitFailure{i, lengths.error()});
     result[i] = *lengths;
+    if (told) told(k + 1);
   }
   return result;
 }

@@ -23,6 +23,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <tl/expected.hpp>
@@ -94,9 +95,12 @@ struct VisitFailure {
 /// What is read at each visit, in the order of `visits`; they are gone through by rising `order`.
 /// Hysteresis follows the sign of the change of a chain's length since the visit before, taken
 /// before hysteresis and pitch error; no change keeps the sign, the first visit counts as paid out
-/// (+1). \throws std::invalid_argument where two visits bear the same number.
+/// (+1). `told` hears after each visit how many are done.
+/// \throws std::invalid_argument where two visits bear the same number.
 [[nodiscard]] tl::expected<std::vector<ChainLengths>, VisitFailure> readings(
-    const ReadingModel& model, std::span<const Visit> visits);
+    const ReadingModel& model,
+    std::span<const Visit> visits,
+    const std::function<void(std::size_t read)>& told = {});
 
 /// The frame in which the marks are written: the paper effects of a machine, in the catalogue's
 /// order. They are linear.

@@ -165,6 +165,14 @@ std::optional<StatedNoise> stated_noise(const SyntheticSpec& spec) {
   return stated;
 }
 
+// Tells how many of so many visits have been read.
+std::function<void(std::size_t)> counting(const Progress& progress, std::size_t visits) {
+  if (!progress) return {};
+  return [&progress, total = static_cast<double>(visits)](std::size_t read) {
+    tell(progress, {"the machine read at every mark", 1, 1, static_cast<double>(read) / total});
+  };
+}
+
 }  // namespace
 
 void offset_setting(Machine& machine, model::SheetPlacement& sheet, const SettingOffset& offset) {
@@ -206,7 +214,8 @@ ChainLengths unmodelled(BedPoint place) {
 }
 
 tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
-                                                         const SyntheticSpec& spec) {
+                                                         const SyntheticSpec& spec,
+                                                         const Progress& progress) {
   SyntheticSession session;
   SyntheticAnswer& answer = session.answer;
   answer.seed = spec.seed;
@@ -230,7 +239,8 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   }
 
   const model::ReadingModel reading_model(answer.machine, spec.model);
-  const auto lengths = model::readings(reading_model, visits);
+  const auto lengths =
+      model::readings(reading_model, visits, counting(progress, visits.size()));
   if (!lengths) {
     const BedPoint place = visits[lengths.error().index].position;
     return tl::unexpected(UnreachableMark{answer.sheet.to_mark(place), lengths.error().reason});
@@ -261,7 +271,8 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
 PlacesRead read_places(const Machine& stated,
                        const std::vector<model::AppliedEffect>& hidden,
                        const std::vector<Visit>& visits,
-                       model::Model model) {
+                       model::Model model,
+                       const Progress& progress) {
   PlacesRead result;
   const Machine machine = with_effects(stated, hidden);
   const model::ReadingModel reading_model(machine, model);
@@ -275,7 +286,8 @@ PlacesRead read_places(const Machine& stated,
       result.unreachable.emplace_back(i, reading.error());
     }
   }
-  const auto lengths = model::readings(reading_model, reached);
+  const auto lengths =
+      model::readings(reading_model, reached, counting(progress, reached.size()));
   result.grid.machine = stated;
   for (std::size_t i = 0; i < reached.size(); ++i) {
     result.grid.points.push_back({mark_frame.written(model::laid_as_bed(reached[i].position)),

@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "grid/measured_grid.hpp"
+#include "grid/progress.hpp"
 #include "grid/synthetic/design.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/reading_model.hpp"
@@ -128,8 +129,8 @@ struct UnreachableMark {
 
 /// \throws std::invalid_argument for a machine or hidden effects with problems (check with
 /// problems_of and effects::problems_of_effects on true_machine()), and as marks().
-[[nodiscard]] tl::expected<SyntheticSession, UnreachableMark> generate(const model::Machine& stated,
-                                                                       const SyntheticSpec& spec);
+[[nodiscard]] tl::expected<SyntheticSession, UnreachableMark> generate(
+    const model::Machine& stated, const SyntheticSpec& spec, const Progress& progress = {});
 
 /// The stated machine with the hidden effects appended, before settings are offset.
 [[nodiscard]] model::Machine with_effects(const model::Machine& stated,
@@ -145,6 +146,7 @@ struct PlacesRead {
 [[nodiscard]] PlacesRead read_places(const model::Machine& stated,
                                      const std::vector<model::AppliedEffect>& hidden,
                                      const std::vector<model::Visit>& visits,
-                                     model::Model model = model::Model::elastic);
+                                     model::Model model = model::Model::elastic,
+                                     const Progress& progress = {});
 
 }  // namespace chaintrue::grid::synthetic

@@ -211,6 +211,16 @@ TEST_F(Terminal, ShowsHowManyPointsOfAQueryAreAnswered) {
   EXPECT_THAT(seen.text, ContainsRegex("query: [0-9]+ s, [0-9]+ % done, about [0-9]+ s left"));
 }
 
+TEST_F(Terminal, ShowsHowFarASimulationIs) {
+  const Seen seen = shown(fmt::format("simulate --machine {}/machines/classic.json --random 1000000 "
+                                      "--length-noise-mm 0.2 -o g.json",
+                                      CHAINTRUE_FIXTURES),
+                          stop_after("s left"));
+  EXPECT_THAT(seen.text,
+              ContainsRegex("simulate: [0-9]+ s, the machine read at every mark, [0-9]+ % done, "
+                            "about [0-9]+ s left"));
+}
+
 TEST_F(Terminal, StopsOnControlCAndLeavesNothingBehind) {
   simulate(kManyPoints);
   write("b.nc", "G21 G90\nG0 X-1000 Y0\nG1 X1000 Y0 F500\nM2\n");

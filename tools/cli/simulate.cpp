@@ -20,6 +20,7 @@
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/progress.hpp"
 #include "tools/cli/simulate_belts.hpp"
 #include "tools/cli/simulate_options.hpp"
 #include "tools/cli/talk.hpp"
@@ -41,7 +42,7 @@ void say_next_of(const SimulateOptions& options) {
 
 int simulate_session(const SimulateOptions& options, const model::Machine& machine) {
   const synthetic::SyntheticSpec spec = parse_spec(options, machine);
-  auto session = synthetic::generate(machine, spec);
+  auto session = synthetic::generate(machine, spec, shown_progress());
   if (!session) {
     fmt::print(stderr,
                "chaintrue simulate: the mark at ({:.1f}, {:.1f}) mm cannot be reached: {}\n",
@@ -68,7 +69,7 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
   for (const model::MarkPoint& place : files::read_points(options.points)) {
     visits.push_back({model::laid_as_bed(place), static_cast<int>(visits.size())});
   }
-  synthetic::PlacesRead read = synthetic::read_places(machine, hidden, visits, model);
+  synthetic::PlacesRead read = synthetic::read_places(machine, hidden, visits, model, shown_progress());
   read.grid.name = options.name.empty() ? "readings at given places" : options.name;
   for (const auto& [index, reason] : read.unreachable) {
     fmt::print(
