@@ -3,15 +3,16 @@
 // here without a new test.
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <ostream>
 #include <random>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "interp/surface_methods.hpp"
+#include "tests/in_threads.hpp"
 
 namespace chaintrue::interp {
 
@@ -143,13 +144,13 @@ TEST_P(SurfaceContract, GivesTheSameBitsInAnyThread) {
   std::vector<ValueGradient> alone;
   for (int k = 0; k < 500; ++k) alone.push_back(surface->at(0.013 * k, 0.003 * k));
   std::vector<std::vector<ValueGradient>> together(4);
-  std::vector<std::thread> threads;
+  std::vector<std::function<void()>> asking;
   for (auto& mine : together) {
-    threads.emplace_back([&surface, &mine] {
+    asking.emplace_back([&surface, &mine] {
       for (int k = 0; k < 500; ++k) mine.push_back(surface->at(0.013 * k, 0.003 * k));
     });
   }
-  for (std::thread& thread : threads) thread.join();
+  testing_support::run_in_threads(asking);
   for (const auto& mine : together) {
     EXPECT_EQ(0, std::memcmp(mine.data(), alone.data(), alone.size() * sizeof(ValueGradient)));
   }

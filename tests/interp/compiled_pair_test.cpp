@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <cstring>
-#include <thread>
 
 #include <gtest/gtest.h>
 
+#include "tests/in_threads.hpp"
 #include "tests/interp/truths.hpp"
 
 namespace chaintrue::interp {
@@ -61,15 +61,15 @@ TEST(CompiledPair, EveryInstructionSetAndThreadCountGivesTheSameBits) {
   force_plain_instructions(false);
   for (const std::size_t threads : {1U, 2U, 3U, 7U}) {
     std::vector<PairGradient> results(points.size());
-    std::vector<std::thread> pool;
+    std::vector<std::function<void()>> parts;
     for (std::size_t t = 0; t < threads; ++t) {
-      pool.emplace_back([&, t] {
+      parts.emplace_back([&, t] {
         const std::size_t first = points.size() * t / threads;
         const std::size_t count = points.size() * (t + 1) / threads - first;
         table.at(std::span(points).subspan(first, count), std::span(results).subspan(first, count));
       });
     }
-    for (std::thread& thread : pool) thread.join();
+    testing_support::run_in_threads(parts);
     EXPECT_EQ(0,
               std::memcmp(results.data(), expected.data(), results.size() * sizeof(PairGradient)))
         << threads << " threads, " << compiled_pair_instructions();

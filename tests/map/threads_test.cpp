@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
 #include "grid/files/map_file.hpp"
 #include "grid/map/fit.hpp"
+#include "tests/in_threads.hpp"
 #include "tests/map/synthetic_grid.hpp"
 
 namespace chaintrue {
@@ -40,9 +40,9 @@ TEST(MapInThreads, OneMapGivesEveryThreadTheSameBits) {
   const std::vector<double> alone = answers(*map);
   ASSERT_GT(alone.size(), 200U);
   std::vector<std::vector<double>> told(kThreads);
-  std::vector<std::thread> threads;
-  for (auto& numbers : told) threads.emplace_back([&] { numbers = answers(*map); });
-  for (std::thread& thread : threads) thread.join();
+  std::vector<std::function<void()>> asking;
+  for (auto& numbers : told) asking.emplace_back([&] { numbers = answers(*map); });
+  testing_support::run_in_threads(asking);
   for (const auto& numbers : told) EXPECT_EQ(numbers, alone);
 }
 
@@ -52,12 +52,12 @@ TEST(MapInThreads, FitsAtTheSameTimeGiveTheBytesOfFitsInTurn) {
     alone.push_back(grid::files::write_map(grid::fit(session(seed)).value()));
   }
   std::vector<std::string> together(kThreads);
-  std::vector<std::thread> threads;
+  std::vector<std::function<void()>> fitting;
   for (std::size_t seed = 0; seed < kThreads; ++seed) {
-    threads.emplace_back(
+    fitting.emplace_back(
         [&, seed] { together[seed] = grid::files::write_map(grid::fit(session(seed)).value()); });
   }
-  for (std::thread& thread : threads) thread.join();
+  testing_support::run_in_threads(fitting);
   EXPECT_EQ(together, alone);
 }
 

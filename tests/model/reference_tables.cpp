@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/model/reference_tables.hpp"
 
-#include <charconv>
+#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
@@ -15,10 +15,9 @@ nlohmann::json reference_table(const std::string& name) {
 
 double number(const nlohmann::json& text) {
   const auto& s = text.get_ref<const std::string&>();
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), value);
-  if (error != std::errc() || end != s.data() + s.size())
-    throw std::runtime_error("no number: " + s);
+  char* end = nullptr;
+  const double value = std::strtod(s.c_str(), &end);
+  if (s.empty() || end != s.c_str() + s.size()) throw std::runtime_error("no number: " + s);
   return value;
 }
 

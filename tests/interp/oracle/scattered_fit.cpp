@@ -311,8 +311,9 @@ class ScatteredFitter {
   void flag_repeats(ScatteredSurface& surface) const {
     std::vector<std::size_t> order(points_.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(
-        order, [&](std::size_t a, std::size_t b) { return points_[a].x < points_[b].x; });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return points_[a].x < points_[b].x;
+    });
     for (std::size_t a = 0; a < order.size(); ++a) {
       const ScatteredPoint& p = points_[order[a]];
       for (std::size_t b = a + 1; b < order.size(); ++b) {

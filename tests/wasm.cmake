@@ -1,0 +1,40 @@
+# The tests of interp, model and grid compiled to WebAssembly, a program a room, under node: tools/page --suite.
+set(chaintrue_wasm_rooms
+  accuracy belts contracts diagnosis effects estimation generator grid_files holes interp map model sealed sweep synthetic)
+
+# GoogleTest from its sources, as Debian gives them.
+set(googletest /usr/src/googletest)
+if(NOT EXISTS ${googletest}/googlemock/src/gmock-all.cc)
+  message(FATAL_ERROR "${googletest} was not found: run tools/page --suite, which installs what it needs")
+endif()
+foreach(library gtest gmock)
+  file(CREATE_LINK /usr/include/${library} ${page_headers}/${library} SYMBOLIC)
+endforeach()
+add_library(chaintrue_googletest STATIC EXCLUDE_FROM_ALL
+  ${googletest}/googletest/src/gtest-all.cc ${googletest}/googlemock/src/gmock-all.cc ${googletest}/googlemock/src/gmock_main.cc)
+target_include_directories(chaintrue_googletest SYSTEM PUBLIC ${page_headers} PRIVATE ${googletest}/googletest ${googletest}/googlemock)
+target_compile_features(chaintrue_googletest PUBLIC cxx_std_20)
+add_library(GTest::gmock ALIAS chaintrue_googletest)
+add_library(GTest::gtest_main ALIAS chaintrue_googletest)
+
+# What starts the command or threads: there are neither processes nor threads in one module.
+function(chaintrue_leave_out_processes list)
+  foreach(source ${${list}})
+    file(STRINGS ${source} processes REGEX "command_fixture\\.hpp|<thread>|CHAINTRUE_COMMAND")
+    if(processes)
+      list(REMOVE_ITEM ${list} ${source})
+    endif()
+  endforeach()
+  set(${list} ${${list}} PARENT_SCOPE)
+endfunction()
+
+add_custom_target(wasm_suite)
+
+# The linker's own optimiser is left out: it takes longer than the tests gain.
+function(chaintrue_test_under_node target)
+  target_link_options(${target} PRIVATE -O0 -sASSERTIONS=0 -sENVIRONMENT=node -sNODERAWFS -sEXIT_RUNTIME -sALLOW_MEMORY_GROWTH
+    -sTOTAL_STACK=8388608)
+  set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
+  add_dependencies(wasm_suite ${target})
+  add_test(NAME ${target} COMMAND ${target} --gtest_brief=1)
+endfunction()
