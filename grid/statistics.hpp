@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 namespace chaintrue::grid {
@@ -19,6 +20,9 @@ namespace chaintrue::grid {
 
 /// Of the vectors' lengths; of nothing 0.
 [[nodiscard]] double rms_length(const std::vector<Eigen::Vector2d>& values);
+
+/// The logarithm of nothing.
+inline constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
 /// log(exp(a) + exp(b)), without overflow; minus infinity stands for nothing.
 [[nodiscard]] double log_sum(double a, double b);

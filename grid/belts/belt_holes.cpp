@@ -16,7 +16,7 @@ using model::FramePoint;
 
 namespace {
 
-Eigen::Vector2d vector_of(const model::Anchor& anchor) { return {anchor.x_mm, anchor.y_mm}; }
+Eigen::Vector2d place_of_anchor(const model::Anchor& anchor) { return {anchor.x_mm, anchor.y_mm}; }
 
 /// Where the upper spans end, and u_i . (dm - dA_i) = 0 with u_i from anchor i to the tool.
 struct Placed {
@@ -29,12 +29,12 @@ std::optional<Placed> placed(const model::BeltMachine& in_force,
                              BedPoint command) {
   const FramePoint meant = model::to_frame(in_force, command);
   const Eigen::Vector2d target(meant.x_mm, meant.y_mm);
-  const Eigen::Vector2d tl = vector_of(machine.anchors.tl);
-  const Eigen::Vector2d tr = vector_of(machine.anchors.tr);
+  const Eigen::Vector2d tl = place_of_anchor(machine.anchors.tl);
+  const Eigen::Vector2d tr = place_of_anchor(machine.anchors.tr);
   const auto place = model::crossing({tl.x(), tl.y()},
-                                     (target - vector_of(in_force.anchors.tl)).norm(),
+                                     (target - place_of_anchor(in_force.anchors.tl)).norm(),
                                      {tr.x(), tr.y()},
-                                     (target - vector_of(in_force.anchors.tr)).norm());
+                                     (target - place_of_anchor(in_force.anchors.tr)).norm());
   if (!place) return std::nullopt;
   Placed result{{place->x_mm, place->y_mm}, Eigen::Matrix<double, 2, kAnchorUnknowns>::Zero()};
   Eigen::Matrix2d ways;

@@ -29,7 +29,7 @@ using belts::TapedFrame;
 using belts::TapedNoise;
 using belts::TapedRows;
 
-tl::unexpected<BeltsFitFailure> failure(BeltsFitFailure::Reason reason, std::string sentence) {
+tl::unexpected<BeltsFitFailure> joint_failure(BeltsFitFailure::Reason reason, std::string sentence) {
   return tl::unexpected(BeltsFitFailure{reason, std::move(sentence)});
 }
 
@@ -332,7 +332,7 @@ tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
   if (measured.points.empty() && !measured.machine.anchors_known)
     throw precondition("holes of a machine of which no anchor is known");
   if (count > kMostTapedByBelts) {
-    return failure(Reason::too_many_distances,
+    return joint_failure(Reason::too_many_distances,
                    fmt::format("{} distances are more than a fit beside belts takes ({}): leave "
                                "some out, evenly over the sheet",
                                count,
@@ -343,7 +343,7 @@ tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
   const TapedFrame frame(measured, sets, std::move(alone->second));
   const auto state = settled_state(frame, sets);
   if (!state) {
-    return failure(Reason::tape_contradicts,
+    return joint_failure(Reason::tape_contradicts,
                    "more than a third of the distances contradict the belts or each other: check "
                    "the anchors in force when the holes were cut, which holes the distances join, "
                    "and the tape's hook offset");

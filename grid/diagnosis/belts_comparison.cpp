@@ -108,9 +108,9 @@ bool one_event(const Regressor& a, const Regressor& b) {
 }
 
 /// Sets of causes beside one pattern.
-class Search {
+class BeltCauseSearch {
  public:
-  Search(const BeltsAnalysis& a, std::size_t number, const std::vector<int>& columns)
+  BeltCauseSearch(const BeltsAnalysis& a, std::size_t number, const std::vector<int>& columns)
       : system_(a.linear.system),
         number_(number),
         space_(a.analysis.comparison.marginalised_systems[number]),
@@ -244,7 +244,7 @@ void compare_belts(const std::vector<std::vector<bool>>& sets, Look look, BeltsA
   std::vector<std::vector<int>> columns;
   for (std::size_t number = 0; number < sets.size(); ++number) {
     columns.push_back(columns_to_try(system, comparison.marginalised_systems[number]));
-    auto models = Search(a, number, columns.back()).run_alone();
+    auto models = BeltCauseSearch(a, number, columns.back()).run_alone();
     double most = models.front().log_weight;
     for (const CandidateModel& model : models) most = std::max(most, model.log_weight);
     best.emplace_back(most, number);
@@ -261,7 +261,7 @@ void compare_belts(const std::vector<std::vector<bool>>& sets, Look look, BeltsA
       for (std::size_t s = choice.strength_step - 1; s < kPatternStrengths;
            s += choice.strength_step) {
         const auto number_of = static_cast<int>(l * kPatternStrengths + s);
-        take(Search(a, number, columns[number])
+        take(BeltCauseSearch(a, number, columns[number])
                  .run_beside(beside_pattern(covariance, space.root, number_of),
                              number_of,
                              log_share_of_pattern(number_of)));

@@ -15,16 +15,16 @@ using model::kBelts;
 namespace {
 
 /// A direction shorter than this has been set aside already.
-constexpr double kNothingLeft = 1e-9;
+constexpr double kNothingLeftOfBelts = 1e-9;
 /// A search goes on so far beyond the best set, since two bad readings can mask each other.
 constexpr std::size_t kBeyondTheBest = 8;
 
 int count_of(const model::PerBelt<bool>& bad) { return bad.tl + bad.tr + bad.bl + bad.br; }
 
 /// One hypothesis and what is left of each place's two checks.
-class Search {
+class BeltOutlierSearch {
  public:
-  Search(const BeltsSystem& system, const std::vector<int>& set)
+  BeltOutlierSearch(const BeltsSystem& system, const std::vector<int>& set)
       : system_(system), count_(system.checks.size()), left_(count_, Eigen::Matrix2d::Identity()) {
     const LinearisedSystem& own = system.system;
     e_ = own.e;
@@ -101,7 +101,7 @@ class Search {
   [[nodiscard]] Worst worst_reading() const {
     Worst worst;
     for (std::size_t k = 0; k < count_; ++k) {
-      if (left_[k].squaredNorm() < kNothingLeft) continue;
+      if (left_[k].squaredNorm() < kNothingLeftOfBelts) continue;
       const auto row = static_cast<Eigen::Index>(2 * k);
       const auto x = x_.middleRows<2>(row);
       const Eigen::Vector2d r = e_.segment<2>(row) - x * beta_;
@@ -109,10 +109,10 @@ class Search {
       for (const Belt belt : kBelts) {
         Eigen::Vector2d v =
             left_[k] * system_.checks[k].row(static_cast<Eigen::Index>(belt)).transpose();
-        if (v.norm() < kNothingLeft) continue;
+        if (v.norm() < kNothingLeftOfBelts) continue;
         v.normalize();
         const double share = 1.0 - v.dot(taken * v);
-        const double drop = share > kNothingLeft ? std::pow(v.dot(r), 2) / share : 0.0;
+        const double drop = share > kNothingLeftOfBelts ? std::pow(v.dot(r), 2) / share : 0.0;
         if (drop > worst.drop) worst = {k, belt, v, drop};
       }
     }
@@ -155,7 +155,7 @@ std::vector<BadReadings> bad_readings(const BeltsSystem& system,
                                       const std::vector<std::vector<int>>& hypotheses) {
   std::vector<BadReadings> found;
   for (const auto& set : hypotheses) {
-    BadReadings one = Search(system, set).run();
+    BadReadings one = BeltOutlierSearch(system, set).run();
     const auto same = std::find_if(
         found.begin(), found.end(), [&](const BadReadings& f) { return f.bad == one.bad; });
     if (same == found.end()) {

@@ -12,7 +12,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-std::string sized(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {
+std::string sized_belt_cause(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {
   std::string text = fmt::format("{}{} (", cause.effect->cause, side_words(cause));
   for (const ParameterEstimate& own : parameters) {
     if (&own != &parameters.front()) text += ", ";
@@ -29,7 +29,7 @@ std::string end_of(const BeltEnd& end) {
   return fmt::format("({:g}, {:g})", at.x_mm, at.y_mm);
 }
 
-std::vector<std::string> bad_ones(const Diagnosis& d) {
+std::vector<std::string> bad_belts(const Diagnosis& d) {
   std::vector<std::string> result;
   for (const Outlier& bad : d.outliers) {
     result.push_back(bad.belt
@@ -58,7 +58,7 @@ std::string gain_words(const BeltsFindings& found) {
 }
 
 /// " Besides, 0.4 mm of each reading ..."
-std::string besides_words(const Diagnosis& d) {
+std::string beside_belts_words(const Diagnosis& d) {
   if (!d.unexplained || d.unexplained->probability <= kDiscrepancyLikely) return "";
   return fmt::format(
       " Besides, {:.2f} mm a belt follow a pattern over some {:.0f} mm of the sheet that no listed "
@@ -68,14 +68,14 @@ std::string besides_words(const Diagnosis& d) {
       percent(d.unexplained->probability));
 }
 
-std::string named_words(const Diagnosis& d) {
+std::string named_belt_words(const Diagnosis& d) {
   const Cause& cause = d.causes.front();
   std::string text = fmt::format("Most likely {}: probability {}.",
-                                 sized(cause.cause, cause.parameters),
+                                 sized_belt_cause(cause.cause, cause.parameters),
                                  percent(cause.probability));
   for (const SameCause& other : cause.same_as) {
     text += fmt::format(" No lengths of belts can tell it from this: {}.",
-                        sized(other.cause, other.parameters));
+                        sized_belt_cause(other.cause, other.parameters));
   }
   return text;
 }
@@ -83,7 +83,7 @@ std::string named_words(const Diagnosis& d) {
 std::string listed_words(const Diagnosis& d, std::string_view last) {
   std::vector<std::string> parts;
   for (const Cause& c : d.causes) {
-    parts.push_back(fmt::format("{}, {}", sized(c.cause, c.parameters), percent(c.probability)));
+    parts.push_back(fmt::format("{}, {}", sized_belt_cause(c.cause, c.parameters), percent(c.probability)));
   }
   return joined(parts, last);
 }
@@ -91,19 +91,19 @@ std::string listed_words(const Diagnosis& d, std::string_view last) {
 std::string sentence(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::named:
-      return named_words(d) + besides_words(d) + gain_words(*d.belts);
+      return named_belt_words(d) + beside_belts_words(d) + gain_words(*d.belts);
     case Verdict::named_set:
       return fmt::format("One of {} causes, which these lengths do not tell apart: {}.",
                          d.causes.size(),
                          listed_words(d, "or")) +
-             besides_words(d) + gain_words(*d.belts);
+             beside_belts_words(d) + gain_words(*d.belts);
     case Verdict::several_causes:
       return fmt::format("{} causes act together: {}.", d.causes.size(), listed_words(d, "and")) +
-             besides_words(d) + gain_words(*d.belts);
+             beside_belts_words(d) + gain_words(*d.belts);
     case Verdict::outliers:
       return fmt::format("Nothing is wrong but {} of the readings: {}. Without {} the frame fits.",
                          d.outliers.size(),
-                         joined(bad_ones(d), "and"),
+                         joined(bad_belts(d), "and"),
                          d.outliers.size() == 1 ? "it" : "them");
     case Verdict::model_discrepancy:
       return fmt::format(
@@ -192,7 +192,7 @@ void say_what_to_do(const MeasuredBelts& belts, const BeltsNext& next, Diagnosis
   }
   if (!d.outliers.empty()) {
     d.what_to_do.push_back(fmt::format("Do not trust {}: let the machine measure there again.",
-                                       joined(bad_ones(d), "and")));
+                                       joined(bad_belts(d), "and")));
   }
   say_what_to_measure(next, d);
   if (!d.belts->scale) {

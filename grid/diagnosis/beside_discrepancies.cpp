@@ -14,7 +14,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
 /// A discrepancy with what speaks for it before it is searched.
 struct Scouted {
@@ -97,9 +96,9 @@ class Scout {
 };
 
 /// The sets beside one discrepancy, each weighed in full.
-class Search {
+class BesideSearch {
  public:
-  Search(const LinearisedSystem& system,
+  BesideSearch(const LinearisedSystem& system,
          NormalEquations equations,
          int discrepancy,
          ModelCollector& collector)
@@ -282,7 +281,7 @@ std::vector<double> search_beside_discrepancies(const LinearisedSystem& system,
     for (const auto& set : leading) used.insert(used.end(), set.begin(), set.end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    Search(system, beside.equations(strength_of(discrepancy), used), discrepancy, collector)
+    BesideSearch(system, beside.equations(strength_of(discrepancy), used), discrepancy, collector)
         .run(singles, leading);
   }
   return of_kernel;

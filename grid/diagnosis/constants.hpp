@@ -32,4 +32,7 @@ inline CHAINTRUE_MAY_VARY std::array kLargerNoise = {1.5, 2.0, 2.7};
 inline CHAINTRUE_MAY_VARY std::array kDiscrepancyStrengths = {4.0, 6.5, 10.0, 16.0, 25.0, 60.0};
 #undef CHAINTRUE_MAY_VARY
 
+/// Where the settings leave less than this share of a signature there is nothing to see.
+inline constexpr double kAbsorbed = 1e-3;
+
 }  // namespace chaintrue::grid::diagnosis

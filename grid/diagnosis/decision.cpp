@@ -7,12 +7,12 @@
 #include <cmath>
 #include <map>
 
+#include "grid/diagnosis/constants.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr double kAbsorbed = 1e-3;
 
 /// The most telling regressor of each cause: the longest, and the nearest to the data among those
 /// of a cause with places.

@@ -9,9 +9,9 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr int kWorkSteps = 2;
-constexpr WorkStep kFitting{"anchors alone", 1, kWorkSteps};
-constexpr WorkStep kComparing{"the causes against each other", 2, kWorkSteps};
+constexpr int kBeltWorkSteps = 2;
+constexpr WorkStep kFitting{"anchors alone", 1, kBeltWorkSteps};
+constexpr WorkStep kComparingBelts{"the causes against each other", 2, kBeltWorkSteps};
 
 DiagnosisFailure failure_of(const BeltsFitFailure& failure) {
   using Of = BeltsFitFailure::Reason;
@@ -29,7 +29,7 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   tell(options.progress, kFitting);
   const auto alone = fit_belts(belts);
   if (!alone) return tl::unexpected(failure_of(alone.error()));
-  tell(options.progress, kComparing);
+  tell(options.progress, kComparingBelts);
   const auto analysed = analyse(belts, options);
   if (!analysed) return tl::unexpected(analysed.error());
   const Analysis& a = analysed->analysis;

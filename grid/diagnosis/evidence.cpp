@@ -14,7 +14,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
 /// log of the chance that a normal lies in [low, high].
 double log_mass(double mean, double sigma, double low, double high) {

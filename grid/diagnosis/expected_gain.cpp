@@ -12,8 +12,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr int kColumns = 25;  // 100 mm apart on a whole bed: waves of a sprocket's turn included
-constexpr int kRows = 13;
+constexpr int kGainColumns = 25;  // 100 mm apart on a whole bed: waves of a sprocket's turn included
+constexpr int kGainRows = 13;
 
 bool hangs_on_visits(const Analysis& a) {
   return std::any_of(a.decision.regressors.begin(), a.decision.regressors.end(), [&](int k) {
@@ -29,10 +29,10 @@ Session over_the_area(const Analysis& a) {
     return low + (high - low) * (i + 0.5) / n;
   };
   std::vector<model::MarkPoint> marks;
-  for (int j = 0; j < kRows; ++j) {
-    for (int i = 0; i < kColumns; ++i) {
-      marks.push_back({between(area.low.x_mm, area.high.x_mm, i, kColumns),
-                       between(area.low.y_mm, area.high.y_mm, j, kRows)});
+  for (int j = 0; j < kGainRows; ++j) {
+    for (int i = 0; i < kGainColumns; ++i) {
+      marks.push_back({between(area.low.x_mm, area.high.x_mm, i, kGainColumns),
+                       between(area.low.y_mm, area.high.y_mm, j, kGainRows)});
     }
   }
   return session_at(a, marks);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/diagnosis/constants.hpp"
 #include "grid/diagnosis/leading.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -16,7 +17,6 @@ namespace {
 using model::effects::EffectParameter;
 
 constexpr double kQuantile95 = 1.645;  // one-sided 95 %
-constexpr double kAbsorbed = 1e-3;     // of a signature left by the settings: nothing to see
 constexpr double kSettingOff = 3.0;    // sigmas: 1 in 370 for each setting
 
 /// Length of a column before the settings take their share.

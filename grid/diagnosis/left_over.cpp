@@ -11,7 +11,7 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr double kSmoothMm = 450.0;  // length over which a discrepancy is looked for
-constexpr int kDraws = 999;
+constexpr int kLeftOverDraws = 999;
 constexpr int kDegree = 4;
 /// Share of what is left that a coordinate must explain, beyond what its terms take by chance.
 constexpr double kFollowsShare = 0.2;
@@ -22,10 +22,10 @@ constexpr double kTimeOverPlace = 0.3;
 /// chance has?
 double p_of_structure(const Analysis& a) {
   const std::vector<Eigen::Index>& kept = marginalised_system(a).kept;
-  Eigen::MatrixXd e(static_cast<Eigen::Index>(kept.size()), kDraws + 1);
+  Eigen::MatrixXd e(static_cast<Eigen::Index>(kept.size()), kLeftOverDraws + 1);
   e.col(0) = left_of_machine(a.system, a.estimate, a.estimate.left)(kept);
   constexpr std::uint64_t kStream = 63;
-  e.rightCols(kDraws) = left_of_noise(a, Nuisances::put_back, kDraws, kStream);
+  e.rightCols(kLeftOverDraws) = left_of_noise(a, Nuisances::put_back, kLeftOverDraws, kStream);
   Eigen::MatrixXd k = discrepancy_covariance(a.system, kept, {{{FieldOf::place, kSmoothMm}}, 1.0});
   if (a.system.nuisances > 0) {
     const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(a.system, kept);
@@ -37,8 +37,8 @@ double p_of_structure(const Analysis& a) {
   const Eigen::ArrayXd in_common = (e.array() * (k * e).array()).colwise().sum();
   const Eigen::ArrayXd all = e.colwise().squaredNorm();
   const Eigen::ArrayXd share = in_common / all.max(1e-300);
-  const auto above = (share.tail(kDraws) >= share(0)).count();
-  return (static_cast<double>(above) + 1.0) / (kDraws + 1.0);
+  const auto above = (share.tail(kLeftOverDraws) >= share(0)).count();
+  return (static_cast<double>(above) + 1.0) / (kLeftOverDraws + 1.0);
 }
 
 struct Coordinate {

@@ -17,7 +17,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
 double prior_of_count(std::size_t causes, bool beside_discrepancy) {
   const std::array<double, kMostCauses + 1> prior = {

@@ -10,8 +10,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr int kColumns = 20;
-constexpr int kRows = 12;
+constexpr int kCandidateColumns = 20;
+constexpr int kCandidateRows = 12;
 
 /// Readings of the machine, with the sigma that care with usual tools reaches.
 struct MachineReading {
@@ -73,11 +73,11 @@ class PointCandidates {
     }
     x = std::min(1.1 * x, 0.49 * session_.stated.bed.width_mm);
     y = std::min(1.1 * y, 0.49 * session_.stated.bed.height_mm);
-    for (int j = 0; j < kRows; ++j) {
-      for (int i = 0; i < kColumns; ++i) {
+    for (int j = 0; j < kCandidateRows; ++j) {
+      for (int i = 0; i < kCandidateColumns; ++i) {
         // Whole millimetres: the list is for a person with a tape.
-        const model::MarkPoint mark{std::round(x * (2.0 * i / (kColumns - 1) - 1.0)),
-                                    std::round(y * (2.0 * j / (kRows - 1) - 1.0))};
+        const model::MarkPoint mark{std::round(x * (2.0 * i / (kCandidateColumns - 1) - 1.0)),
+                                    std::round(y * (2.0 * j / (kCandidateRows - 1) - 1.0))};
         if (model_.at(sheet_.to_bed(mark))) add(mark, MeasurementKind::point, "a new point");
       }
     }

@@ -10,8 +10,8 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 /// New holes are looked for on this raster over what the holes span.
-constexpr int kColumns = 7;
-constexpr int kRows = 4;
+constexpr int kHoleColumns = 7;
+constexpr int kHoleRows = 4;
 constexpr double kApartMm = 200.0;  ///< a hole beside another says the same
 /// A new hole is measured to this many others: two place it, the third speaks.
 constexpr std::size_t kArms = 3;
@@ -133,10 +133,10 @@ class HoleCandidates {
       x = std::max(x, std::abs(hole.commanded.x_mm));
       y = std::max(y, std::abs(hole.commanded.y_mm));
     }
-    for (int j = 0; j < kRows; ++j) {
-      for (int i = 0; i < kColumns; ++i) {
-        add_hole({std::round(x * (2.0 * i / (kColumns - 1) - 1.0)),
-                  std::round(y * (2.0 * j / (kRows - 1) - 1.0))});
+    for (int j = 0; j < kHoleRows; ++j) {
+      for (int i = 0; i < kHoleColumns; ++i) {
+        add_hole({std::round(x * (2.0 * i / (kHoleColumns - 1) - 1.0)),
+                  std::round(y * (2.0 * j / (kHoleRows - 1) - 1.0))});
       }
     }
   }

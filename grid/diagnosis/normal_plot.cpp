@@ -10,7 +10,7 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr int kDraws = 499;
+constexpr int kPlotDraws = 499;
 constexpr int kInside = 474;  // 95 % of them
 /// Fewer ranks have no shape: those of eight points.
 constexpr Eigen::Index kFewestRows = 2 * static_cast<Eigen::Index>(kFewestPoints);
@@ -40,10 +40,10 @@ struct Rank {
 Rank rank_of(std::vector<double> draws) {
   std::sort(draws.begin(), draws.end());
   Rank rank;
-  for (const double value : draws) rank.mean += value / kDraws;
-  constexpr std::size_t kTail = kDraws / 40;
+  for (const double value : draws) rank.mean += value / kPlotDraws;
+  constexpr std::size_t kTail = kPlotDraws / 40;
   rank.below = rank.mean - draws[kTail];
-  rank.above = draws[kDraws - 1 - kTail] - rank.mean;
+  rank.above = draws[kPlotDraws - 1 - kTail] - rank.mean;
   return rank;
 }
 
@@ -68,9 +68,9 @@ std::optional<NormalPlot> normal_plot(const Analysis& a) {
   NormalPlot plot;
   plot.values = shape_of(Eigen::VectorXd(left(marginalised.kept)).head(rows));
   constexpr std::uint64_t kStream = 64;
-  const Eigen::MatrixXd noise = left_of_noise(a, Nuisances::taken_out, kDraws, kStream);
+  const Eigen::MatrixXd noise = left_of_noise(a, Nuisances::taken_out, kPlotDraws, kStream);
   std::vector<std::vector<double>> curves;
-  for (Eigen::Index draw = 0; draw < kDraws; ++draw) {
+  for (Eigen::Index draw = 0; draw < kPlotDraws; ++draw) {
     curves.push_back(shape_of(noise.col(draw).head(rows)));
   }
   std::vector<Rank> ranks;
@@ -84,7 +84,7 @@ std::optional<NormalPlot> normal_plot(const Analysis& a) {
   std::sort(usual.begin(), usual.end());
   const double own = strays(ranks, plot.values);
   const auto as_far = usual.end() - std::lower_bound(usual.begin(), usual.end(), own);
-  plot.p_value = static_cast<double>(as_far + 1) / (kDraws + 1);
+  plot.p_value = static_cast<double>(as_far + 1) / (kPlotDraws + 1);
   const double wide = usual[kInside - 1];
   for (const Rank& rank : ranks) {
     plot.expected.push_back(rank.mean);

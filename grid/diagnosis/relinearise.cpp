@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kRounds = 8;
 constexpr double kSettled = 1e-3;     // of a size: a hundredth of its sigma at strength 10
-constexpr double kSettledMm = 1e-3;  // of a setting
+constexpr double kSettledSettingMm = 1e-3;  // of a setting
 constexpr int kSteps = 5;             // of the search for a size
 constexpr double kLongestStep = 0.5;  // of a size
 
@@ -187,7 +187,7 @@ Relinearised relinearise(const Analysis& a) {
     const Round here(session, result.state, *about, std::move(there), discrepancy);
     const auto settings = static_cast<Eigen::Index>(session.settings.size());
     bool settled =
-        here.estimate().setting_change.head(settings).cwiseAbs().maxCoeff() < kSettledMm;
+        here.estimate().setting_change.head(settings).cwiseAbs().maxCoeff() < kSettledSettingMm;
     std::vector<Regressor> moved = own;
     for (std::size_t k = 0; k < own.size(); ++k) {
       if (own[k].fixed) continue;

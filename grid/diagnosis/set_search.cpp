@@ -10,11 +10,11 @@
 
 #include "grid/diagnosis/beside_discrepancies.hpp"
 #include "grid/diagnosis/ties.hpp"
+#include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr double kMinusInfinity = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 
 #include "grid/estimation/joint_problem.hpp"
 #include "grid/estimation/left_out.hpp"
+#include "grid/estimation/unknowns.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -17,7 +18,6 @@ namespace {
 using model::Side;
 using Reason = EstimationFailure::Reason;
 
-constexpr auto kMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
 /// A weight that changes by this much moves nothing by more than a few hundredths of its sigma.
 constexpr double kSettledWeight = 1e-2;
 /// Passes with soft weights only, so that several bad units cannot hide each other.
@@ -287,7 +287,7 @@ void Estimator::fill_covariances(Estimate& estimate) const {
   estimate.columns = {unknowns.settings(), estimate.surface.basis.size()};
   estimate.covariance = problem_->map_covariance(fit_, estimate.columns);
   std::vector<Eigen::Index> own;
-  for (Eigen::Index i = 0; i < kMachine; ++i) own.push_back(i);
+  for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) own.push_back(i);
   own.insert(own.end(), {unknowns.scale(Side::left), unknowns.scale(Side::right)});
   const Eigen::VectorXd coefficients = problem_->coefficients(fit_);
   estimate.map_unknowns = coefficients.head(unknowns.settings() + 2);
@@ -329,13 +329,13 @@ tl::expected<Estimate, EstimationFailure> Estimator::run() {
 MachineKnowledge stated_knowledge(const model::Machine& machine) {
   MachineKnowledge knowledge;
   knowledge.covariance = Eigen::MatrixXd::Zero(kMachineUnknowns, kMachineUnknowns);
-  for (Eigen::Index i = 0; i < kMachine; ++i) {
+  for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
     const double sigma =
         std::max(model::stated_sigma(machine, model::kMachineSettings[static_cast<std::size_t>(i)]),
                  kKnownSigma);
     knowledge.covariance(i, i) = sigma * sigma;
   }
-  knowledge.covariance(kMachine, kMachine) = knowledge.covariance(kMachine + 1, kMachine + 1) =
+  knowledge.covariance(kMachineSettingCount, kMachineSettingCount) = knowledge.covariance(kMachineSettingCount + 1, kMachineSettingCount + 1) =
       kScaleSigma * kScaleSigma;
   return knowledge;
 }

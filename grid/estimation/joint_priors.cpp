@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/estimation/joint_problem.hpp"
+#include "grid/estimation/unknowns.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -12,7 +13,6 @@ using model::Side;
 using observation::Observation;
 
 namespace {
-constexpr auto kMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
 }
 
 void JointProblem::add_rows(interp::PenalisedProblem& problem,
@@ -47,7 +47,7 @@ void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
   precision.diagonal().tail<2>().setConstant(1.0 / (kScaleSigma * kScaleSigma));
   if (input_.knowledge) {
     std::vector<Eigen::Index> own;
-    for (Eigen::Index i = 0; i < kMachine; ++i) own.push_back(i);
+    for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) own.push_back(i);
     own.insert(own.end(), {count - 2, count - 1});
     const Eigen::MatrixXd inverse = input_.knowledge->covariance.llt().solve(
         Eigen::MatrixXd::Identity(kMachineUnknowns, kMachineUnknowns));

@@ -10,6 +10,7 @@
 
 #include "grid/chain_rows.hpp"
 #include "grid/estimation/surface_correction.hpp"
+#include "grid/estimation/unknowns.hpp"
 #include "grid/map/measured_area.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -20,7 +21,6 @@ using model::MarkPoint;
 using model::Side;
 using observation::Observation;
 
-constexpr auto kMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
 
 std::vector<MarkPoint> stated_marks(const observation::Observations& observations) {
   std::vector<MarkPoint> marks;
@@ -199,7 +199,7 @@ Eigen::MatrixXd JointProblem::lengths_by_unknown(std::size_t place,
                                                  const SystemPlace& at,
                                                  const observation::View& view) const {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, unknowns_->total());
-  for (Eigen::Index i = 0; i < kMachine; ++i) {
+  for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
     rows.col(i) = at.state.by_length.cwiseProduct(view.model.sensitivity(
         at.state.reading, model::kMachineSettings[static_cast<std::size_t>(i)]));
   }

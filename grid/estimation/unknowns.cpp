@@ -8,7 +8,6 @@
 namespace chaintrue::grid::estimation {
 namespace {
 
-constexpr auto kMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
 constexpr auto kSheet = static_cast<Eigen::Index>(model::kSheetSettings.size());
 
 }  // namespace
@@ -27,19 +26,19 @@ Unknowns::Unknowns(const model::Machine& stated,
                    SurfaceColumns surface)
     : stated_(stated), surface_(surface) {
   const bool frame_is_laid = !observations.empty() && observations.front()->sheet().has_value();
-  settings_ = kMachine + (frame_is_laid ? kSheet : 0);
+  settings_ = kMachineSettingCount + (frame_is_laid ? kSheet : 0);
   total_ = settings_ + 2 + 2 * (surface.polynomials + surface.bends);
   for (std::size_t i = 0; i < observations.size(); ++i) {
     sheet_.push_back(-1);
     if (observations[i]->sheet()) {
-      sheet_.back() = i == 0 ? kMachine : total_;
+      sheet_.back() = i == 0 ? kMachineSettingCount : total_;
       if (i > 0) total_ += kSheet;
     }
     nuisance_.push_back(total_);
     total_ += observations[i]->nuisance_sigma().size();
   }
   sigma_ = Eigen::VectorXd::Zero(total_);
-  for (Eigen::Index i = 0; i < kMachine; ++i) {
+  for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
     sigma_[i] = std::max(
         model::stated_sigma(stated, model::kMachineSettings[static_cast<std::size_t>(i)]),
         kKnownSigma);
@@ -54,7 +53,7 @@ Unknowns::Unknowns(const model::Machine& stated,
 
 std::vector<Eigen::Index> Unknowns::columns_of(std::size_t observation) const {
   std::vector<Eigen::Index> columns;
-  for (Eigen::Index i = 0; i < kMachine; ++i) columns.push_back(i);
+  for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) columns.push_back(i);
   for (Eigen::Index i = 0; sheet_[observation] >= 0 && i < kSheet; ++i)
     columns.push_back(sheet_[observation] + i);
   return columns;
@@ -62,7 +61,7 @@ std::vector<Eigen::Index> Unknowns::columns_of(std::size_t observation) const {
 
 model::Machine Unknowns::machine_at(const Eigen::VectorXd& unknowns) const {
   model::Machine machine = stated_;
-  for (Eigen::Index i = 0; i < kMachine; ++i) {
+  for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
     const model::Setting setting = model::kMachineSettings[static_cast<std::size_t>(i)];
     machine = model::with_setting(
         std::move(machine), setting, model::stated_value(stated_, setting) + unknowns[i]);

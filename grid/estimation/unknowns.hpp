@@ -17,12 +17,16 @@
 
 #include "grid/chain_rows.hpp"
 #include "grid/observation/observation.hpp"
+#include "model/calibration/setting.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid::estimation {
 
 /// What is stated without any uncertainty is taken as known this well, in mm or rad.
 inline constexpr double kKnownSigma = 1e-7;
+
+/// Settings of the machine: the first unknowns.
+inline constexpr auto kMachineSettingCount = static_cast<Eigen::Index>(model::kMachineSettings.size());
 
 /// How many columns a surface has for each chain: polynomials and bends.
 struct SurfaceColumns {

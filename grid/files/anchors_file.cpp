@@ -5,6 +5,7 @@
 
 #include "grid/files/belt_holes_record.hpp"
 #include "grid/files/belts_record.hpp"
+#include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 
 namespace chaintrue::grid::files {
@@ -13,13 +14,10 @@ namespace {
 using model::Belt;
 using model::PerBelt;
 
-constexpr Range kMillimetres{"mm", -1e6, 1e6};
-constexpr Range kSigma{"mm", 0.0, 1e6};
 constexpr Range kSquare{"mm^2", -1e12, 1e12};
-constexpr Range kAnyNumber{"", -1e12, 1e12};
-constexpr int kMostPoints = 100000;
+constexpr int kMostPlaces = 100000;
 
-const Record<AnchorCoordinate>& coordinate_record() {
+const Record<AnchorCoordinate>& fitted_coordinate_record() {
   static const auto record =
       Record<AnchorCoordinate>("a coordinate of an anchor")
           .required("coordinate",
@@ -27,7 +25,7 @@ const Record<AnchorCoordinate>& coordinate_record() {
                     one_of({"tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"}))
           .optional("stated_mm", &AnchorCoordinate::stated_mm, number(kMillimetres))
           .required("fitted_mm", &AnchorCoordinate::fitted_mm, number(kMillimetres))
-          .required("sigma_mm", &AnchorCoordinate::sigma_mm, number(kSigma))
+          .required("sigma_mm", &AnchorCoordinate::sigma_mm, number(kSigmaMm))
           .required("rests_on",
                     &AnchorCoordinate::rests_on,
                     object(per_belt_record<double>(number(kAnyNumber))));
@@ -38,9 +36,9 @@ Record<BadBeltReading>& add_point(Record<BadBeltReading>& record) {
   return record.custom(
       "point",
       true,
-      {"a point's number", integer(0, kMostPoints).expected.schema},
+      {"a point's number", integer(0, kMostPlaces).expected.schema},
       [](const Cursor& at, BadBeltReading& bad) {
-        if (const auto index = at.integer(0, kMostPoints))
+        if (const auto index = at.integer(0, kMostPlaces))
           bad.point = static_cast<std::size_t>(*index);
       },
       [](const BadBeltReading& bad) { return std::optional<Json>(bad.point); });
@@ -80,7 +78,7 @@ std::optional<std::vector<double>> numbers(const Cursor& at,
   return found;
 }
 
-const Record<FittedPlace>& place_record() {
+const Record<FittedPlace>& fitted_place_record() {
   static const auto record = [] {
     Record<FittedPlace> place("a fitted place");
     const auto coordinate = [&](const char* key, double model::FramePoint::*member) {
@@ -125,7 +123,7 @@ const Record<FittedPlace>& place_record() {
 }
 
 void read_coordinates(const Cursor& at, BeltsFit& fit) {
-  const auto found = list(object(coordinate_record())).read(at);
+  const auto found = list(object(fitted_coordinate_record())).read(at);
   if (!found) return;
   if (found->size() != fit.coordinates.size()) {
     at.problems().add(at.pointer(), fmt::format("{} of them", found->size()), "five coordinates");
@@ -174,12 +172,12 @@ void add_fit(Record<BeltsFit>& record) {
   record.required("machine", &BeltsFit::machine, object(belt_machine_record()))
       .custom("coordinates",
               true,
-              {"five coordinates", list(object(coordinate_record()), 5).expected.schema},
+              {"five coordinates", list(object(fitted_coordinate_record()), 5).expected.schema},
               read_coordinates,
               [](const BeltsFit& fit) {
                 Json all = Json::array();
                 for (const AnchorCoordinate& c : fit.coordinates)
-                  all.push_back(coordinate_record().write(c));
+                  all.push_back(fitted_coordinate_record().write(c));
                 return std::optional<Json>(std::move(all));
               })
       .custom(
@@ -188,9 +186,9 @@ void add_fit(Record<BeltsFit>& record) {
           {"five rows of five numbers", list(list(number(kSquare), 5), 5).expected.schema},
           read_covariance,
           written_covariance)
-      .required("spread_mm", &BeltsFit::spread_mm, number(kSigma))
-      .required("checks", &BeltsFit::checks, integer(0, 4 * kMostPoints))
-      .required("rms_mm", &BeltsFit::rms_mm, number(kSigma))
+      .required("spread_mm", &BeltsFit::spread_mm, number(kSigmaMm))
+      .required("checks", &BeltsFit::checks, integer(0, 4 * kMostPlaces))
+      .required("rms_mm", &BeltsFit::rms_mm, number(kSigmaMm))
       .required(
           "rms_of_mm", &BeltsFit::rms_of_mm, object(per_belt_record<double>(number(kAnyNumber))))
       .custom(
@@ -212,15 +210,15 @@ void add_fit(Record<BeltsFit>& record) {
       .custom(
           "bad_points",
           false,
-          {"a list of points", list(integer(0, kMostPoints)).expected.schema},
+          {"a list of points", list(integer(0, kMostPlaces)).expected.schema},
           [](const Cursor& at, BeltsFit& fit) {
-            const auto found = list(integer(0, kMostPoints)).read(at);
+            const auto found = list(integer(0, kMostPlaces)).read(at);
             if (found) fit.bad_points.assign(found->begin(), found->end());
           },
           [](const BeltsFit& fit) {
             return fit.bad_points.empty() ? std::nullopt : std::optional<Json>(fit.bad_points);
           })
-      .required("places", &BeltsFit::places, list(object(place_record())));
+      .required("places", &BeltsFit::places, list(object(fitted_place_record())));
 }
 
 const Record<BeltsFit>& fit_record() {
@@ -232,7 +230,7 @@ const Record<BeltsFit>& fit_record() {
   return record;
 }
 
-const Record<FittedAnchors>& anchors_record() {
+const Record<FittedAnchors>& fitted_anchors_record() {
   static const auto record = Record<FittedAnchors>("a chaintrue_anchors file", kAnchorsFormat)
                                  .sparse("name", &FittedAnchors::name, text())
                                  .required("fit", &FittedAnchors::fit, object(fit_record()))
@@ -244,13 +242,13 @@ const Record<FittedAnchors>& anchors_record() {
 
 }  // namespace
 
-Json anchors_schema() { return anchors_record().schema(); }
+Json anchors_schema() { return fitted_anchors_record().schema(); }
 
 FittedAnchors parse_anchors(const std::string& text,
                             const std::string& file,
                             std::vector<Warning>* warnings) {
   Problems problems(file);
-  FittedAnchors anchors = read_document(anchors_record(), text, problems);
+  FittedAnchors anchors = read_document(fitted_anchors_record(), text, problems);
   if (warnings != nullptr) {
     warnings->insert(warnings->end(), problems.warnings().begin(), problems.warnings().end());
   }
@@ -262,7 +260,7 @@ bool looks_like_anchors(std::string_view text) {
 }
 
 std::string write_anchors(const FittedAnchors& anchors) {
-  return write_document(anchors_record(), anchors);
+  return write_document(fitted_anchors_record(), anchors);
 }
 
 }  // namespace chaintrue::grid::files

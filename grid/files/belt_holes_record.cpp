@@ -5,16 +5,14 @@
 
 #include "grid/belts/belt_holes.hpp"
 #include "grid/files/belts_record.hpp"
+#include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr Range kMillimetres{"mm", -1e6, 1e6};
-constexpr Range kPositive{"mm", 1e-9, 1e6};
-constexpr Range kSigma{"mm", 0.0, 1e6};
+constexpr Range kPositiveMm{"mm", 1e-9, 1e6};
 constexpr Range kFactor{"", 1e-3, 1e3};
 constexpr Range kAngle{"rad", -1.0, 1.0};
-constexpr Range kAnyNumber{"", -1e12, 1e12};
 constexpr int kMostSets = 1000;
 
 /// A coordinate of a point that the object holds.
@@ -30,7 +28,7 @@ void add_coordinate(Record<T>& record, const char* key, Point T::*point, double 
       [point, member](const T& object) { return std::optional<Json>(object.*point.*member); });
 }
 
-const Record<BeltHole>& hole_record() {
+const Record<BeltHole>& belt_hole_record() {
   static const auto record = [] {
     Record<BeltHole> hole("a fitted hole");
     hole.required("name", &BeltHole::name, text());
@@ -43,7 +41,7 @@ const Record<BeltHole>& hole_record() {
   return record;
 }
 
-const Record<BeltTapedDistance>& distance_record() {
+const Record<BeltTapedDistance>& taped_distance_record() {
   static const auto record =
       Record<BeltTapedDistance>("a fitted distance")
           .custom(
@@ -59,7 +57,7 @@ const Record<BeltTapedDistance>& distance_record() {
           .required("measured_mm", &BeltTapedDistance::measured_mm, number(kMillimetres))
           .required("off_mm", &BeltTapedDistance::off_mm, number(kMillimetres))
           .required("left_out_mm", &BeltTapedDistance::left_out_mm, number(kMillimetres))
-          .required("left_out_sigma_mm", &BeltTapedDistance::left_out_sigma_mm, number(kSigma))
+          .required("left_out_sigma_mm", &BeltTapedDistance::left_out_sigma_mm, number(kSigmaMm))
           .required("set_aside", &BeltTapedDistance::set_aside, boolean());
   return record;
 }
@@ -76,8 +74,8 @@ constexpr std::size_t kNumbersOfAPlace = 4;
 const Record<StatedDisplacement>& displacement_record() {
   static const auto record =
       Record<StatedDisplacement>("a displacement of the tool")
-          .required("size_mm", &StatedDisplacement::size_mm, number(kPositive))
-          .required("reach_mm", &StatedDisplacement::reach_mm, number(kPositive))
+          .required("size_mm", &StatedDisplacement::size_mm, number(kPositiveMm))
+          .required("reach_mm", &StatedDisplacement::reach_mm, number(kPositiveMm))
           .required("places",
                     &StatedDisplacement::places,
                     list(list(number(kMillimetres), kNumbersOfAPlace), 1))
@@ -119,7 +117,7 @@ struct StatedSheet {
   double rotation_rad = 0.0;
 };
 
-const Record<StatedSheet>& sheet_record() {
+const Record<StatedSheet>& stated_sheet_record() {
   static const auto record =
       Record<StatedSheet>("where the sheet lies")
           .required("x_mm", &StatedSheet::x_mm, number(kMillimetres))
@@ -128,7 +126,7 @@ const Record<StatedSheet>& sheet_record() {
   return record;
 }
 
-void read_covariance(const Cursor& at, HolesBesideBelts& holes) {
+void read_holes_covariance(const Cursor& at, HolesBesideBelts& holes) {
   const auto rows = list(list(number(kAnyNumber))).read(at);
   if (!rows || !at.clean()) return;
   const auto size = static_cast<Eigen::Index>(rows->size());
@@ -141,7 +139,7 @@ void read_covariance(const Cursor& at, HolesBesideBelts& holes) {
   }
 }
 
-std::optional<Json> written_covariance(const HolesBesideBelts& holes) {
+std::optional<Json> written_holes_covariance(const HolesBesideBelts& holes) {
   Json rows = Json::array();
   for (const auto& row : holes.covariance.rowwise())
     rows.push_back(std::vector<double>(row.begin(), row.end()));
@@ -168,10 +166,10 @@ const Record<HolesBesideBelts>& holes_beside_belts_record() {
   static const auto record =
       Record<HolesBesideBelts>("what holes tell beside belts")
           .required("machine", &HolesBesideBelts::machine, object(belt_machine_record()))
-          .required("holes", &HolesBesideBelts::holes, list(object(hole_record())))
-          .required("distances", &HolesBesideBelts::distances, list(object(distance_record())))
+          .required("holes", &HolesBesideBelts::holes, list(object(belt_hole_record())))
+          .required("distances", &HolesBesideBelts::distances, list(object(taped_distance_record())))
           .required("noise_factor", &HolesBesideBelts::noise_factor, number(kFactor))
-          .required("left_out_rms_mm", &HolesBesideBelts::left_out_rms_mm, number(kSigma))
+          .required("left_out_rms_mm", &HolesBesideBelts::left_out_rms_mm, number(kSigmaMm))
           .custom(
               "displacement",
               false,
@@ -187,20 +185,20 @@ const Record<HolesBesideBelts>& holes_beside_belts_record() {
           .custom(
               "sheet",
               false,
-              sheet_record().expected(),
+              stated_sheet_record().expected(),
               [](const Cursor& at, HolesBesideBelts& holes) {
-                if (const auto sheet = sheet_record().read(at))
+                if (const auto sheet = stated_sheet_record().read(at))
                   holes.sheet = Eigen::Vector3d(sheet->x_mm, sheet->y_mm, sheet->rotation_rad);
               },
               [](const HolesBesideBelts& holes) -> std::optional<Json> {
                 if (!holes.sheet) return std::nullopt;
-                return sheet_record().write({holes.sheet->x(), holes.sheet->y(), holes.sheet->z()});
+                return stated_sheet_record().write({holes.sheet->x(), holes.sheet->y(), holes.sheet->z()});
               })
           .custom("covariance",
                   true,
                   {"rows of numbers", list(list(number(kAnyNumber))).expected.schema},
-                  read_covariance,
-                  written_covariance)
+                  read_holes_covariance,
+                  written_holes_covariance)
           .check([](const Cursor& at, HolesBesideBelts& holes) { check_together(at, holes); });
   return record;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "grid/files/ranges.hpp"
+#include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 
 namespace chaintrue::grid::files {
@@ -16,13 +17,6 @@ using model::Belt;
 using model::BeltMachine;
 using model::kBelts;
 using model::PerBelt;
-
-// As in the file of a machine: model::problems_of says what a value may reasonably be.
-constexpr double kBeyondMeaning = 1e6;
-
-Value<double> number_in(std::string_view unit) {
-  return number({unit, -kBeyondMeaning, kBeyondMeaning});
-}
 
 std::string key_of(Belt belt, std::string_view unit = "") {
   return fmt::format("{}{}", name(belt), unit);
@@ -172,7 +166,7 @@ void add_command(Record<BeltPoint>& record) {
   });
 }
 
-const Record<BeltPoint>& point_record() {
+const Record<BeltPoint>& belt_point_record() {
   static const auto record = [] {
     Record<BeltPoint> point("a place");
     add_lengths(point);
@@ -204,7 +198,7 @@ const Record<BeltPoint>& point_record() {
   return record;
 }
 
-const Record<model::BedPoint>& hole_record() {
+const Record<model::BedPoint>& hole_place_record() {
   static const auto record =
       Record<model::BedPoint>("where a hole was commanded")
           .required("x_mm", &model::BedPoint::x_mm, number({"mm", -20000.0, 20000.0}))
@@ -224,7 +218,7 @@ void add_end(Record<BeltDistance>& record, const std::string& key, BeltEnd BeltD
          return Json{{"oneOf",
                       {{{"type", "integer"}, {"minimum", 0}},
                        anchor.expected.schema(),
-                       hole_record().schema()}}};
+                       hole_place_record().schema()}}};
        }},
       [member, expected](const Cursor& at, BeltDistance& distance) {
         constexpr int kMostPoints = 100000;
@@ -232,7 +226,7 @@ void add_end(Record<BeltDistance>& record, const std::string& key, BeltEnd BeltD
           if (const auto index = at.integer(0, kMostPoints))
             distance.*member = static_cast<std::size_t>(*index);
         } else if (at.json().is_object()) {
-          if (const auto hole = hole_record().read(at)) distance.*member = CutHole{*hole};
+          if (const auto hole = hole_place_record().read(at)) distance.*member = CutHole{*hole};
         } else {
           const auto belt = at.json().is_string()
                                 ? model::belt_of(at.json().get_ref<const std::string&>())
@@ -245,11 +239,11 @@ void add_end(Record<BeltDistance>& record, const std::string& key, BeltEnd BeltD
         const BeltEnd& end = distance.*member;
         if (const auto* index = std::get_if<std::size_t>(&end)) return Json(*index);
         if (const auto* belt = std::get_if<Belt>(&end)) return Json(std::string(name(*belt)));
-        return hole_record().write(std::get<CutHole>(end).commanded);
+        return hole_place_record().write(std::get<CutHole>(end).commanded);
       });
 }
 
-const Record<BeltDistance>& distance_record() {
+const Record<BeltDistance>& belt_distance_record() {
   static const auto record = [] {
     Record<BeltDistance> distance("a taped distance");
     add_end(distance, "from", &BeltDistance::from);
@@ -338,8 +332,8 @@ const Record<MeasuredBelts>& belts_record() {
       Record<MeasuredBelts>("a chaintrue_belts file", kBeltsFormat)
           .sparse("name", &MeasuredBelts::name, text())
           .optional("machine", &MeasuredBelts::machine, object(belt_machine_record()))
-          .required("points", &MeasuredBelts::points, list(object(point_record())))
-          .sparse("distances", &MeasuredBelts::distances, list(object(distance_record())))
+          .required("points", &MeasuredBelts::points, list(object(belt_point_record())))
+          .sparse("distances", &MeasuredBelts::distances, list(object(belt_distance_record())))
           .optional("firmware_fit", &MeasuredBelts::firmware_fit, object(firmware_fit_record()));
   return record;
 }

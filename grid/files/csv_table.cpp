@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "grid/files/blanks.hpp"
+
 namespace chaintrue::grid::files {
 namespace {
 
@@ -15,8 +17,6 @@ std::string_view without_byte_order_mark(std::string_view text) {
   while (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   return text;
 }
-
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 bool is_skipped(std::string_view line) {
   const auto first = std::find_if_not(line.begin(), line.end(), is_blank);
@@ -37,12 +37,6 @@ void for_each_line(std::string_view text, const Visit& visit) {
     const bool both = text[end] == '\r' && end + 1 < text.size() && text[end + 1] == '\n';
     text.remove_prefix(end + (both ? 2 : 1));
   }
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
 }
 
 /// A cell from the line's `begin`; `begin` moves behind its separator, or past the line's end at

@@ -4,6 +4,7 @@
 
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_record.hpp"
+#include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -13,14 +14,11 @@ using diagnosis::BeltsFindings;
 using diagnosis::DiagnosedCoordinate;
 using diagnosis::ToolError;
 
-constexpr Range kMillimetres{"mm", -1e6, 1e6};
-constexpr Range kSigma{"mm", 0.0, 1e6};
 /// As chaintrue_anchors has a value for each belt: one table serves both.
-constexpr Range kAnyNumber{"", -1e12, 1e12};
 constexpr Range kPerMetre{"mm a metre", 0.0, 1e4};
 constexpr int kMostVisits = 1000000000;
 
-const Record<DiagnosedCoordinate>& coordinate_record() {
+const Record<DiagnosedCoordinate>& diagnosed_coordinate_record() {
   static const auto record =
       Record<DiagnosedCoordinate>("a coordinate of an anchor beside causes")
           .required("coordinate",
@@ -29,11 +27,11 @@ const Record<DiagnosedCoordinate>& coordinate_record() {
           .optional("stated_mm", &DiagnosedCoordinate::stated_mm, number(kMillimetres))
           .required("before_mm", &DiagnosedCoordinate::before_mm, number(kMillimetres))
           .required("fitted_mm", &DiagnosedCoordinate::fitted_mm, number(kMillimetres))
-          .required("sigma_mm", &DiagnosedCoordinate::sigma_mm, number(kSigma));
+          .required("sigma_mm", &DiagnosedCoordinate::sigma_mm, number(kSigmaMm));
   return record;
 }
 
-const Record<BeltPlacePicture>& place_record() {
+const Record<BeltPlacePicture>& belt_place_record() {
   static const auto record = [] {
     Record<BeltPlacePicture> place("a place with its belts");
     const auto coordinate = [&](const char* key, double model::FramePoint::*member) {
@@ -64,15 +62,15 @@ const Record<BeltPlacePicture>& place_record() {
 const Record<ToolError>& tool_record() {
   static const auto record =
       Record<ToolError>("the tool's error")
-          .optional("stated_mm", &ToolError::stated_mm, number(kSigma))
-          .required("before_mm", &ToolError::before_mm, number(kSigma))
-          .required("after_mm", &ToolError::after_mm, number(kSigma))
+          .optional("stated_mm", &ToolError::stated_mm, number(kSigmaMm))
+          .required("before_mm", &ToolError::before_mm, number(kSigmaMm))
+          .required("after_mm", &ToolError::after_mm, number(kSigmaMm))
           .optional("scale_mm_per_m", &ToolError::scale_mm_per_m, number(kPerMetre));
   return record;
 }
 
-void read_coordinates(const Cursor& at, BeltsFindings& found) {
-  const auto read = list(object(coordinate_record())).read(at);
+void read_diagnosed_coordinates(const Cursor& at, BeltsFindings& found) {
+  const auto read = list(object(diagnosed_coordinate_record())).read(at);
   if (!read) return;
   if (read->size() != found.coordinates.size()) {
     at.problems().add(at.pointer(), fmt::format("{} of them", read->size()), "five coordinates");
@@ -84,7 +82,7 @@ void read_coordinates(const Cursor& at, BeltsFindings& found) {
 std::optional<Json> written_coordinates(const BeltsFindings& found) {
   Json all = Json::array();
   for (const DiagnosedCoordinate& c : found.coordinates)
-    all.push_back(coordinate_record().write(c));
+    all.push_back(diagnosed_coordinate_record().write(c));
   return all;
 }
 
@@ -96,20 +94,20 @@ const Record<BeltsFindings>& belts_findings_record() {
     found.required("machine", &BeltsFindings::machine, object(belt_machine_record()))
         .custom("coordinates",
                 true,
-                {"five coordinates", list(object(coordinate_record()), 5).expected.schema},
-                read_coordinates,
+                {"five coordinates", list(object(diagnosed_coordinate_record()), 5).expected.schema},
+                read_diagnosed_coordinates,
                 written_coordinates)
-        .required("spread_before_mm", &BeltsFindings::spread_before_mm, number(kSigma))
-        .required("spread_mm", &BeltsFindings::spread_mm, number(kSigma))
-        .required("rms_before_mm", &BeltsFindings::rms_before_mm, number(kSigma))
-        .required("rms_mm", &BeltsFindings::rms_mm, number(kSigma))
+        .required("spread_before_mm", &BeltsFindings::spread_before_mm, number(kSigmaMm))
+        .required("spread_mm", &BeltsFindings::spread_mm, number(kSigmaMm))
+        .required("rms_before_mm", &BeltsFindings::rms_before_mm, number(kSigmaMm))
+        .required("rms_mm", &BeltsFindings::rms_mm, number(kSigmaMm))
         .required("checks", &BeltsFindings::checks, integer(1, 1000000))
         .optional("foretold_before", &BeltsFindings::foretold_before, object(foretold_record()))
         .optional("foretold", &BeltsFindings::foretold, object(foretold_record()))
         .required("tool", &BeltsFindings::tool, object(tool_record()))
         .optional("scale", &BeltsFindings::scale, object(scale_record()))
         .optional("firmware_fit", &BeltsFindings::firmware_fit, object(firmware_fit_record()))
-        .required("places", &BeltsFindings::places, list(object(place_record())));
+        .required("places", &BeltsFindings::places, list(object(belt_place_record())));
     return found;
   }();
   return record;

@@ -9,6 +9,7 @@
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/machine_record.hpp"
+#include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
 
@@ -21,10 +22,6 @@ using diagnosis::Outlier;
 using diagnosis::StatedTape;
 using diagnosis::Verdict;
 
-constexpr Range kPositive{"", 0.0, 1e12};
-constexpr Range kMm{"mm", -1e6, 1e6};
-constexpr Range kShare{"", 0.0, 1.0};
-constexpr int kMostPoints = 1000000;
 
 Value<std::uint64_t> seed_value() {
   const std::string expected = "a whole number of at least 0";
@@ -39,21 +36,21 @@ Value<std::uint64_t> seed_value() {
            }}};
 }
 
-const Record<StatedNoise>& noise_record() {
+const Record<StatedNoise>& stated_noise_record() {
   static const auto record =
       Record<StatedNoise>("the noise as stated")
-          .required("length_mm", &StatedNoise::length_mm, number(kPositive))
-          .required("position_mm", &StatedNoise::position_mm, number(kPositive))
-          .required("dof", &StatedNoise::dof, number(kPositive));
+          .required("length_mm", &StatedNoise::length_mm, number(kNotNegative))
+          .required("position_mm", &StatedNoise::position_mm, number(kNotNegative))
+          .required("dof", &StatedNoise::dof, number(kNotNegative));
   return record;
 }
 
-const Record<StatedTape>& tape_record() {
+const Record<StatedTape>& stated_tape_record() {
   static const auto record =
       Record<StatedTape>("the noise of holes and a tape as stated")
-          .required("tape_sigma_mm", &StatedTape::tape_sigma_mm, number(kPositive))
-          .required("hole_sigma_mm", &StatedTape::hole_sigma_mm, number(kPositive))
-          .required("dof", &StatedTape::dof, number(kPositive));
+          .required("tape_sigma_mm", &StatedTape::tape_sigma_mm, number(kNotNegative))
+          .required("hole_sigma_mm", &StatedTape::hole_sigma_mm, number(kNotNegative))
+          .required("dof", &StatedTape::dof, number(kNotNegative));
   return record;
 }
 
@@ -68,10 +65,10 @@ struct Shift {
 
 const Record<Shift>& shift_record() {
   static const auto record = Record<Shift>("a bad point's shift")
-                                 .optional("x_mm", &Shift::x_mm, number(kMm))
-                                 .optional("y_mm", &Shift::y_mm, number(kMm))
-                                 .optional("off_mm", &Shift::off_mm, number(kMm))
-                                 .required("sigmas", &Shift::sigmas, number(kPositive))
+                                 .optional("x_mm", &Shift::x_mm, number(kMillimetres))
+                                 .optional("y_mm", &Shift::y_mm, number(kMillimetres))
+                                 .optional("off_mm", &Shift::off_mm, number(kMillimetres))
+                                 .required("sigmas", &Shift::sigmas, number(kNotNegative))
                                  .optional("belt", &Shift::belt, belt_word())
                                  .check([](const Cursor& at, Shift& shift) {
                                    const bool of_point = shift.x_mm && shift.y_mm;
@@ -83,7 +80,7 @@ const Record<Shift>& shift_record() {
 
 /// The points' indices and, beside them, how far each is off: two lists of one length.
 void outlier_keys(Record<Diagnosis>& record) {
-  static const Value<std::vector<int>> indices = list(integer(0, kMostPoints));
+  static const Value<std::vector<int>> indices = list(integer(0, kMostNumbered));
   static const Value<std::vector<Shift>> shifts = list(object(shift_record()));
   record.custom(
       "bad_points",
@@ -174,7 +171,7 @@ void distance_keys(Record<Diagnosis>& record) {
           })
       .sparse("holes", &Diagnosis::holes, list(object(hole_picture_record())))
       .sparse("distances", &Diagnosis::distances, list(object(distance_picture_record())))
-      .optional("stated_tape", &Diagnosis::stated_tape, object(tape_record()))
+      .optional("stated_tape", &Diagnosis::stated_tape, object(stated_tape_record()))
       .optional("belts", &Diagnosis::belts, object(belts_findings_record()));
 }
 
@@ -232,14 +229,14 @@ Record<Diagnosis> make_diagnosis_record() {
                        : std::optional<Json>(machine_record().write(object.extended_machine));
           })
       .required("data_corrections", &Diagnosis::data_corrections, list(object(effect_record())))
-      .required("noise_factor", &Diagnosis::noise_factor, number(kPositive))
+      .required("noise_factor", &Diagnosis::noise_factor, number(kNotNegative))
       .required("family_wise_p", &Diagnosis::family_wise_p, number(kShare))
       .required("terms", &Diagnosis::terms, list(object(term_record())))
       .required("separations", &Diagnosis::separations, list(object(separation_record())))
       .required("points", &Diagnosis::points, list(object(point_picture_record())))
       .required("seed", &Diagnosis::seed, seed_value())
       .required("grid_name", &Diagnosis::grid_name, text())
-      .optional("stated_noise", &Diagnosis::stated_noise, object(noise_record()))
+      .optional("stated_noise", &Diagnosis::stated_noise, object(stated_noise_record()))
       .optional("stability", &Diagnosis::stability, object(stability_record()))
       .optional("normal_plot", &Diagnosis::normal_plot, object(normal_plot_record()))
       .optional("held_out_grid", &Diagnosis::transferred, object(transfer_record()))

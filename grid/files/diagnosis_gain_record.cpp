@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "grid/files/diagnosis_record.hpp"
+#include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -12,10 +13,7 @@ using diagnosis::Gain;
 using diagnosis::HeldOut;
 using diagnosis::Transfer;
 
-constexpr Range kErrorMm{"mm", 0.0, 1e6};
-constexpr Range kShare{"", 0.0, 1.0};
 constexpr int kMostFolds = 1000;
-constexpr int kMostPoints = 1000000;
 
 /// A way of modelling by its key; the sheet's placement alone is not there for every grid.
 template <class T>
@@ -58,7 +56,7 @@ struct Figure {
 };
 
 Figure single(double HeldOut::*member) {
-  const Value<double> value = number(kErrorMm);
+  const Value<double> value = number(kSigmaMm);
   return {value.expected,
           [value, member](const Cursor& at, HeldOut& row) {
             if (const auto read = value.read(at)) row.*member = *read;
@@ -68,7 +66,7 @@ Figure single(double HeldOut::*member) {
 
 Figure interval() {
   constexpr const char* kExpected = "a pair of numbers in mm, the lower one first";
-  const Value<std::vector<double>> value = list(number(kErrorMm), 2);
+  const Value<std::vector<double>> value = list(number(kSigmaMm), 2);
   return {{kExpected,
            [value] {
              Json schema = value.expected.schema();
@@ -104,7 +102,7 @@ Record<T> figure_record(const std::array<ErrorRow<T>, kCount>& rows,
           return held != nullptr ? std::optional<Json>(figure.write(*held)) : std::nullopt;
         });
   }
-  if (floor != nullptr) record.required("noise_floor", floor, number(kErrorMm));
+  if (floor != nullptr) record.required("noise_floor", floor, number(kSigmaMm));
   return record;
 }
 
@@ -133,10 +131,10 @@ const Record<Gain::Border>& border_record() {
   using Border = Gain::Border;
   static const auto record =
       Record<Border>("errors at the border")
-          .required("calibrated", &Border::calibrated_mm, number(kErrorMm))
-          .required("extended", &Border::extended_mm, number(kErrorMm))
-          .required("extended_and_surface", &Border::extended_and_surface_mm, number(kErrorMm))
-          .required("surface_only", &Border::surface_only_mm, number(kErrorMm));
+          .required("calibrated", &Border::calibrated_mm, number(kSigmaMm))
+          .required("extended", &Border::extended_mm, number(kSigmaMm))
+          .required("extended_and_surface", &Border::extended_and_surface_mm, number(kSigmaMm))
+          .required("surface_only", &Border::surface_only_mm, number(kSigmaMm));
   return record;
 }
 
@@ -147,7 +145,7 @@ const Record<Gain>& gain_record() {
     Record<Gain> gain("the gain");
     gain.required("scheme", &Gain::scheme, text());
     error_figures(gain, kGainRows);
-    gain.required("drop_mm2", &Gain::drop_mm2, number(kErrorMm))
+    gain.required("drop_mm2", &Gain::drop_mm2, number(kSigmaMm))
         .required("drop_share", &Gain::drop_share, number(kShare))
         .required("border_rms_mm", &Gain::border, object(border_record()))
         .required("folds", &Gain::folds, integer(0, kMostFolds))
@@ -163,7 +161,7 @@ const Record<Gain>& gain_record() {
 
 const Record<Transfer>& transfer_record() {
   static const auto record = [] {
-    const Value<int> whole = integer(0, kMostPoints);
+    const Value<int> whole = integer(0, kMostNumbered);
     Record<Transfer> transfer("another grid foretold");
     transfer.required("to", &Transfer::to, text())
         .custom(

@@ -6,6 +6,7 @@
 #include "grid/files/belts_record.hpp"
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
+#include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -16,11 +17,8 @@ using diagnosis::MeasurementKind;
 using diagnosis::NextMeasurement;
 using diagnosis::PointPicture;
 
-constexpr Range kMm{"mm", -1e6, 1e6};
 constexpr Range kRad{"rad", -10.0, 10.0};
 constexpr Range kNewton{"N", -1e6, 1e6};
-constexpr Range kPositive{"", 0.0, 1e12};
-constexpr Range kShare{"", 0.0, 1.0};
 
 /// Two numbers, as [first, second].
 template <class T>
@@ -61,7 +59,7 @@ void vector_key(Record<PointPicture>& record,
   pair_key<PointPicture>(
       record,
       key,
-      kMm,
+      kMillimetres,
       [member](const PointPicture& point) { return point.*member; },
       [member](PointPicture& point, const Eigen::Vector2d& pair) { point.*member = pair; });
 }
@@ -86,8 +84,7 @@ void chains_key(Record<PointPicture>& record,
 }
 
 Value<std::size_t> index_value() {
-  constexpr int kMostPoints = 1000000;
-  const Value<int> whole = integer(0, kMostPoints);
+  const Value<int> whole = integer(0, kMostNumbered);
   return {[whole](const Cursor& at) -> std::optional<std::size_t> {
             const auto value = whole.read(at);
             return value ? std::optional(static_cast<std::size_t>(*value)) : std::nullopt;
@@ -104,9 +101,9 @@ void place_keys(Record<T>& record,
     record.custom(
         key,
         true,
-        {"a number in mm", [] { return number_schema(kMm); }},
+        {"a number in mm", [] { return number_schema(kMillimetres); }},
         [place, member](const Cursor& at, T& object) {
-          if (const auto value = at.number(kMm)) place(object).*member = *value;
+          if (const auto value = at.number(kMillimetres)) place(object).*member = *value;
         },
         [const_place, member](const T& object) {
           return std::optional<Json>(const_place(object).*member);
@@ -133,9 +130,9 @@ const Record<NextMeasurement>& next_measurement_record() {
       next.custom(
           key,
           false,
-          {"a number in mm", [] { return number_schema(kMm); }},
+          {"a number in mm", [] { return number_schema(kMillimetres); }},
           [member](const Cursor& at, NextMeasurement& object) {
-            const auto value = at.number(kMm);
+            const auto value = at.number(kMillimetres);
             if (!value) return;
             if (!object.mark) object.mark.emplace();
             (*object.mark).*member = *value;
@@ -146,7 +143,7 @@ const Record<NextMeasurement>& next_measurement_record() {
     };
     coordinate("x_mm", &model::MarkPoint::x_mm);
     coordinate("y_mm", &model::MarkPoint::y_mm);
-    next.required("sigma", &NextMeasurement::sigma, number(kPositive))
+    next.required("sigma", &NextMeasurement::sigma, number(kNotNegative))
         .required("raises_probability_to", &NextMeasurement::raises_probability_to, number(kShare))
         .sparse("from", &NextMeasurement::from, text())
         .sparse("to", &NextMeasurement::to, list(text()))
@@ -175,7 +172,7 @@ const Record<HolePicture>& hole_picture_record() {
     pair_key<HolePicture>(
         hole,
         "commanded_mm",
-        kMm,
+        kMillimetres,
         [](const HolePicture& object) {
           return Eigen::Vector2d(object.commanded.x_mm, object.commanded.y_mm);
         },
@@ -194,12 +191,12 @@ const Record<DistancePicture>& distance_picture_record() {
           .required("from", &DistancePicture::from, text())
           .required("to", &DistancePicture::to, text())
           .required("bad", &DistancePicture::bad, boolean())
-          .required("read_mm", &DistancePicture::read_mm, number(kMm))
-          .required("before_mm", &DistancePicture::before_mm, number(kMm))
-          .required("after_mm", &DistancePicture::after_mm, number(kMm))
-          .required("noise_sigma_mm", &DistancePicture::noise_sigma_mm, number(kPositive))
-          .required("best_mm", &DistancePicture::best_mm, number(kMm))
-          .required("rival_mm", &DistancePicture::rival_mm, number(kMm));
+          .required("read_mm", &DistancePicture::read_mm, number(kMillimetres))
+          .required("before_mm", &DistancePicture::before_mm, number(kMillimetres))
+          .required("after_mm", &DistancePicture::after_mm, number(kMillimetres))
+          .required("noise_sigma_mm", &DistancePicture::noise_sigma_mm, number(kNotNegative))
+          .required("best_mm", &DistancePicture::best_mm, number(kMillimetres))
+          .required("rival_mm", &DistancePicture::rival_mm, number(kMillimetres));
   return record;
 }
 
@@ -224,7 +221,7 @@ const Record<PointPicture>& point_picture_record() {
     pair_key<PointPicture>(
         point,
         "lengths_mm",
-        kMm,
+        kMillimetres,
         [](const PointPicture& object) {
           return Eigen::Vector2d(object.lengths.left_mm, object.lengths.right_mm);
         },

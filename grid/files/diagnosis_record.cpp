@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "grid/files/diagnosis_keys.hpp"
+#include "grid/files/record_values.hpp"
 #include "model/belts/effects/belt_effect.hpp"
 #include "model/calibration/setting.hpp"
 #include "model/effects/catalogue.hpp"
@@ -29,9 +30,6 @@ using diagnosis::Term;
 using model::effects::Effect;
 using model::effects::EffectSide;
 
-constexpr Range kAny{"", -1e12, 1e12};
-constexpr Range kPositive{"", 0.0, 1e12};
-constexpr Range kShare{"", 0.0, 1.0};
 
 constexpr EffectSide kSides[] = {EffectSide::left,
                                  EffectSide::right,
@@ -118,8 +116,8 @@ namespace {
 
 const Record<ParameterEstimate>& estimate_record() {
   static const auto record = Record<ParameterEstimate>("a value with its sigma")
-                                 .required("value", &ParameterEstimate::value, number(kAny))
-                                 .required("sigma", &ParameterEstimate::sigma, number(kPositive));
+                                 .required("value", &ParameterEstimate::value, number(kAnyNumber))
+                                 .required("sigma", &ParameterEstimate::sigma, number(kNotNegative));
   return record;
 }
 
@@ -191,13 +189,6 @@ const Record<Rival>& rival_record() {
   return record;
 }
 
-Value<model::Setting> setting_word() {
-  std::vector<std::pair<std::string, model::Setting>> names;
-  for (auto setting : model::kMachineSettings) names.emplace_back(model::name(setting), setting);
-  for (auto setting : model::kSheetSettings) names.emplace_back(model::name(setting), setting);
-  return choice<model::Setting>(std::move(names));
-}
-
 }  // namespace
 
 const Record<Cause>& cause_record() {
@@ -205,7 +196,7 @@ const Record<Cause>& cause_record() {
     Record<Cause> cause("a cause");
     cause_keys(cause, kCause);
     cause.required("probability", &Cause::probability, number(kShare))
-        .required("delta", &Cause::signal_to_noise, number(kPositive))
+        .required("delta", &Cause::signal_to_noise, number(kNotNegative))
         .required("share_left", &Cause::share_left, number(kShare))
         .required("same_as", &Cause::same_as, list(object(same_cause_record())));
     parameter_keys(cause);
@@ -245,7 +236,7 @@ const Record<Hypothesis>& hypothesis_record() {
 const Record<LeftOver>& left_over_record() {
   static const auto record = [] {
     Record<LeftOver> left("what is left over");
-    left.required("delta", &LeftOver::signal_to_noise, number(kPositive));
+    left.required("delta", &LeftOver::signal_to_noise, number(kNotNegative));
     nullable_text(left, "follows", &LeftOver::follows, text());
     left.required("share", &LeftOver::share, number(kShare))
         .required("p_value", &LeftOver::p_value, number(kShare));
@@ -269,7 +260,7 @@ const Record<Bound>& bound_record() {
     Record<Bound> bound("a bound");
     cause_keys(bound, kCause);
     bound.required("parameter", &Bound::parameter, text())
-        .required("upper_95", &Bound::upper_95, number(kPositive));
+        .required("upper_95", &Bound::upper_95, number(kNotNegative));
     return bound;
   }();
   return record;
@@ -279,10 +270,10 @@ const Record<CalibratedSetting>& calibrated_setting_record() {
   static const auto record =
       Record<CalibratedSetting>("a setting")
           .required("setting", &CalibratedSetting::setting, setting_word())
-          .required("stated", &CalibratedSetting::stated, number(kAny))
-          .required("stated_sigma", &CalibratedSetting::stated_sigma, number(kPositive))
-          .required("calibrated", &CalibratedSetting::calibrated, number(kAny))
-          .required("sigma", &CalibratedSetting::sigma, number(kPositive))
+          .required("stated", &CalibratedSetting::stated, number(kAnyNumber))
+          .required("stated_sigma", &CalibratedSetting::stated_sigma, number(kNotNegative))
+          .required("calibrated", &CalibratedSetting::calibrated, number(kAnyNumber))
+          .required("sigma", &CalibratedSetting::sigma, number(kNotNegative))
           .required("off", &CalibratedSetting::off, boolean());
   return record;
 }
@@ -292,9 +283,9 @@ const Record<Term>& term_record() {
     Record<Term> term("a term");
     cause_keys(term, kCause);
     term.required("parameter", &Term::parameter, text())
-        .required("value", &Term::value, number(kAny))
-        .required("sigma", &Term::sigma, number(kPositive))
-        .required("delta", &Term::signal_to_noise, number(kPositive))
+        .required("value", &Term::value, number(kAnyNumber))
+        .required("sigma", &Term::sigma, number(kNotNegative))
+        .required("delta", &Term::signal_to_noise, number(kNotNegative))
         .required("share_left", &Term::share_left, number(kShare))
         .required("p_value", &Term::p_value, number(kShare))
         .required("probability", &Term::probability, number(kShare));
@@ -311,7 +302,7 @@ const Record<Separation>& separation_record() {
       separation.required(key, member, object(cause_id_record()));
     }
     // Null: no strength is enough.
-    const Value<double> needed = number(kPositive);
+    const Value<double> needed = number(kNotNegative);
     separation.required("rho", &Separation::collinearity, number(kShare))
         .custom(
             "delta_needed",

@@ -3,6 +3,7 @@
 
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
+#include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
@@ -13,9 +14,6 @@ using diagnosis::Enters;
 using diagnosis::ErrorBudget;
 using diagnosis::Unexplained;
 
-constexpr Range kPositive{"", 0.0, 1e12};
-constexpr Range kAny{"", -1e12, 1e12};
-constexpr Range kShare{"", 0.0, 1.0};
 
 template <class Word, std::size_t kCount>
 Value<Word> words(const std::array<Word, kCount>& all) {
@@ -37,9 +35,9 @@ const Record<BudgetLine>& budget_line_record() {
                                      What::noise,
                                      What::inseparable}))
           .optional("cause", &BudgetLine::cause, object(cause_id_record()))
-          .required("mean_square_mm2", &BudgetLine::mean_square_mm2, number(kAny))
-          .required("share", &BudgetLine::share, number(kAny))
-          .optional("part_of_100_mm", &BudgetLine::part_mm, number(kPositive))
+          .required("mean_square_mm2", &BudgetLine::mean_square_mm2, number(kAnyNumber))
+          .required("share", &BudgetLine::share, number(kAnyNumber))
+          .optional("part_of_100_mm", &BudgetLine::part_mm, number(kNotNegative))
           .required("changes_with",
                     &BudgetLine::changes_with,
                     words(std::array{ChangesWith::nothing,
@@ -55,11 +53,11 @@ const Record<Unexplained>& unexplained_record() {
   static const auto record = [] {
     Record<Unexplained> left("what remains besides the causes");
     left.required("probability", &Unexplained::probability, number(kShare))
-        .required("delta", &Unexplained::signal_to_noise, number(kPositive))
-        .required("rms_mm", &Unexplained::rms_mm, number(kPositive))
+        .required("delta", &Unexplained::signal_to_noise, number(kNotNegative))
+        .required("rms_mm", &Unexplained::rms_mm, number(kNotNegative))
         .required("share", &Unexplained::share, number(kShare));
     nullable_text(left, "follows", &Unexplained::follows, text());
-    left.required("length_mm", &Unexplained::length_mm, number(kPositive))
+    left.required("length_mm", &Unexplained::length_mm, number(kNotNegative))
         .required("enters",
                   &Unexplained::enters,
                   words(std::array{Enters::left,
@@ -77,7 +75,7 @@ const Record<Unexplained>& unexplained_record() {
 const Record<ErrorBudget>& error_budget_record() {
   static const auto record =
       Record<ErrorBudget>("what the error is made of")
-          .required("as_delivered_mm", &ErrorBudget::as_delivered_mm, number(kPositive))
+          .required("as_delivered_mm", &ErrorBudget::as_delivered_mm, number(kNotNegative))
           .required("parts", &ErrorBudget::lines, list(object(budget_line_record())));
   return record;
 }
@@ -89,8 +87,8 @@ const Record<diagnosis::ParameterEstimate>& named_estimate_record() {
   using diagnosis::ParameterEstimate;
   static const auto record = Record<ParameterEstimate>("a size with its sigma")
                                  .required("parameter", &ParameterEstimate::parameter, text())
-                                 .required("value", &ParameterEstimate::value, number(kAny))
-                                 .required("sigma", &ParameterEstimate::sigma, number(kPositive));
+                                 .required("value", &ParameterEstimate::value, number(kAnyNumber))
+                                 .required("sigma", &ParameterEstimate::sigma, number(kNotNegative));
   return record;
 }
 
@@ -114,8 +112,8 @@ const Record<diagnosis::Trend>& trend_record() {
       Record<Trend>("what changed since an earlier diagnosis")
           .required("since", &Trend::since, text())
           .required("changes", &Trend::changes, list(object(change_record())))
-          .optional("as_delivered_before_mm", &Trend::as_delivered_before_mm, number(kPositive))
-          .optional("as_delivered_mm", &Trend::as_delivered_mm, number(kPositive));
+          .optional("as_delivered_before_mm", &Trend::as_delivered_before_mm, number(kNotNegative))
+          .optional("as_delivered_mm", &Trend::as_delivered_mm, number(kNotNegative));
   return record;
 }
 

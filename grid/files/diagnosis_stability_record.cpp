@@ -3,6 +3,7 @@
 // points, and whether what is left has the shape of noise.
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
+#include "grid/files/record_values.hpp"
 
 namespace chaintrue::grid::files {
 
@@ -27,10 +28,6 @@ Value<diagnosis::Verdict> verdict_word() {
 
 namespace {
 
-constexpr Range kMm{"mm", -1e6, 1e6};
-constexpr Range kAny{"", -1e12, 1e12};
-constexpr Range kShare{"", 0.0, 1.0};
-constexpr int kMostPoints = 1000000;
 
 bool is_line(const Removal& removal) {
   return removal.what == Removal::What::column || removal.what == Removal::What::row;
@@ -48,7 +45,7 @@ constexpr Numbered kNumbered[] = {{Removal::What::point, "point", "a point's ind
 
 /// The number, where it is one of the kind that is left out. Lines say that they are no point.
 void index_key(const Numbered& numbered, Record<Removal>& record) {
-  static const Value<int> whole = integer(0, kMostPoints);
+  static const Value<int> whole = integer(0, kMostNumbered);
   record.custom(
       numbered.key,
       false,
@@ -67,9 +64,9 @@ void line_key(Record<Removal>& record) {
   record.custom(
       "at_mm",
       false,
-      {"a number in mm", [] { return number_schema(kMm); }},
+      {"a number in mm", [] { return number_schema(kMillimetres); }},
       [](const Cursor& at, Removal& object) {
-        if (const auto value = at.number(kMm)) object.at_mm = *value;
+        if (const auto value = at.number(kMillimetres)) object.at_mm = *value;
       },
       [](const Removal& object) {
         return std::optional<Json>(is_line(object) ? Json(object.at_mm) : Json(nullptr));
@@ -88,7 +85,7 @@ const Record<Removal>& removal_record() {
                                             {"hole", Removal::What::hole}}));
     for (const Numbered& numbered : kNumbered) index_key(numbered, removal);
     line_key(removal);
-    static const Value<int> count = integer(1, kMostPoints);
+    static const Value<int> count = integer(1, kMostNumbered);
     removal
         .custom(
             "points",
@@ -103,7 +100,7 @@ const Record<Removal>& removal_record() {
         .required("causes", &Removal::causes, list(object(cause_id_record())))
         .required("stands", &Removal::stands, boolean())
         .required("probability", &Removal::probability, number(kShare))
-        .required("support", &Removal::support, number(kAny))
+        .required("support", &Removal::support, number(kAnyNumber))
         .check([](const Cursor& at, Removal& object) {
           if (!at.clean() || !at.has("what")) return;
           const char* key = "at_mm";
@@ -134,7 +131,7 @@ const Record<Stability>& stability_record() {
 const Record<NormalPlot>& normal_plot_record() {
   static const auto record = [] {
     Record<NormalPlot> plot("a normal plot");
-    const Value<std::vector<double>> values = list(number(kAny));
+    const Value<std::vector<double>> values = list(number(kAnyNumber));
     plot.required("values", &NormalPlot::values, values)
         .required("expected", &NormalPlot::expected, values)
         .required("low", &NormalPlot::low, values)

@@ -15,8 +15,6 @@ namespace {
 
 using Getter = std::function<std::optional<double>(const MeasuredPoint&)>;
 
-/// Points this near count as repeats, so a set that is no wider than this has one row only.
-constexpr double kRepeatDistanceMm = 25.0;
 /// No hanging router has lengths or a bed below this in mm; in inches every one of them has.
 constexpr double kLongestInInches = 250.0;
 

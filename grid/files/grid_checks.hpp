@@ -15,6 +15,9 @@
 
 namespace chaintrue::grid::files {
 
+/// Points this near count as repeats, so a set that is no wider than this has one row only.
+inline constexpr double kRepeatDistanceMm = 25.0;
+
 /// A point as a file states it, before it is known to be whole.
 struct StatedPoint {
   double x_mm = 0.0;

@@ -47,7 +47,7 @@ const Record<StatedNoise>& noise_record() {
   return record;
 }
 
-const Record<SheetUncertainty>& sheet_record() {
+const Record<SheetUncertainty>& sheet_uncertainty_record() {
   using Sheet = SheetUncertainty;
   static const auto record =
       Record<Sheet>("the sheet's placement")
@@ -116,7 +116,7 @@ const Record<StatedGrid>& grid_record() {
           .optional("machine", &StatedGrid::machine, object(machine_record()))
           .sparse("machine_file", &StatedGrid::machine_file, text())
           .optional("noise", &StatedGrid::noise, object(noise_record()))
-          .optional("sheet", &StatedGrid::sheet, object(sheet_record()))
+          .optional("sheet", &StatedGrid::sheet, object(sheet_uncertainty_record()))
           .sparse("readings", &StatedGrid::readings, list(object(reading_record())))
           .custom("points",
                   true,
@@ -265,7 +265,7 @@ ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Pro
 }
 
 /// Marks which of the two formats the text is in; a byte order mark may stand before either.
-bool is_json(std::string_view text) {
+bool is_json_text(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark)
     text.remove_prefix(kByteOrderMark.size());
@@ -277,7 +277,7 @@ bool is_json(std::string_view text) {
 
 ReadGrid parse_grid(const std::string& text, const std::string& file, const GridOptions& options) {
   Problems problems(file);
-  return is_json(text) ? parse_json_grid(text, options, problems)
+  return is_json_text(text) ? parse_json_grid(text, options, problems)
                        : parse_csv_grid(text, options, problems);
 }
 

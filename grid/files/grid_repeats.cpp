@@ -12,7 +12,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr double kRepeatDistanceMm = 25.0;
 /// Four standard deviations: in a grid of a hundred comparisons one false warning in 150 grids.
 constexpr double kSigmas = 4.0;
 constexpr std::size_t kMostWarnings = 20;

@@ -216,7 +216,7 @@ constexpr std::string_view kByStretch =
     "the chain's stretch (/chain/compliance_per_n, the effect chain_stretch)";
 constexpr std::string_view kBySled = "the sled's mass (/sled/mass_kg)";
 
-void write_attachment(const TypedMachine& typed, Lines& lines) {
+void write_attachment_lines(const TypedMachine& typed, Lines& lines) {
   const Machine& machine = typed.machine;
   const auto& now = machine.controller.settings;
   const auto* ring = std::get_if<model::Ring>(&machine.attachment);
@@ -288,7 +288,7 @@ GroundcontrolText write_groundcontrol(const Machine& stated) {
     lines.number("sledcg", brackets->cg_below_bit_mm);
   }
   lines.section("Advanced Settings");
-  write_attachment(typed, lines);
+  write_attachment_lines(typed, lines);
   if (!lines.imported() || now.top_beam_tilt_deg) {
     lines.number("topbeamtilt",
                  std::atan2(dy_mm, dx_mm) * 180.0 / std::numbers::pi,

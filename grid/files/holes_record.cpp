@@ -121,7 +121,7 @@ void read_list(const Cursor& at,
 }
 
 /// The one that hangs on belts has anchors.
-void read_machine(const Cursor& at, StatedHoles& stated) {
+void read_stated_machine(const Cursor& at, StatedHoles& stated) {
   if (at.json().is_object() && at.has("anchors")) {
     stated.belt_machine = belt_machine_record().read(at);
     if (stated.belt_machine && !stated.belt_machine->anchors_known && at.clean()) {
@@ -133,7 +133,7 @@ void read_machine(const Cursor& at, StatedHoles& stated) {
   }
 }
 
-std::optional<Json> written_machine(const StatedHoles& stated) {
+std::optional<Json> written_stated_machine(const StatedHoles& stated) {
   if (stated.belt_machine) return belt_machine_record().write(*stated.belt_machine);
   if (stated.machine) return machine_record().write(*stated.machine);
   return std::nullopt;
@@ -161,8 +161,8 @@ const Record<StatedHoles>& holes_record() {
                                   {machine_record().expected().schema(),
                                    belt_machine_record().expected().schema()}}};
                    }},
-                  read_machine,
-                  written_machine)
+                  read_stated_machine,
+                  written_stated_machine)
           .sparse("machine_file", &StatedHoles::machine_file, text())
           .optional("tape", &StatedHoles::tape, object(tape_record()))
           .optional("hole_sigma_mm", &StatedHoles::hole_sigma_mm, number(kHoleSigmaMm))

@@ -5,15 +5,10 @@
 
 #include <algorithm>
 
+#include "grid/files/blanks.hpp"
+
 namespace chaintrue::grid::files {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 std::string in_small_letters(std::string_view text) {
   std::string small(text);

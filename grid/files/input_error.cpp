@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+#include <utility>
+
 namespace chaintrue::grid::files {
 namespace {
 
@@ -30,5 +33,13 @@ std::string Warning::message() const {
 
 InputError::InputError(std::vector<InputProblem> problems)
     : std::runtime_error(all_messages(problems)), problems_(std::move(problems)) {}
+
+void refuse_file(std::string file, std::string found, std::string expected) {
+  throw InputError({{std::move(file), "", std::move(found), std::move(expected)}});
+}
+
+std::string system_words(int error_number) {
+  return std::error_code(error_number, std::generic_category()).message();
+}
 
 }  // namespace chaintrue::grid::files

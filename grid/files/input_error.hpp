@@ -43,4 +43,10 @@ class InputError : public std::runtime_error {
   std::vector<InputProblem> problems_;
 };
 
+/// \throws InputError whose one problem is the file as a whole.
+[[noreturn]] void refuse_file(std::string file, std::string found, std::string expected);
+
+/// The system's own words for an error number, in English whatever the locale.
+[[nodiscard]] std::string system_words(int error_number);
+
 }  // namespace chaintrue::grid::files

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/files/machine_record.hpp"
+#include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/effects/catalogue.hpp"
@@ -28,14 +29,6 @@ using model::Ring;
 using model::Sled;
 using model::Sprocket;
 using model::Uncertainty;
-
-// What a value may reasonably be is said by model::problems_of, in one place for files and programs
-// alike. The ranges here only keep numbers that are no measure of anything away from arithmetic.
-constexpr double kBeyondMeaning = 1e6;
-
-Value<double> number_in(std::string_view unit) {
-  return number({unit, -kBeyondMeaning, kBeyondMeaning});
-}
 
 const Record<Bed>& bed_record() {
   static const auto record = Record<Bed>("a bed")

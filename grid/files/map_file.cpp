@@ -9,6 +9,7 @@
 #include "grid/files/json_reader.hpp"
 #include "grid/files/map_surface_record.hpp"
 #include "grid/files/ranges.hpp"
+#include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/calibration/setting.hpp"
@@ -16,12 +17,9 @@
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr Range kPlaceMm{"mm", -1e5, 1e5};
 constexpr Range kErrorMm{"mm", -1e5, 1e5};
-constexpr Range kAny{"", -1e12, 1e12};
-constexpr Range kPositive{"", 0.0, 1e12};
 
-const Record<model::MarkPoint>& place_record() {
+const Record<model::MarkPoint>& mark_record() {
   static const auto record = Record<model::MarkPoint>("a point")
                                  .required("x_mm", &model::MarkPoint::x_mm, number(kPlaceMm))
                                  .required("y_mm", &model::MarkPoint::y_mm, number(kPlaceMm));
@@ -42,21 +40,21 @@ const Record<OutsideRule>& outside_record() {
   return record;
 }
 
-const Record<MapNoise>& noise_record() {
+const Record<MapNoise>& map_noise_record() {
   static const auto record =
       Record<MapNoise>("the noise that the fit went by")
-          .required("length_mm", &MapNoise::length_mm, number(kPositive))
-          .required("position_mm", &MapNoise::position_mm, number(kPositive))
+          .required("length_mm", &MapNoise::length_mm, number(kNotNegative))
+          .required("position_mm", &MapNoise::position_mm, number(kNotNegative))
           .required("source", &MapNoise::source, one_of({"stated", "repeats", "fit", "assumed"}))
-          .required("factor_found", &MapNoise::factor_found, number(kPositive));
+          .required("factor_found", &MapNoise::factor_found, number(kNotNegative));
   return record;
 }
 
 const Record<ErrorSummary>& summary_record() {
   static const auto record =
       Record<ErrorSummary>("rms and maximum")
-          .required("rms_mm", &ErrorSummary::rms_mm, number(kPositive))
-          .required("maximum_mm", &ErrorSummary::maximum_mm, number(kPositive));
+          .required("rms_mm", &ErrorSummary::rms_mm, number(kNotNegative))
+          .required("maximum_mm", &ErrorSummary::maximum_mm, number(kNotNegative));
   return record;
 }
 
@@ -65,8 +63,8 @@ const Record<HeldOutError>& held_out_record() {
       Record<HeldOutError>("held-out errors")
           .required("chain", &HeldOutError::chain, object(summary_record()))
           .required("tool", &HeldOutError::tool, object(summary_record()))
-          .required("tool_x_rms_mm", &HeldOutError::tool_x_rms_mm, number(kPositive))
-          .required("tool_y_rms_mm", &HeldOutError::tool_y_rms_mm, number(kPositive));
+          .required("tool_x_rms_mm", &HeldOutError::tool_x_rms_mm, number(kNotNegative))
+          .required("tool_y_rms_mm", &HeldOutError::tool_y_rms_mm, number(kNotNegative));
   return record;
 }
 
@@ -82,23 +80,16 @@ const Record<MapAccuracy>& accuracy_record() {
           .required("leave_one_out", &MapAccuracy::leave_one_out, object(held_out_record()))
           .required("blocked", &MapAccuracy::blocked, object(held_out_record()))
           .required("expected_tool", &MapAccuracy::expected_tool, object(summary_record()))
-          .required("expected_worst_at", &MapAccuracy::expected_worst_at, object(place_record()));
+          .required("expected_worst_at", &MapAccuracy::expected_worst_at, object(mark_record()));
   return record;
-}
-
-Value<model::Setting> setting_word() {
-  std::vector<std::pair<std::string, model::Setting>> names;
-  for (auto setting : model::kMachineSettings) names.emplace_back(model::name(setting), setting);
-  for (auto setting : model::kSheetSettings) names.emplace_back(model::name(setting), setting);
-  return choice<model::Setting>(std::move(names));
 }
 
 const Record<SettingResult>& setting_record() {
   static const auto record = Record<SettingResult>("a setting")
                                  .required("setting", &SettingResult::setting, setting_word())
-                                 .required("stated", &SettingResult::stated, number(kAny))
-                                 .required("calibrated", &SettingResult::calibrated, number(kAny))
-                                 .required("sigma", &SettingResult::sigma, number(kPositive))
+                                 .required("stated", &SettingResult::stated, number(kAnyNumber))
+                                 .required("calibrated", &SettingResult::calibrated, number(kAnyNumber))
+                                 .required("sigma", &SettingResult::sigma, number(kNotNegative))
                                  .required("off", &SettingResult::off, boolean());
   return record;
 }
@@ -131,7 +122,7 @@ Record<T>& pair(Record<T>& record, const std::string& key, Eigen::Vector2d T::*m
       });
 }
 
-const Record<MapPoint>& point_record() {
+const Record<MapPoint>& map_point_record() {
   static const auto record = [] {
     Record<MapPoint> point("a measured point");
     const auto coordinate = [&point](const char* key, auto get) {
@@ -152,7 +143,7 @@ const Record<MapPoint>& point_record() {
     coordinate("left_mm", [](MapPoint& p) -> double& { return p.lengths.left_mm; });
     coordinate("right_mm", [](MapPoint& p) -> double& { return p.lengths.right_mm; });
     point.required("bad", &MapPoint::bad, boolean())
-        .required("distance_sigmas", &MapPoint::distance_sigmas, number(kPositive));
+        .required("distance_sigmas", &MapPoint::distance_sigmas, number(kNotNegative));
     pair(point, "as_stated_mm", &MapPoint::as_stated_mm);
     pair(point, "sheet_placed_mm", &MapPoint::sheet_placed_mm);
     pair(point, "mapped_mm", &MapPoint::mapped_mm);
@@ -176,7 +167,7 @@ const Record<MirrorTest>& mirror_record() {
               [](const MirrorTest& test) { return std::optional<Json>(test.points); })
           .required("difference", &MirrorTest::difference, object(summary_record()))
           .required("mean_mm", &MirrorTest::mean_mm, number(kErrorMm))
-          .required("worst_at", &MirrorTest::worst_at, object(place_record()))
+          .required("worst_at", &MirrorTest::worst_at, object(mark_record()))
           .required("worst_signed_mm", &MirrorTest::worst_signed_mm, number(kErrorMm))
           .required("holds", &MirrorTest::holds, boolean())
           .required("sentence", &MirrorTest::sentence, text());
@@ -189,7 +180,7 @@ const Record<DistancesUsed>& distances_record() {
       Record<DistancesUsed>("the distances between holes")
           .required("used", &DistancesUsed::used, integer(0, kMost))
           .required("set_aside", &DistancesUsed::set_aside, integer(0, kMost))
-          .required("tape_sigma_mm", &DistancesUsed::tape_sigma_mm, number(kPositive))
+          .required("tape_sigma_mm", &DistancesUsed::tape_sigma_mm, number(kNotNegative))
           .required("left_out_all", &DistancesUsed::left_out_all, object(summary_record()))
           .required("left_out_good", &DistancesUsed::left_out_good, object(summary_record()));
   return record;
@@ -257,8 +248,8 @@ Record<MapContents> make_map_record() {
   add_surface<ModelSurface>(record, "on_machine", model_part_record());
   add_surface<DirectSurface>(record, "direct", direct_part_record());
   record.required("domain_mm", &MapContents::domain, object(rectangle_record()))
-      .required("hull", &MapContents::hull, list(object(place_record()), 3))
-      .required("edge_mm", &MapContents::edge_mm, number(kPositive))
+      .required("hull", &MapContents::hull, list(object(mark_record()), 3))
+      .required("edge_mm", &MapContents::edge_mm, number(kNotNegative))
       .custom(
           "outside",
           false,
@@ -267,10 +258,10 @@ Record<MapContents> make_map_record() {
             if (const auto rule = outside_record().read(at)) map.outside = *rule;
           },
           write_outside)
-      .required("noise", &MapContents::noise, object(noise_record()))
+      .required("noise", &MapContents::noise, object(map_noise_record()))
       .required("accuracy", &MapContents::accuracy, object(accuracy_record()))
       .required("settings", &MapContents::settings, list(object(setting_record())))
-      .required("points", &MapContents::points, list(object(point_record())))
+      .required("points", &MapContents::points, list(object(map_point_record())))
       .optional("mirror", &MapContents::mirror, object(mirror_record()))
       .optional("distances", &MapContents::distances, object(distances_record()))
       .required("notes", &MapContents::notes, list(text()))

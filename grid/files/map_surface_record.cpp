@@ -7,18 +7,16 @@
 
 #include "grid/files/machine_record.hpp"
 #include "grid/files/parse_double.hpp"
+#include "grid/files/record_values.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr Range kPlaceMm{"mm", -1e5, 1e5};
-constexpr Range kAny{"", -1e12, 1e12};
-constexpr Range kPositive{"", 0.0, 1e12};
 
-Value<Numbers> numbers(std::size_t fewest = 0) { return list(number(kAny), fewest); }
+Value<Numbers> numbers(std::size_t fewest = 0) { return list(number(kAnyNumber), fewest); }
 
-const Record<model::SheetPlacement>& sheet_record() {
+const Record<model::SheetPlacement>& sheet_placement_record() {
   static const auto record =
       Record<model::SheetPlacement>("a sheet's placement")
           .required("x_mm", &model::SheetPlacement::x_mm, number(kPlaceMm))
@@ -132,9 +130,9 @@ const Record<LatticePart>& lattice_part_record() {
           .required("y_nodes_mm", &LatticePart::y_nodes_mm, numbers(2))
           .required("left_mm", &LatticePart::left_mm, list(numbers(2), 2))
           .required("right_mm", &LatticePart::right_mm, list(numbers(2), 2))
-          .required("doubt_mm", &LatticePart::doubt_mm, list(list(number(kPositive), 2), 2))
+          .required("doubt_mm", &LatticePart::doubt_mm, list(list(number(kNotNegative), 2), 2))
           .required(
-              "interpolation_sigma_mm", &LatticePart::interpolation_sigma_mm, number(kPositive))
+              "interpolation_sigma_mm", &LatticePart::interpolation_sigma_mm, number(kNotNegative))
           .check(check_lattice_part);
   return record;
 }
@@ -191,7 +189,7 @@ const Record<ModelPart>& model_part_record() {
     for (auto setting : model::kSheetSettings) words.emplace_back(model::name(setting));
     return Record<ModelPart>("a surface on a machine")
         .required("machine", &ModelPart::machine, object(machine_record()))
-        .required("sheet", &ModelPart::sheet, object(sheet_record()))
+        .required("sheet", &ModelPart::sheet, object(sheet_placement_record()))
         .required("unknown_settings", &ModelPart::unknown_settings, list(one_of(words)))
         .required("residual", &ModelPart::residual, object(spline_record()))
         .required("covariance_factor", &ModelPart::covariance_factor, list(numbers(1)))
@@ -210,7 +208,7 @@ const Record<DirectPart>& direct_part_record() {
           .required("right_mm", &DirectPart::right_mm, list(numbers(2), 2))
           .required("ends", &DirectPart::ends, object(ends_record()))
           .required(
-              "interpolation_sigma_mm", &DirectPart::interpolation_sigma_mm, number(kPositive))
+              "interpolation_sigma_mm", &DirectPart::interpolation_sigma_mm, number(kNotNegative))
           .check(check_direct_part);
   return record;
 }

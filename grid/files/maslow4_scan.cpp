@@ -16,7 +16,7 @@ namespace {
 using model::Belt;
 using model::kBelts;
 
-std::string_view trimmed(std::string_view text) {
+std::string_view unquoted(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\n\"'";
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
@@ -43,7 +43,7 @@ bool is_heading(std::string_view line) {
     word += static_cast<char>(std::tolower(static_cast<unsigned char>(line[at])));
   }
   if (word != "run" || at >= line.size() || line[at] != ' ') return false;
-  const std::string_view rest = trimmed(line.substr(at));
+  const std::string_view rest = unquoted(line.substr(at));
   constexpr std::size_t kLongestName = 12;
   return !rest.empty() && rest.find(' ') == std::string_view::npos && rest.size() <= kLongestName;
 }
@@ -89,7 +89,7 @@ class Scanner {
     const std::size_t comment = line.find("//");
     const std::size_t brace = line.find('{');
     if (brace == std::string_view::npos || comment < brace) {
-      if (is_heading(line)) begin_run(std::string(trimmed(line)));
+      if (is_heading(line)) begin_run(std::string(unquoted(line)));
       if (list_line_ == 0) take_message(line);
       if (line.find("CLBM:[") != std::string_view::npos) open_list();
       close_list(line);
@@ -146,16 +146,16 @@ class Scanner {
       const std::string_view part(reading_.data() + begin, end - begin);
       begin = end + 1;
       const std::size_t colon = part.find(':');
-      const auto belt = model::belt_of(trimmed(part.substr(0, colon)));
+      const auto belt = model::belt_of(unquoted(part.substr(0, colon)));
       if (!belt || colon == std::string_view::npos) continue;
       is_reading = true;
       if (seen[*belt]) {
         is_whole = false;
-        problems_.add(place(), std::string(trimmed(part)), "each belt once in a reading");
+        problems_.add(place(), std::string(unquoted(part)), "each belt once in a reading");
       }
       seen[*belt] = true;
       const auto value = checked_number(
-          trimmed(part.substr(colon + 1)), place(), name(*belt), kBeltLengthMm, problems_);
+          unquoted(part.substr(colon + 1)), place(), name(*belt), kBeltLengthMm, problems_);
       if (value) point.lengths_mm[*belt] = *value;
       is_whole = is_whole && value.has_value();
     }
@@ -165,7 +165,7 @@ class Scanner {
       is_whole = false;
       problems_.add(
           place(),
-          fmt::format("{{{}}}", trimmed(reading_)),
+          fmt::format("{{{}}}", unquoted(reading_)),
           fmt::format("a length of {} as well: a reading has tl, tr, bl and br", name(belt)));
     }
     if (!is_whole) return;
@@ -248,9 +248,9 @@ class Scanner {
       const std::size_t comma = entry.find(',');
       if (colon == std::string_view::npos || comma == std::string_view::npos || comma < colon)
         continue;
-      const auto index = number_of(trimmed(entry.substr(0, colon)));
-      const auto x = number_of(trimmed(entry.substr(colon + 1, comma - colon - 1)));
-      const auto y = number_of(trimmed(entry.substr(comma + 1)));
+      const auto index = number_of(unquoted(entry.substr(0, colon)));
+      const auto x = number_of(unquoted(entry.substr(colon + 1, comma - colon - 1)));
+      const auto y = number_of(unquoted(entry.substr(comma + 1)));
       if (index && x && y) run().commanded[static_cast<int>(*index)] = {*x, *y};
     }
   }
@@ -278,7 +278,7 @@ class Scanner {
     if (open_reading_) {
       problems_.add(
           place(),
-          fmt::format("{{{}", trimmed(reading_)),
+          fmt::format("{{{}", unquoted(reading_)),
           "the whole log: it ends in the middle of a reading; paste it once more from its "
           "beginning to its end");
     } else if (list_line_ != 0) {

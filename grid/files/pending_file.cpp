@@ -26,15 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(std::string name, std::string found, std::string expected) {
-  throw InputError({{std::move(name), "", std::move(found), std::move(expected)}});
-}
-
-/// The system's own words for an error number, in English whatever the locale.
-std::string words_of(int error_number) {
-  return std::error_code(error_number, std::generic_category()).message();
-}
-
 /// What a signal handler may look at: names of temporary files, in memory that never moves. A slot
 /// is claimed before its file is made, so that no file is ever without one.
 struct Slot {
@@ -85,14 +76,14 @@ std::optional<int> descriptor_behind(const fs::path& path) {
 /// The file that a path names in the end; empty where it is no file but a device, a pipe or an open
 /// descriptor, which are written to directly.
 fs::path file_behind(const fs::path& path) {
-  if (path.empty()) fail("output file", "an empty name", "the name of a file");
+  if (path.empty()) refuse_file("output file", "an empty name", "the name of a file");
   if (descriptor_behind(path)) return {};
   std::error_code error;
-  if (fs::is_directory(path, error)) fail(path.string(), "a directory", "the name of a file");
+  if (fs::is_directory(path, error)) refuse_file(path.string(), "a directory", "the name of a file");
   fs::path target = path;
   if (fs::is_symlink(path, error)) {
     target = fs::weakly_canonical(path, error);
-    if (error) fail(path.string(), words_of(error.value()), "a link that leads to a file");
+    if (error) refuse_file(path.string(), system_words(error.value()), "a link that leads to a file");
   }
   struct stat status = {};
   if (::stat(target.c_str(), &status) != 0) return target;
@@ -102,8 +93,8 @@ fs::path file_behind(const fs::path& path) {
   constexpr mode_t kAnybodyWrites = S_IWUSR | S_IWGRP | S_IWOTH;
   const bool is_protected = (status.st_mode & kAnybodyWrites) == 0;
   if (is_protected || ::access(target.c_str(), W_OK) != 0) {
-    fail(path.string(),
-         is_protected ? "a protected file" : words_of(errno),
+    refuse_file(path.string(),
+         is_protected ? "a protected file" : system_words(errno),
          "a file that may be written to");
   }
   return target;
@@ -151,7 +142,7 @@ PendingFile::PendingFile(fs::path path) : path_(std::move(path)), target_(file_b
   const int error_number = errno;
   temporary_.clear();
   free_slot(slot_);
-  fail(path_.string(), words_of(error_number), "a directory that exists and can be written to");
+  refuse_file(path_.string(), system_words(error_number), "a directory that exists and can be written to");
 }
 
 PendingFile::~PendingFile() { discard(); }
@@ -165,7 +156,7 @@ void PendingFile::discard() {
 
 void PendingFile::refuse(int error_number) {
   discard();
-  fail(path_.string(), words_of(error_number), "room and the right to write the file");
+  refuse_file(path_.string(), system_words(error_number), "room and the right to write the file");
 }
 
 void PendingFile::write(std::string_view bytes) {
@@ -214,8 +205,8 @@ void PendingFile::put_out() const {
   if (!open_already && descriptor >= 0) ::close(descriptor);
   if (is_written) return;
   if (error_number == EPIPE) throw ReaderGone();
-  fail(path_ == "-" ? "standard output" : path_.string(),
-       words_of(error_number),
+  refuse_file(path_ == "-" ? "standard output" : path_.string(),
+       system_words(error_number),
        "something that can be written to");
 }
 

@@ -69,7 +69,7 @@ Value<GridLevel> grid_size(int least) {
            }}};
 }
 
-const Record<NoiseLevel>& noise_record() {
+const Record<NoiseLevel>& noise_level_record() {
   static const auto record =
       Record<NoiseLevel>("a noise")
           .required("length_mm", &NoiseLevel::length_mm, number({"mm", 0.0, 100.0}))
@@ -189,7 +189,7 @@ Record<StatedSweep> make_record() {
          list(choice<DesignKind>(
                   {{"regular", DesignKind::regular}, {"chebyshev", DesignKind::chebyshev}}),
               1));
-  add_to(record, "noises", false, &SweepSpec::noises, list(object(noise_record()), 1));
+  add_to(record, "noises", false, &SweepSpec::noises, list(object(noise_level_record()), 1));
   add_to(record, "jitters_mm", false, &SweepSpec::jitters_mm, list(number({"mm", 0.0, 1000.0}), 1));
   add_to(record,
          "surfaces",

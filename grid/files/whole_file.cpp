@@ -23,15 +23,6 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-[[noreturn]] void fail(std::string name, std::string found, std::string expected) {
-  throw InputError({{std::move(name), "", std::move(found), std::move(expected)}});
-}
-
-/// The system's own words for an error number, in English whatever the locale.
-std::string words_of(int error_number) {
-  return std::error_code(error_number, std::generic_category()).message();
-}
-
 std::string read_to_the_end(std::FILE* file, const std::string& name) {
   note_as_read(fileno(file));
   std::string text;
@@ -39,8 +30,8 @@ std::string read_to_the_end(std::FILE* file, const std::string& name) {
   std::size_t count = 0;
   while ((count = std::fread(buffer, 1, sizeof buffer, file)) > 0) text.append(buffer, count);
   if (std::ferror(file) != 0) {
-    fail(name,
-         fmt::format("a read error ({})", words_of(errno)),
+    refuse_file(name,
+         fmt::format("a read error ({})", system_words(errno)),
          "a file that can be read to its end");
   }
   return text;
@@ -69,7 +60,7 @@ void refuse_what_is_no_text(const std::string& text, const std::string& name) {
   };
   for (const Kind& kind : kKinds) {
     if (text.starts_with(kind.beginning))
-      fail(name, std::string(kind.found), std::string(kind.expected));
+      refuse_file(name, std::string(kind.found), std::string(kind.expected));
   }
 }
 
@@ -88,9 +79,9 @@ std::string name_in_messages(const fs::path& path) {
 std::string read_whole_file(const fs::path& path) {
   if (path == "-") return read_text(stdin, name_in_messages(path));
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) fail(path.string(), "a directory", "a file");
+  if (fs::is_directory(path, ignored)) refuse_file(path.string(), "a directory", "a file");
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file) fail(path.string(), words_of(errno), "a file that can be opened for reading");
+  if (!file) refuse_file(path.string(), system_words(errno), "a file that can be opened for reading");
   return read_text(file.get(), path.string());
 }
 
@@ -110,7 +101,7 @@ void write_whole_files(const std::vector<OutputFile>& outputs) {
         output.path == "-" ? "-" : fs::weakly_canonical(output.path, error).string();
     const bool is_device = fs::is_character_file(output.path, error);
     if (!is_device && !names.insert(place).second)
-      fail(output.path.string(), "a name given twice", "a file of its own for each output");
+      refuse_file(output.path.string(), "a name given twice", "a file of its own for each output");
     files.push_back(pending.emplace_back(std::make_unique<PendingFile>(output.path)).get());
     files.back()->write(output.text);
   }

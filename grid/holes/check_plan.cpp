@@ -21,17 +21,17 @@ using model::MarkPoint;
 using model::Side;
 
 /// Rows and columns of places that are tried.
-constexpr int kColumns = 9;
-constexpr int kRows = 5;
+constexpr int kCheckColumns = 9;
+constexpr int kCheckRows = 5;
 
 /// Where the map answers, row by row from the top left.
 std::vector<MarkPoint> places_of(const CompensationMap& map, double margin_mm) {
   const model::Bed& bed = map.machine()->bed;
   std::vector<MarkPoint> places;
-  for (int iy = 0; iy < kRows; ++iy) {
-    for (int ix = 0; ix < kColumns; ++ix) {
-      const double across = 2.0 * ix / (kColumns - 1) - 1.0;
-      const double up = 1.0 - 2.0 * iy / (kRows - 1);
+  for (int iy = 0; iy < kCheckRows; ++iy) {
+    for (int ix = 0; ix < kCheckColumns; ++ix) {
+      const double across = 2.0 * ix / (kCheckColumns - 1) - 1.0;
+      const double up = 1.0 - 2.0 * iy / (kCheckRows - 1);
       // Whole millimetres: that is what is typed and marked.
       const MarkPoint mark{std::trunc((0.5 * bed.width_mm - margin_mm) * across),
                            std::trunc((0.5 * bed.height_mm - margin_mm) * up)};

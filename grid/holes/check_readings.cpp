@@ -176,19 +176,19 @@ tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const
 }
 
 /// The new points of one file: where they are on the map, and what they say there.
-struct Part {
+struct CheckedPart {
   std::vector<MarkPoint> marks;
   std::vector<Repeated> points;  ///< of a grid
   StatedNoise noise;
   std::optional<observation::TapeDistances> distances;
 };
 
-tl::expected<Part, CheckFailure> part_of(const CompensationMap& map, const MeasuredGrid& grid) {
+tl::expected<CheckedPart, CheckFailure> part_of(const CompensationMap& map, const MeasuredGrid& grid) {
   MeasuredGrid with_machine = grid;
   if (!with_machine.machine && map.machine() != nullptr) with_machine.machine = *map.machine();
   const auto points = length_points(with_machine);
   if (!points) return fail(Reason::no_lengths, points.error().sentence);
-  Part part;
+  CheckedPart part;
   part.points = merged(*points);
   if (part.points.size() > kMostCheckedPoints)
     return too_many(part.points.size(), kMostCheckedPoints, "points");
@@ -197,7 +197,7 @@ tl::expected<Part, CheckFailure> part_of(const CompensationMap& map, const Measu
   return part;
 }
 
-tl::expected<Part, CheckFailure> part_of(const CompensationMap& map, const MeasuredHoles& set) {
+tl::expected<CheckedPart, CheckFailure> part_of(const CompensationMap& map, const MeasuredHoles& set) {
   if (!set.machine) {
     return fail(
         Reason::no_machine,
@@ -210,7 +210,7 @@ tl::expected<Part, CheckFailure> part_of(const CompensationMap& map, const Measu
     return too_many(once.holes.size(), kMostCheckedHoles, "holes");
   auto distances = observation::TapeDistances::in_given_order(std::move(once));
   if (!distances) return fail(Reason::no_lengths, distances.error().sentence);
-  Part part;
+  CheckedPart part;
   for (const observation::Place& place : distances->places()) {
     const auto mark = map.inverse(place.lengths);
     if (!mark) {
@@ -229,7 +229,7 @@ class Gathered {
   explicit Gathered(const MapAt& at) : at_(at) {}
 
   /// `first` is where the part's places begin among all.
-  void add(const Part& part, std::size_t first) {
+  void add(const CheckedPart& part, std::size_t first) {
     if (part.distances) {
       add_distances(part, first);
     } else {
@@ -255,7 +255,7 @@ class Gathered {
  private:
   [[nodiscard]] Eigen::Index row() const { return static_cast<Eigen::Index>(residual_mm_.size()); }
 
-  void add_points(const Part& part, std::size_t first) {
+  void add_points(const CheckedPart& part, std::size_t first) {
     for (std::size_t i = 0; i < part.points.size(); ++i) {
       const ChainLengths& read = part.points[i].point.lengths;
       const ChainLengths& told = at_.lengths[first + i];
@@ -274,7 +274,7 @@ class Gathered {
     }
   }
 
-  void add_distances(const Part& part, std::size_t first) {
+  void add_distances(const CheckedPart& part, std::size_t first) {
     const MeasuredHoles& set = part.distances->set();
     const observation::DistanceGeometry geometry = observation::distance_geometry(set, part.marks);
     const Eigen::VectorXd residual = part.distances->measured() - geometry.predicted_mm;
@@ -345,7 +345,7 @@ class Gathered {
 };
 
 /// `of` tells files apart where there are several: "", or " of holes.json".
-void name_rows(const Part& part, const std::string& of, CheckReadings& readings) {
+void name_rows(const CheckedPart& part, const std::string& of, CheckReadings& readings) {
   for (const auto& [point, count] : part.points) {
     readings.unit_names.push_back(fmt::format("point {}{}", point.index + 1, of));
     for (const char* side : {"left", "right"})
@@ -378,7 +378,7 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
                                                          const Measured& measured,
                                                          const Progress& progress) {
   const std::vector<MeasuredFile>& files = measured.files();
-  std::vector<Part> parts;
+  std::vector<CheckedPart> parts;
   std::vector<MarkPoint> marks;
   for (const MeasuredFile& file : files) {
     auto part = std::visit([&map](const auto& one) { return part_of(map, one); }, file.measured);
@@ -393,7 +393,7 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
   if (!at) return tl::unexpected(at.error());
   Gathered gathered(*at);
   std::size_t first = 0;
-  for (const Part& part : parts) {
+  for (const CheckedPart& part : parts) {
     gathered.add(part, first);
     first += part.marks.size();
   }

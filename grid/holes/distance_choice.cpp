@@ -19,7 +19,7 @@ using Holes = std::vector<const PlannedPlace*>;
 constexpr double kLongestToEdgeMm = 1000.0;
 /// Two choices of the same worth, each other's mirror image say, differ by rounding, which many updates let grow to
 /// 1e-9; the first one stays.
-constexpr double kBetter = 1.0 + 1e-6;
+constexpr double kBetterChoice = 1.0 + 1e-6;
 
 std::vector<MarkPoint> marks_of(const Holes& holes) {
   std::vector<MarkPoint> marks;
@@ -99,7 +99,7 @@ DistanceChooser::Choice DistanceChooser::greedy(const Holes& holes) const {
     for (Eigen::Index k = 0; k < count; ++k) {
       if (taken[static_cast<std::size_t>(k)]) continue;
       const double gain = all.pull.col(k).squaredNorm() / (tape2 + all.known(k, k));
-      if (best >= 0 && gain <= best_gain * kBetter) continue;
+      if (best >= 0 && gain <= best_gain * kBetterChoice) continue;
       best_gain = gain;
       best = k;
     }

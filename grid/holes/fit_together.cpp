@@ -26,7 +26,7 @@ tl::unexpected<FitFailure> fail(FitFailure::Reason reason, const std::string& se
 }
 
 /// A file as an observation, with what its map needs.
-struct Part {
+struct FittedPart {
   std::shared_ptr<const observation::Observation> observation;
   std::optional<PointsFitInput> points;  ///< of a grid
   const MeasuredGrid* grid = nullptr;    ///< corrected
@@ -52,11 +52,11 @@ tl::expected<void, FitFailure> check_one_machine(const std::vector<MeasuredFile>
 }
 
 /// A grid that states no noise is fitted alone for it.
-tl::expected<Part, FitFailure> part_of(const MeasuredGrid& grid) {
+tl::expected<FittedPart, FitFailure> part_of(const MeasuredGrid& grid) {
   const auto points = length_points(grid);
   if (!points) return tl::unexpected(points.error());
   if (auto possible = check_machine_read(grid); !possible) return tl::unexpected(possible.error());
-  Part part;
+  FittedPart part;
   part.grid = &grid;
   part.points = points_input(grid, *points);
   if (part.points->noise_scale.knowledge == interp::NoiseKnowledge::unknown) {
@@ -79,10 +79,10 @@ tl::expected<Part, FitFailure> part_of(const MeasuredGrid& grid) {
   return part;
 }
 
-tl::expected<Part, FitFailure> part_of(const MeasuredHoles& set) {
+tl::expected<FittedPart, FitFailure> part_of(const MeasuredHoles& set) {
   auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) return fail(FitFailure::Reason::no_lengths, distances.error().sentence);
-  Part part;
+  FittedPart part;
   part.distances = std::make_shared<const observation::TapeDistances>(*std::move(distances));
   part.observation = part.distances;
   part.noise_dof = set.noise_dof;
@@ -98,9 +98,9 @@ interp::Rectangle around(const interp::Rectangle& a, const interp::Rectangle& b)
 }
 
 /// Readings of the machine from every grid that has some.
-std::vector<ExtraReading> readings_of(const std::vector<Part>& parts) {
+std::vector<ExtraReading> readings_of(const std::vector<FittedPart>& parts) {
   std::vector<ExtraReading> readings;
-  for (const Part& part : parts) {
+  for (const FittedPart& part : parts) {
     if (part.grid != nullptr)
       readings.insert(readings.end(), part.grid->readings.begin(), part.grid->readings.end());
   }
@@ -108,7 +108,7 @@ std::vector<ExtraReading> readings_of(const std::vector<Part>& parts) {
 }
 
 estimation::EstimationInput estimation_input(const model::Machine& stated,
-                                             const std::vector<Part>& parts) {
+                                             const std::vector<FittedPart>& parts) {
   estimation::EstimationInput input;
   const std::vector<ExtraReading> readings = readings_of(parts);
   input.machine = with_readings(stated, readings);
@@ -116,7 +116,7 @@ estimation::EstimationInput estimation_input(const model::Machine& stated,
   double dof = parts.front().noise_dof;
   bool reads_chains = false;
   std::size_t units = 0;
-  for (const Part& part : parts) {
+  for (const FittedPart& part : parts) {
     input.observations.push_back(part.observation);
     input.domain = around(input.domain, part.domain);
     dof = std::min(dof, part.noise_dof);
@@ -170,7 +170,7 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
 class TogetherMap {
  public:
   TogetherMap(const std::vector<MeasuredFile>& files,
-              const std::vector<Part>& parts,
+              const std::vector<FittedPart>& parts,
               const estimation::EstimationInput& input,
               const estimation::Estimate& estimate)
       : files_(files), parts_(parts), input_(input), estimate_(estimate) {}
@@ -306,7 +306,7 @@ class TogetherMap {
   }
 
   const std::vector<MeasuredFile>& files_;
-  const std::vector<Part>& parts_;
+  const std::vector<FittedPart>& parts_;
   const estimation::EstimationInput& input_;
   const estimation::Estimate& estimate_;
   MapContents map_;
@@ -326,12 +326,12 @@ tl::expected<TogetherFit, FitFailure> fit_together(const Measured& measured,
   constexpr int kSteps = 3;
   if (auto one = check_one_machine(files); !one) return tl::unexpected(one.error());
   std::vector<CorrectedData> corrected(files.size());
-  std::vector<Part> parts;
+  std::vector<FittedPart> parts;
   std::vector<std::string> corrections;
   for (std::size_t k = 0; k < files.size(); ++k) {
     tell(progress, {"each file by itself", 1, kSteps});
     const MeasuredGrid* grid = files[k].grid();
-    tl::expected<Part, FitFailure> part;
+    tl::expected<FittedPart, FitFailure> part;
     if (grid != nullptr) {
       auto data = corrected_data(*grid);
       if (!data) return fail(data.error().reason, files[k].name + ": " + data.error().sentence);

@@ -18,7 +18,7 @@ using model::kBelts;
 namespace {
 
 /// Streams of the seed: what one draws does not depend on the others.
-enum Stream : std::uint64_t { kNoiseStream = 1, kBadStream = 2 };
+enum BeltStream : std::uint64_t { kNoiseStream = 1, kBadStream = 2 };
 
 std::vector<model::BedPoint> commands_of(const model::BeltMachine& stated, const BeltsSpec& spec) {
   const auto& a = stated.anchors;

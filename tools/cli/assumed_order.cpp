@@ -29,7 +29,7 @@ constexpr Word kWords[] = {{"rows", VisitOrder::rows},
                            {"serpentine_columns", VisitOrder::serpentine_columns}};
 
 /// A mark seen along and across the lines: lines follow each other by rising `across`.
-struct Place {
+struct PlaceInTurn {
   std::size_t index = 0;
   double across_mm = 0.0;
   double along_mm = 0.0;
@@ -46,13 +46,13 @@ bool is_second_visit(const std::vector<MeasuredPoint>& points, std::size_t index
 }
 
 /// Side of the square that one mark has to itself.
-double usual_spacing_mm(const std::vector<Place>& places) {
+double usual_spacing_mm(const std::vector<PlaceInTurn>& places) {
   const auto [low_a, high_a] =
-      std::minmax_element(places.begin(), places.end(), [](const Place& a, const Place& b) {
+      std::minmax_element(places.begin(), places.end(), [](const PlaceInTurn& a, const PlaceInTurn& b) {
         return a.across_mm < b.across_mm;
       });
   const auto [low_b, high_b] =
-      std::minmax_element(places.begin(), places.end(), [](const Place& a, const Place& b) {
+      std::minmax_element(places.begin(), places.end(), [](const PlaceInTurn& a, const PlaceInTurn& b) {
         return a.along_mm < b.along_mm;
       });
   const double area_mm2 =
@@ -74,7 +74,7 @@ tl::expected<std::vector<int>, std::string> assumed_order(const std::vector<Meas
   const bool by_rows = order == VisitOrder::rows || order == VisitOrder::serpentine_rows;
   const bool serpentine =
       order == VisitOrder::serpentine_rows || order == VisitOrder::serpentine_columns;
-  std::vector<Place> places;
+  std::vector<PlaceInTurn> places;
   std::vector<std::size_t> second_visits;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const model::MarkPoint& mark = points[i].mark;
@@ -87,12 +87,12 @@ tl::expected<std::vector<int>, std::string> assumed_order(const std::vector<Meas
     }
   }
   if (places.empty()) return std::vector<int>();
-  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+  std::stable_sort(places.begin(), places.end(), [](const PlaceInTurn& a, const PlaceInTurn& b) {
     return a.across_mm < b.across_mm;
   });
   const double gap_mm = kLineGapShare * usual_spacing_mm(places);
-  std::vector<std::vector<Place>> lines(1);
-  for (const Place& place : places) {
+  std::vector<std::vector<PlaceInTurn>> lines(1);
+  for (const PlaceInTurn& place : places) {
     if (!lines.back().empty() && place.across_mm - lines.back().back().across_mm > gap_mm)
       lines.emplace_back();
     lines.back().push_back(place);
@@ -108,11 +108,11 @@ tl::expected<std::vector<int>, std::string> assumed_order(const std::vector<Meas
   std::vector<int> numbers(points.size());
   int visit = 0;
   for (std::size_t line = 0; line < lines.size(); ++line) {
-    std::stable_sort(lines[line].begin(), lines[line].end(), [](const Place& a, const Place& b) {
+    std::stable_sort(lines[line].begin(), lines[line].end(), [](const PlaceInTurn& a, const PlaceInTurn& b) {
       return a.along_mm < b.along_mm;
     });
     if (serpentine && line % 2 == 1) std::reverse(lines[line].begin(), lines[line].end());
-    for (const Place& place : lines[line]) numbers[place.index] = visit++;
+    for (const PlaceInTurn& place : lines[line]) numbers[place.index] = visit++;
   }
   for (const std::size_t index : second_visits) numbers[index] = visit++;
   return numbers;

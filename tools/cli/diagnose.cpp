@@ -133,7 +133,7 @@ std::string counted(const grid::Measured& measured) {
 constexpr std::size_t kMostDiagnosed = 1200;
 
 /// Empty where there are not too many.
-std::string too_many(const grid::Measured& measured) {
+std::string too_many_to_diagnose(const grid::Measured& measured) {
   std::size_t units = 0;
   for (const auto* own : measured.grids()) units += own->points.size();
   for (const auto* set : measured.holes()) units += set->distances.size();
@@ -205,7 +205,7 @@ tl::expected<grid::diagnosis::Transfer, std::string> held_out(const DiagnoseComm
 Outcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
   refuse_for_others(command, measured);
   if (grid::MeasuredGrid* own = measured.first_grid()) assume_order(command, *own);
-  if (const std::string sentence = too_many(measured); !sentence.empty()) {
+  if (const std::string sentence = too_many_to_diagnose(measured); !sentence.empty()) {
     return tl::unexpected(
         fmt::format("{}: {}", files::name_in_messages(command.input.grid), sentence));
   }

@@ -25,7 +25,6 @@ using report::DataTable;
 
 constexpr const char* kPaidOutColor = "#009e73";
 constexpr const char* kTakenInColor = "#cc79a7";
-const char* chain_name(Side side) { return side == Side::left ? "left" : "right"; }
 
 /// A number of a point, for one of the chains.
 using OfChain = std::function<double(const PointPicture&, Side chain)>;

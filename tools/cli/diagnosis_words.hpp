@@ -10,6 +10,7 @@
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
+#include "model/coordinates.hpp"
 
 namespace chaintrue::cli {
 
@@ -107,5 +108,10 @@ struct GainRow {
 /// Everything for the terminal: verdict, advice, causes, gain, follow-up, settings, what is absent
 /// and what could not be tested.
 [[nodiscard]] std::string diagnosis_in_words(const grid::diagnosis::Diagnosis& diagnosis);
+
+/// "left" or "right".
+[[nodiscard]] inline const char* chain_name(model::Side side) {
+  return side == model::Side::left ? "left" : "right";
+}
 
 }  // namespace chaintrue::cli

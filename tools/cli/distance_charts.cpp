@@ -53,7 +53,7 @@ std::vector<report::Arrow> marks_of(const Diagnosis& found) {
   return marks;
 }
 
-struct Panel {
+struct DistancePanel {
   std::string title;
   double DistancePicture::*residual;
 };
@@ -126,20 +126,20 @@ class Panels {
   DataTable holes_{"holes", {"panel", "name", "x_mm", "y_mm"}, {}};
 };
 
-double largest(const Diagnosis& found, const std::vector<Panel>& panels) {
+double largest(const Diagnosis& found, const std::vector<DistancePanel>& panels) {
   double value = 0.0;
   for (const DistancePicture& distance : found.distances) {
     if (distance.bad) continue;
-    for (const Panel& panel : panels) value = std::max(value, std::abs(distance.*panel.residual));
+    for (const DistancePanel& panel : panels) value = std::max(value, std::abs(distance.*panel.residual));
   }
   return value;
 }
 
-Chart residual_panels(const Diagnosis& found, const std::vector<Panel>& panels, std::string title) {
+Chart residual_panels(const Diagnosis& found, const std::vector<DistancePanel>& panels, std::string title) {
   const double full_mm = largest(found, panels);
   double noise_mm = 0.0;
   Panels drawn(found);
-  for (const Panel& panel : panels) {
+  for (const DistancePanel& panel : panels) {
     drawn.begin(panel.title, fmt::format("rms {:.2f} mm", rms(found, panel.residual)));
     for (const DistancePicture& distance : found.distances) {
       const double mm = distance.*panel.residual;
@@ -163,7 +163,7 @@ Chart residual_panels(const Diagnosis& found, const std::vector<Panel>& panels, 
 }
 
 /// Dots of one kind against something of the distance.
-struct Scatter {
+struct DistanceScatter {
   std::string title;
   std::string caption;
   std::string x_title;
@@ -182,7 +182,7 @@ Window window_of(const std::vector<double>& values, double share, double least) 
   return {*low - margin, *high + margin};
 }
 
-Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
+Chart scatter_chart(const Diagnosis& found, const DistanceScatter& scatter) {
   constexpr double kLeastSpanMm = 0.5;
   const bool has_after = !found.causes.empty();
   std::vector<double> along, up = {0.0};
@@ -224,14 +224,14 @@ Chart scatter_chart(const Diagnosis& found, const Scatter& scatter) {
 }  // namespace
 
 Chart distance_chart(const Diagnosis& found) {
-  std::vector<Panel> panels = {{"Before: the machine calibrated", &DistancePicture::before_mm}};
+  std::vector<DistancePanel> panels = {{"Before: the machine calibrated", &DistancePicture::before_mm}};
   if (!found.causes.empty())
     panels.push_back({"After: with what was named", &DistancePicture::after_mm});
   return residual_panels(found, panels, "The distances, as read less as predicted");
 }
 
 Chart distance_strip_chart(const Diagnosis& found) {
-  std::vector<Panel> panels = {{"Measured", &DistancePicture::before_mm}};
+  std::vector<DistancePanel> panels = {{"Measured", &DistancePicture::before_mm}};
   const bool several =
       found.causes.size() > 1 && found.verdict != grid::diagnosis::Verdict::named_set;
   panels.push_back({several ? fmt::format("The {} causes named", found.causes.size())

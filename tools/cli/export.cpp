@@ -46,7 +46,7 @@ Exported of_machine(const model::Machine& machine, std::vector<std::string> next
   return {files::write_groundcontrol(machine), "", std::move(next)};
 }
 
-std::vector<std::string> page_of(const std::string& path) {
+std::vector<std::string> settings_page(const std::string& path) {
   return {"report", path, "-o", std::filesystem::path(path).replace_extension(".html").string()};
 }
 
@@ -56,7 +56,7 @@ Exported of_map(const grid::CompensationMap& map,
                 const std::string& path) {
   const model::Machine* machine = map.machine();
   if (machine != nullptr && !machine->controller.settings.motor_spacing_mm) {
-    return of_machine(*machine, page_of(path));
+    return of_machine(*machine, settings_page(path));
   }
   const auto typed = grid::settings_to_type(map);
   if (!typed) throw files::InputError({{file, "", "this map", typed.error().sentence}});
@@ -65,7 +65,7 @@ Exported of_map(const grid::CompensationMap& map,
           *machine, typed->settings, fmt::format("the {} points of {}", typed->points, file)),
       "",
       typed->worth_typing ? std::vector<std::string>{"plan", "--check", path, "-o", "check.csv"}
-                          : page_of(path)};
+                          : settings_page(path)};
   result.words =
       typed->worth_typing
           ? fmt::format(
@@ -94,7 +94,7 @@ Exported export_of(const std::string& path) {
     std::vector<files::Warning> warnings;
     const auto found = files::parse_diagnosis(text, file, &warnings);
     print_warnings(warnings);
-    return of_machine(found.extended_machine, page_of(path));
+    return of_machine(found.extended_machine, settings_page(path));
   }
   const files::ReadMachine read = files::parse_machine_with_warnings(text, file);
   print_warnings(read.warnings);

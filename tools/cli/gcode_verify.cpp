@@ -30,7 +30,7 @@ const gcode::Deviation& worst(const gcode::VerifySummary& summary) {
   return summary.feeds.largest_mm >= summary.rapids.largest_mm ? summary.feeds : summary.rapids;
 }
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -58,9 +58,9 @@ void print_json(const gcode::VerifySummary& summary,
       summary.commands,
       summary.places,
       summary.strays,
-      quoted(summary.words_differ),
-      quoted(summary.motion_differs),
-      quoted(summary.fault));
+      in_quotes(summary.words_differ),
+      in_quotes(summary.motion_differs),
+      in_quotes(summary.fault));
 }
 
 void print_words(const gcode::VerifySummary& summary,

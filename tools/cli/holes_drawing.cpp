@@ -16,16 +16,16 @@ namespace {
 using model::BedPoint;
 
 // The picture, in its own units.
-constexpr double kBedWide = 900.0, kLeft = 30.0, kTop = 60.0, kBelow = 50.0;
+constexpr double kSheetWide = 900.0, kSheetLeft = 30.0, kSheetTop = 60.0, kSheetBelow = 50.0;
 
 class Sheet {
  public:
-  explicit Sheet(const model::Bed& bed) : bed_(bed), scale_(kBedWide / bed.width_mm) {}
+  explicit Sheet(const model::Bed& bed) : bed_(bed), scale_(kSheetWide / bed.width_mm) {}
   [[nodiscard]] double x(BedPoint at) const {
-    return kLeft + scale_ * (at.x_mm + 0.5 * bed_.width_mm);
+    return kSheetLeft + scale_ * (at.x_mm + 0.5 * bed_.width_mm);
   }
   [[nodiscard]] double y(BedPoint at) const {
-    return kTop + scale_ * (0.5 * bed_.height_mm - at.y_mm);
+    return kSheetTop + scale_ * (0.5 * bed_.height_mm - at.y_mm);
   }
   [[nodiscard]] double bed_high() const { return scale_ * bed_.height_mm; }
 
@@ -104,8 +104,8 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
       std::any_of(plan.set.distances.begin(), plan.set.distances.end(), [](const auto& distance) {
         return distance.edge.has_value();
       });
-  const double wide = kBedWide + 2.0 * kLeft;
-  const double high = kTop + sheet.bed_high() + kBelow;
+  const double wide = kSheetWide + 2.0 * kSheetLeft;
+  const double high = kSheetTop + sheet.bed_high() + kSheetBelow;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 "
       "0 "
@@ -118,12 +118,12 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
       "stroke=\"#333333\"/>\n",
       wide,
       high,
-      kLeft,
+      kSheetLeft,
       plan.set.holes.size(),
       distances_in_number(plan.set),
       plan.expected_rms_mm,
-      kTop,
-      kBedWide,
+      kSheetTop,
+      kSheetWide,
       sheet.bed_high());
   for (const grid::HoleDistance& distance : plan.set.distances) {
     const BedPoint from = plan.set.holes[distance.from].commanded;
@@ -141,7 +141,7 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
                    words_of(plan.set, distance),
                    distance.distance_mm);
   }
-  Labels labels(kLeft, kLeft + kBedWide);
+  Labels labels(kSheetLeft, kSheetLeft + kSheetWide);
   for (const grid::Hole& hole : plan.set.holes)
     labels.keep_free(sheet.x(hole.commanded), sheet.y(hole.commanded));
   for (const grid::Hole& hole : plan.set.holes) {
@@ -167,7 +167,7 @@ std::string draw_holes_plan(const grid::HolesPlan& plan) {
       std::back_inserter(svg),
       "<text x=\"{:.0f}\" y=\"{:.1f}\">Seen from the front; the origin is the middle of "
       "the bed. Each line is one reading of the tape, centre to centre{}.</text>\n</svg>\n",
-      kLeft,
+      kSheetLeft,
       high - 18.0,
       has_edges ? "; green, square to an edge of the sheet" : "");
   return svg;

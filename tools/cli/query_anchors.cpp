@@ -23,7 +23,7 @@ using model::Belt;
 using model::kBelts;
 
 /// One line of the answer: numbers that are not there are empty cells, or left out.
-struct Line {
+struct AnswerOfBelts {
   model::BedPoint point;
   std::optional<model::PerBelt<double>> lengths_mm;
   model::ChainLengths sigma;  ///< of the upper two
@@ -43,8 +43,8 @@ grid::BeltMap map_of(const files::FittedAnchors& anchors, const std::string& fil
 }
 
 /// The upper two decide where the tool is; the lower two follow it there.
-Line answered(const grid::BeltMap& map, const model::BeltMachine& machine, model::BedPoint point) {
-  Line line{point, std::nullopt, {}};
+AnswerOfBelts answered(const grid::BeltMap& map, const model::BeltMachine& machine, model::BedPoint point) {
+  AnswerOfBelts line{point, std::nullopt, {}};
   const auto upper = map.lengths(point);
   if (!upper || map.status(point) == grid::MapStatus::outside) return line;
   const auto place = model::place_of_upper(machine, upper->left_mm, upper->right_mm);
@@ -59,9 +59,9 @@ Line answered(const grid::BeltMap& map, const model::BeltMachine& machine, model
   return line;
 }
 
-std::string as_csv(const std::vector<Line>& lines) {
+std::string as_csv(const std::vector<AnswerOfBelts>& lines) {
   std::string text = "x_mm,y_mm,tl_mm,tr_mm,bl_mm,br_mm,tl_sigma_mm,tr_sigma_mm,status\n";
-  for (const Line& line : lines) {
+  for (const AnswerOfBelts& line : lines) {
     fmt::format_to(std::back_inserter(text), "{},{},", line.point.x_mm, line.point.y_mm);
     if (line.lengths_mm) {
       for (const Belt belt : kBelts)
@@ -76,10 +76,10 @@ std::string as_csv(const std::vector<Line>& lines) {
   return text;
 }
 
-std::string as_json(const std::vector<Line>& lines) {
+std::string as_json(const std::vector<AnswerOfBelts>& lines) {
   std::string text = "[";
   const char* separator = "\n";
-  for (const Line& line : lines) {
+  for (const AnswerOfBelts& line : lines) {
     fmt::format_to(std::back_inserter(text),
                    "{}  {{\"x_mm\": {}, \"y_mm\": {}, ",
                    separator,
@@ -139,7 +139,7 @@ int query_anchors(const AnchorsQuery& query) {
     if (code == kDone) say_next(next);
     return code;
   }
-  std::vector<Line> lines;
+  std::vector<AnswerOfBelts> lines;
   bool reached = true;
   for (const model::BedPoint& point : query.points) {
     lines.push_back(answered(map, machine, point));

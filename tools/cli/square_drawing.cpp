@@ -16,9 +16,9 @@ constexpr double kLargestError = 0.11;  // share of the side that the largest er
 
 /// From the bed to the picture; the cut outline is drawn about its own middle, so that shape alone
 /// shows.
-class Picture {
+class SquarePicture {
  public:
-  Picture(const model::CutSquare& square, const model::SquareTask& task)
+  SquarePicture(const model::CutSquare& square, const model::SquareTask& task)
       : square_(square),
         scale_(kSide / task.size_mm),
         left_(square.commanded.front().x_mm),
@@ -59,7 +59,7 @@ class Picture {
   double scale_, left_, top_, magnification_;
 };
 
-void text(std::string& svg,
+void write_text(std::string& svg,
           double x,
           double y,
           std::string_view anchor,
@@ -69,7 +69,7 @@ void text(std::string& svg,
       turn_deg == 0.0 ? ""
                       : fmt::format(" transform=\"rotate({:.0f} {:.1f} {:.1f})\"", turn_deg, x, y);
   fmt::format_to(std::back_inserter(svg),
-                 "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n",
+                 "<write_text x=\"{:.1f}\" y=\"{:.1f}\" write_text-anchor=\"{}\"{}>{}</write_text>\n",
                  x,
                  y,
                  anchor,
@@ -81,7 +81,7 @@ void text(std::string& svg,
 
 std::string draw_square(const model::CutSquare& square, const model::SquareTask& task) {
   using model::SquareSide;
-  const Picture picture(square, task);
+  const SquarePicture picture(square, task);
   std::string commanded, cut;
   for (std::size_t i = 0; i < square.cut.size(); ++i) {
     commanded += (i == 0 ? "" : " ") + picture.commanded(i);
@@ -107,14 +107,14 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
       picture.magnification(),
       commanded,
       cut);
-  text(
+  write_text(
       svg,
       kWide / 2,
       34.0,
       "middle",
       fmt::format(
           "A {:g} mm square at ({:g}, {:g}) mm", task.size_mm, task.corner.x_mm, task.corner.y_mm));
-  text(svg,
+  write_text(svg,
        kWide / 2,
        58.0,
        "middle",
@@ -125,11 +125,11 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
     return fmt::format("{:.2f} mm, bow {:+.2f}", s.length_mm, s.bow_mm);
   };
   const double middle_x = kLeft + kSide / 2, middle_y = kTop + kSide / 2;
-  text(svg, middle_x, kTop + 70.0, "middle", side(SquareSide::top));
-  text(svg, middle_x, kTop + kSide - 60.0, "middle", side(SquareSide::bottom));
-  text(svg, kLeft + 70.0, middle_y, "middle", side(SquareSide::left), -90.0);
-  text(svg, kLeft + kSide - 60.0, middle_y, "middle", side(SquareSide::right), -90.0);
-  text(svg,
+  write_text(svg, middle_x, kTop + 70.0, "middle", side(SquareSide::top));
+  write_text(svg, middle_x, kTop + kSide - 60.0, "middle", side(SquareSide::bottom));
+  write_text(svg, kLeft + 70.0, middle_y, "middle", side(SquareSide::left), -90.0);
+  write_text(svg, kLeft + kSide - 60.0, middle_y, "middle", side(SquareSide::right), -90.0);
+  write_text(svg,
        kWide / 2,
        kTop + kSide + 90.0,
        "middle",
@@ -137,7 +137,7 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
                    square.rising_diagonal_mm,
                    square.falling_diagonal_mm,
                    task.size_mm * std::sqrt(2.0)));
-  text(svg,
+  write_text(svg,
        kWide / 2,
        kTop + kSide + 116.0,
        "middle",
@@ -145,7 +145,7 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
                    square.offset.x_mm,
                    square.offset.y_mm,
                    1e3 * square.rotation_rad));
-  text(svg,
+  write_text(svg,
        kWide / 2,
        kTop + kSide + 142.0,
        "middle",

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Values that many records hold. Their ranges only keep numbers that are no measure of anything
+/// away from arithmetic. Private to grid/files.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "grid/files/json_reader.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid::files {
+
+inline constexpr Range kAnyNumber{"", -1e12, 1e12};
+inline constexpr Range kNotNegative{"", 0.0, 1e12};
+inline constexpr Range kShare{"", 0.0, 1.0};
+inline constexpr Range kMillimetres{"mm", -1e6, 1e6};
+inline constexpr Range kSigmaMm{"mm", 0.0, 1e6};
+inline constexpr Range kPlaceMm{"mm", -1e5, 1e5};
+/// Of points, distances and places.
+inline constexpr int kMostNumbered = 1000000;
+
+/// A measure of a machine: model::problems_of says what it may reasonably be, in one place for files
+/// and programs alike.
+[[nodiscard]] inline Value<double> number_in(std::string_view unit) {
+  constexpr double kBeyondMeaning = 1e6;
+  return number({unit, -kBeyondMeaning, kBeyondMeaning});
+}
+
+/// The name of a setting of the machine or of the sheet.
+[[nodiscard]] Value<model::Setting> setting_word();
+
+}  // namespace chaintrue::grid::files
