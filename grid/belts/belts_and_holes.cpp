@@ -29,7 +29,8 @@ using belts::TapedFrame;
 using belts::TapedNoise;
 using belts::TapedRows;
 
-tl::unexpected<BeltsFitFailure> joint_failure(BeltsFitFailure::Reason reason, std::string sentence) {
+tl::unexpected<BeltsFitFailure> joint_failure(BeltsFitFailure::Reason reason,
+                                              std::string sentence) {
   return tl::unexpected(BeltsFitFailure{reason, std::move(sentence)});
 }
 
@@ -332,21 +333,23 @@ tl::expected<BeltsAndHolesFit, BeltsFitFailure> fit_belts_and_holes(
   if (measured.points.empty() && !measured.machine.anchors_known)
     throw precondition("holes of a machine of which no anchor is known");
   if (count > kMostTapedByBelts) {
-    return joint_failure(Reason::too_many_distances,
-                   fmt::format("{} distances are more than a fit beside belts takes ({}): leave "
-                               "some out, evenly over the sheet",
-                               count,
-                               kMostTapedByBelts));
+    return joint_failure(
+        Reason::too_many_distances,
+        fmt::format("{} distances are more than a fit beside belts takes ({}): leave "
+                    "some out, evenly over the sheet",
+                    count,
+                    kMostTapedByBelts));
   }
   auto alone = by_belts(measured);
   if (!alone) return tl::unexpected(alone.error());
   const TapedFrame frame(measured, sets, std::move(alone->second));
   const auto state = settled_state(frame, sets);
   if (!state) {
-    return joint_failure(Reason::tape_contradicts,
-                   "more than a third of the distances contradict the belts or each other: check "
-                   "the anchors in force when the holes were cut, which holes the distances join, "
-                   "and the tape's hook offset");
+    return joint_failure(
+        Reason::tape_contradicts,
+        "more than a third of the distances contradict the belts or each other: check "
+        "the anchors in force when the holes were cut, which holes the distances join, "
+        "and the tape's hook offset");
   }
   BeltsAndHolesFit fit{std::move(alone->first), {}};
   fit.holes.covariance = posterior(frame, *state, fit.holes.displacement);

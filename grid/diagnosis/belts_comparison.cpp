@@ -103,8 +103,7 @@ double coefficient_sigma(const Regressor& regressor) {
 bool one_event(const Regressor& a, const Regressor& b) {
   constexpr double kAboutOneVisit = 4.0;
   const auto sets_in = [](const Regressor& r) { return r.cause.effect->parameters.size() > 1; };
-  return sets_in(a) && sets_in(b) &&
-         std::abs(a.values.back() - b.values.back()) <= kAboutOneVisit;
+  return sets_in(a) && sets_in(b) && std::abs(a.values.back() - b.values.back()) <= kAboutOneVisit;
 }
 
 /// Sets of causes beside one pattern.
@@ -123,7 +122,9 @@ class BeltCauseSearch {
     return run();
   }
 
-  std::vector<CandidateModel> run_beside(const PatternNoise& pattern, int number, double log_share) {
+  std::vector<CandidateModel> run_beside(const PatternNoise& pattern,
+                                         int number,
+                                         double log_share) {
     prepare(pattern);
     discrepancy_ = number;
     log_share_ = log_share;
@@ -188,7 +189,9 @@ class BeltCauseSearch {
     return models_.back().log_weight;
   }
 
-  void extend(const ColumnSet& parent, std::set<ColumnSet>& seen, std::vector<WeighedSet>& children) {
+  void extend(const ColumnSet& parent,
+              std::set<ColumnSet>& seen,
+              std::vector<WeighedSet>& children) {
     for (Eigen::Index i = 0; i < equations_.ge.size(); ++i) {
       const Regressor& own = regressor(i);
       const bool fits = std::all_of(parent.begin(), parent.end(), [&](Eigen::Index other) {

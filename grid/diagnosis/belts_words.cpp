@@ -12,7 +12,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-std::string sized_belt_cause(const CauseId& cause, const std::vector<ParameterEstimate>& parameters) {
+std::string sized_belt_cause(const CauseId& cause,
+                             const std::vector<ParameterEstimate>& parameters) {
   std::string text = fmt::format("{}{} (", cause.effect->cause, side_words(cause));
   for (const ParameterEstimate& own : parameters) {
     if (&own != &parameters.front()) text += ", ";
@@ -83,7 +84,8 @@ std::string named_belt_words(const Diagnosis& d) {
 std::string listed_words(const Diagnosis& d, std::string_view last) {
   std::vector<std::string> parts;
   for (const Cause& c : d.causes) {
-    parts.push_back(fmt::format("{}, {}", sized_belt_cause(c.cause, c.parameters), percent(c.probability)));
+    parts.push_back(
+        fmt::format("{}, {}", sized_belt_cause(c.cause, c.parameters), percent(c.probability)));
   }
   return joined(parts, last);
 }

@@ -14,7 +14,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-
 /// A discrepancy with what speaks for it before it is searched.
 struct Scouted {
   int discrepancy = 0;
@@ -63,8 +62,8 @@ class Scout {
  private:
   /// log evidence of one regressor but for determinants that all share, its bounds let go.
   [[nodiscard]] double single(const DiscrepancyBasis::Beside::Diagonal& d, Eigen::Index k) const {
-    const Regressor& own = system_.regressors[static_cast<std::size_t>(
-        plain_.columns[static_cast<std::size_t>(k)])];
+    const Regressor& own =
+        system_.regressors[static_cast<std::size_t>(plain_.columns[static_cast<std::size_t>(k)])];
     const NoiseDensity& noise = collector_.noise();
     if (own.fixed) return noise.log_density_as_stated(d.ee - 2.0 * d.ge(k) + d.gg(k));
     const double gg = std::max(d.gg(k), 0.0);
@@ -99,9 +98,9 @@ class Scout {
 class BesideSearch {
  public:
   BesideSearch(const LinearisedSystem& system,
-         NormalEquations equations,
-         int discrepancy,
-         ModelCollector& collector)
+               NormalEquations equations,
+               int discrepancy,
+               ModelCollector& collector)
       : system_(system),
         equations_(std::move(equations)),
         discrepancy_(discrepancy),

@@ -13,7 +13,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-
 /// The most telling regressor of each cause: the longest, and the nearest to the data among those
 /// of a cause with places.
 std::vector<std::pair<CauseId, int>> leading_regressors(const LinearisedSystem& system,

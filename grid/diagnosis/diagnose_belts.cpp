@@ -52,7 +52,8 @@ tl::expected<Diagnosis, DiagnosisFailure> diagnose(const MeasuredBelts& belts,
   d.outliers = bad_belts(beside);
   d.belts = belts_findings(*analysed, beside, belts, *alone);
   const BeltsNext next = options.next_measurements ? next_measurements(*analysed) : BeltsNext{};
-  if (options.next_measurements) d.next_measurements = measurements_of(next, belts, *alone, a.decision);
+  if (options.next_measurements)
+    d.next_measurements = measurements_of(next, belts, *alone, a.decision);
   put_belts_into_words(belts, *alone, next, d);
   return d;
 }

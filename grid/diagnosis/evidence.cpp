@@ -14,7 +14,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-
 /// log of the chance that a normal lies in [low, high].
 double log_mass(double mean, double sigma, double low, double high) {
   return log_normal_mass((low - mean) / sigma, (high - mean) / sigma);

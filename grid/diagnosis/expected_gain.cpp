@@ -12,7 +12,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-constexpr int kGainColumns = 25;  // 100 mm apart on a whole bed: waves of a sprocket's turn included
+constexpr int kGainColumns =
+    25;  // 100 mm apart on a whole bed: waves of a sprocket's turn included
 constexpr int kGainRows = 13;
 
 bool hangs_on_visits(const Analysis& a) {

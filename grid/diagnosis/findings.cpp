@@ -174,8 +174,8 @@ std::vector<Term> terms(const Analysis& a) {
     term.share_left = length / std::max(raw_length(a, column), 1e-12);
     const auto tested = std::find_if(
         a.tested.begin(), a.tested.end(), [&](const auto& one) { return one.first == cause; });
-    term.p_value = a.null.p_value(tested != a.tested.end() ? tested->second
-                                                           : by_cause(static_cast<Eigen::Index>(k)));
+    term.p_value = a.null.p_value(
+        tested != a.tested.end() ? tested->second : by_cause(static_cast<Eigen::Index>(k)));
     for (std::size_t c = 0; c < a.decision.classes.size(); ++c) {
       const auto& members = a.decision.classes[c];
       if (std::find(members.begin(), members.end(), cause) != members.end())
@@ -189,8 +189,7 @@ std::vector<Term> terms(const Analysis& a) {
   return result;
 }
 
-std::vector<Bound> bounds(const Analysis& a,
-                          std::vector<NotTestable>& not_testable) {
+std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testable) {
   const std::vector<CauseId> listed = listed_causes(a);
   const MarginalisedSystem& marginalised = marginalised_system(a);
   std::vector<Bound> result;

@@ -17,7 +17,6 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-
 double prior_of_count(std::size_t causes, bool beside_discrepancy) {
   const std::array<double, kMostCauses + 1> prior = {
       kPriorOfNothing, kPriorOfOne, kPriorOfTwo, kPriorOfThree, kPriorOfFour};
@@ -70,7 +69,8 @@ double log_prior(const std::vector<Regressor>& regressors,
     value += d.log_prior - std::log(effects);
     if (!d.slip) ++lasting;
   }
-  return value + std::log(prior_of_count(lasting, discrepancy)) + std::lgamma(1.0 + static_cast<double>(lasting));
+  return value + std::log(prior_of_count(lasting, discrepancy)) +
+         std::lgamma(1.0 + static_cast<double>(lasting));
 }
 
 SingleScores single_scores(const LinearisedSystem& system,
@@ -137,9 +137,8 @@ std::vector<std::vector<bool>> sets_without_links(const LinearisedSystem& system
     for (std::size_t k = 0; k < system.regressors.size() && !links; ++k) {
       if (!system.regressors[k].fixed) continue;
       const auto g = system.g.col(static_cast<Eigen::Index>(k)).segment(unit.first_row, unit.rows);
-      links =
-          g.squaredNorm() > 0.0 && (unit.segment(fitted.left) - g).squaredNorm() <
-                                       kLinksAlike * fitted.noise_square;
+      links = g.squaredNorm() > 0.0 &&
+              (unit.segment(fitted.left) - g).squaredNorm() < kLinksAlike * fitted.noise_square;
     }
     if (!links) continue;
     std::vector<bool> without = marginalised.outliers;
@@ -224,7 +223,7 @@ class Comparer {
 
   void look_beside(SetSearch& search) {
     const bool first = comparison_.kernels.empty();
-    const std::vector<std::size_t> kernels = !first                      ? leading_kernels(comparison_)
+    const std::vector<std::size_t> kernels = !first ? leading_kernels(comparison_)
                                              : !options_.kernels.empty() ? options_.kernels
                                                                          : all_kernels();
     std::vector<double> weight;

@@ -11,10 +11,10 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr int kRounds = 8;
-constexpr double kSettled = 1e-3;     // of a size: a hundredth of its sigma at strength 10
+constexpr double kSettled = 1e-3;           // of a size: a hundredth of its sigma at strength 10
 constexpr double kSettledSettingMm = 1e-3;  // of a setting
-constexpr int kSteps = 5;             // of the search for a size
-constexpr double kLongestStep = 0.5;  // of a size
+constexpr int kSteps = 5;                   // of the search for a size
+constexpr double kLongestStep = 0.5;        // of a size
 
 /// How far the places next to a regressor's own lie.
 struct Reach {

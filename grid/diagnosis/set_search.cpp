@@ -13,10 +13,7 @@
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {
-namespace {
-
-
-}  // namespace
+namespace {}  // namespace
 
 class SetSearch::Search {
  public:
@@ -150,8 +147,8 @@ class SetSearch::Search {
       occam = 2.0 * std::log(kUsualSignalToNoise) + 0.5 * std::log(det);
     }
     const auto n = static_cast<double>(marginalised_.kept.size());
-    return -0.5 * (n + system_.noise_dof) * std::log(system_.noise_dof + std::max(q, 0.0)) -
-           occam + a.log_prior + b.log_prior;
+    return -0.5 * (n + system_.noise_dof) * std::log(system_.noise_dof + std::max(q, 0.0)) - occam +
+           a.log_prior + b.log_prior;
   }
 
   void pairs() {
@@ -210,7 +207,8 @@ class SetSearch::Search {
       order.emplace_back(-gain - 2.0 * regressor(i).log_prior, i);
     }
     std::sort(order.begin(), order.end());
-    order.resize(count_with_ties(order, kChildren, [](const auto& scored) { return scored.first; }));
+    order.resize(
+        count_with_ties(order, kChildren, [](const auto& scored) { return scored.first; }));
     for (const auto& [score, index] : order) {
       std::vector<Eigen::Index> set = parent;
       set.push_back(index);

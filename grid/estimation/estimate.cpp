@@ -335,8 +335,8 @@ MachineKnowledge stated_knowledge(const model::Machine& machine) {
                  kKnownSigma);
     knowledge.covariance(i, i) = sigma * sigma;
   }
-  knowledge.covariance(kMachineSettingCount, kMachineSettingCount) = knowledge.covariance(kMachineSettingCount + 1, kMachineSettingCount + 1) =
-      kScaleSigma * kScaleSigma;
+  knowledge.covariance(kMachineSettingCount, kMachineSettingCount) = knowledge.covariance(
+      kMachineSettingCount + 1, kMachineSettingCount + 1) = kScaleSigma * kScaleSigma;
   return knowledge;
 }
 

@@ -12,8 +12,7 @@ namespace chaintrue::grid::estimation {
 using model::Side;
 using observation::Observation;
 
-namespace {
-}
+namespace {}
 
 void JointProblem::add_rows(interp::PenalisedProblem& problem,
                             const Eigen::VectorXd& weights) const {
@@ -110,8 +109,8 @@ void JointProblem::add_surface_prior(interp::PenalisedProblem& problem,
     const double weight = weights[static_cast<Eigen::Index>(u)];
     for (const observation::PlaceColumns& place : units_[u].places) {
       const double square = observed_->squares()[static_cast<Eigen::Index>(place.place)];
-      penalty.balance += weight * square * place.by_chain.squaredNorm() /
-                         (2.0 * observed_->penalty_trace());
+      penalty.balance +=
+          weight * square * place.by_chain.squaredNorm() / (2.0 * observed_->penalty_trace());
     }
   }
   problem.penalties = {std::move(penalty)};

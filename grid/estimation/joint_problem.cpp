@@ -21,7 +21,6 @@ using model::MarkPoint;
 using model::Side;
 using observation::Observation;
 
-
 std::vector<MarkPoint> stated_marks(const observation::Observations& observations) {
   std::vector<MarkPoint> marks;
   for (const auto& observation : observations) {

@@ -39,9 +39,9 @@ Unknowns::Unknowns(const model::Machine& stated,
   }
   sigma_ = Eigen::VectorXd::Zero(total_);
   for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
-    sigma_[i] = std::max(
-        model::stated_sigma(stated, model::kMachineSettings[static_cast<std::size_t>(i)]),
-        kKnownSigma);
+    sigma_[i] =
+        std::max(model::stated_sigma(stated, model::kMachineSettings[static_cast<std::size_t>(i)]),
+                 kKnownSigma);
   }
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (sheet_[i] < 0) continue;

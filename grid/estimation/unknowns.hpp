@@ -26,7 +26,8 @@ namespace chaintrue::grid::estimation {
 inline constexpr double kKnownSigma = 1e-7;
 
 /// Settings of the machine: the first unknowns.
-inline constexpr auto kMachineSettingCount = static_cast<Eigen::Index>(model::kMachineSettings.size());
+inline constexpr auto kMachineSettingCount =
+    static_cast<Eigen::Index>(model::kMachineSettings.size());
 
 /// How many columns a surface has for each chain: polynomials and bends.
 struct SurfaceColumns {
@@ -69,7 +70,6 @@ class Unknowns {
                                                std::size_t observation) const;
 
  private:
-
   model::Machine stated_;
   SurfaceColumns surface_;
   Eigen::Index settings_ = 0;

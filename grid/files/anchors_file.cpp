@@ -180,12 +180,11 @@ void add_fit(Record<BeltsFit>& record) {
                   all.push_back(fitted_coordinate_record().write(c));
                 return std::optional<Json>(std::move(all));
               })
-      .custom(
-          "covariance_mm2",
-          true,
-          {"five rows of five numbers", list(list(number(kSquare), 5), 5).expected.schema},
-          read_covariance,
-          written_covariance)
+      .custom("covariance_mm2",
+              true,
+              {"five rows of five numbers", list(list(number(kSquare), 5), 5).expected.schema},
+              read_covariance,
+              written_covariance)
       .required("spread_mm", &BeltsFit::spread_mm, number(kSigmaMm))
       .required("checks", &BeltsFit::checks, integer(0, 4 * kMostPlaces))
       .required("rms_mm", &BeltsFit::rms_mm, number(kSigmaMm))
@@ -231,12 +230,11 @@ const Record<BeltsFit>& fit_record() {
 }
 
 const Record<FittedAnchors>& fitted_anchors_record() {
-  static const auto record = Record<FittedAnchors>("a chaintrue_anchors file", kAnchorsFormat)
-                                 .sparse("name", &FittedAnchors::name, text())
-                                 .required("fit", &FittedAnchors::fit, object(fit_record()))
-                                 .optional("holes",
-                                           &FittedAnchors::holes,
-                                           object(holes_beside_belts_record()));
+  static const auto record =
+      Record<FittedAnchors>("a chaintrue_anchors file", kAnchorsFormat)
+          .sparse("name", &FittedAnchors::name, text())
+          .required("fit", &FittedAnchors::fit, object(fit_record()))
+          .optional("holes", &FittedAnchors::holes, object(holes_beside_belts_record()));
   return record;
 }
 

@@ -167,7 +167,8 @@ const Record<HolesBesideBelts>& holes_beside_belts_record() {
       Record<HolesBesideBelts>("what holes tell beside belts")
           .required("machine", &HolesBesideBelts::machine, object(belt_machine_record()))
           .required("holes", &HolesBesideBelts::holes, list(object(belt_hole_record())))
-          .required("distances", &HolesBesideBelts::distances, list(object(taped_distance_record())))
+          .required(
+              "distances", &HolesBesideBelts::distances, list(object(taped_distance_record())))
           .required("noise_factor", &HolesBesideBelts::noise_factor, number(kFactor))
           .required("left_out_rms_mm", &HolesBesideBelts::left_out_rms_mm, number(kSigmaMm))
           .custom(
@@ -192,7 +193,8 @@ const Record<HolesBesideBelts>& holes_beside_belts_record() {
               },
               [](const HolesBesideBelts& holes) -> std::optional<Json> {
                 if (!holes.sheet) return std::nullopt;
-                return stated_sheet_record().write({holes.sheet->x(), holes.sheet->y(), holes.sheet->z()});
+                return stated_sheet_record().write(
+                    {holes.sheet->x(), holes.sheet->y(), holes.sheet->z()});
               })
           .custom("covariance",
                   true,

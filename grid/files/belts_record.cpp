@@ -176,7 +176,9 @@ const Record<BeltPoint>& belt_point_record() {
         "pulled",
         false,
         {"a list of belts that were pulled, of tl, tr, bl, br",
-         [] { return list(one_of({"tl", "tr", "bl", "br"})).expected.schema(); }},
+         [] {
+           return list(one_of({"tl", "tr", "bl", "br"})).expected.schema();
+         }},
         [](const Cursor& at, BeltPoint& p) { p.pulled = read_pulled(at); },
         [](const BeltPoint& p) {
           return p.pulled ? std::optional<Json>(written_pulled(*p.pulled)) : std::nullopt;
@@ -295,8 +297,7 @@ const Record<BeltMachine>& belt_machine_record() {
   static const auto record = [] {
     Record<BeltMachine> machine("a machine with four belts");
     machine.optional("name", &BeltMachine::name, text())
-        .custom(
-            "anchors", false, anchors_record().expected(), read_anchors, written_anchors)
+        .custom("anchors", false, anchors_record().expected(), read_anchors, written_anchors)
         .custom(
             "belt",
             false,

@@ -92,11 +92,12 @@ const Record<BeltsFindings>& belts_findings_record() {
   static const auto record = [] {
     Record<BeltsFindings> found("what belts tell");
     found.required("machine", &BeltsFindings::machine, object(belt_machine_record()))
-        .custom("coordinates",
-                true,
-                {"five coordinates", list(object(diagnosed_coordinate_record()), 5).expected.schema},
-                read_diagnosed_coordinates,
-                written_coordinates)
+        .custom(
+            "coordinates",
+            true,
+            {"five coordinates", list(object(diagnosed_coordinate_record()), 5).expected.schema},
+            read_diagnosed_coordinates,
+            written_coordinates)
         .required("spread_before_mm", &BeltsFindings::spread_before_mm, number(kSigmaMm))
         .required("spread_mm", &BeltsFindings::spread_mm, number(kSigmaMm))
         .required("rms_before_mm", &BeltsFindings::rms_before_mm, number(kSigmaMm))

@@ -22,7 +22,6 @@ using diagnosis::Outlier;
 using diagnosis::StatedTape;
 using diagnosis::Verdict;
 
-
 Value<std::uint64_t> seed_value() {
   const std::string expected = "a whole number of at least 0";
   return {[expected](const Cursor& at) -> std::optional<std::uint64_t> {
@@ -64,17 +63,18 @@ struct Shift {
 };
 
 const Record<Shift>& shift_record() {
-  static const auto record = Record<Shift>("a bad point's shift")
-                                 .optional("x_mm", &Shift::x_mm, number(kMillimetres))
-                                 .optional("y_mm", &Shift::y_mm, number(kMillimetres))
-                                 .optional("off_mm", &Shift::off_mm, number(kMillimetres))
-                                 .required("sigmas", &Shift::sigmas, number(kNotNegative))
-                                 .optional("belt", &Shift::belt, belt_word())
-                                 .check([](const Cursor& at, Shift& shift) {
-                                   const bool of_point = shift.x_mm && shift.y_mm;
-                                   if (at.clean() && of_point == shift.off_mm.has_value())
-                                     at.expect("x_mm and y_mm of a point, or off_mm of a distance or of a belt");
-                                 });
+  static const auto record =
+      Record<Shift>("a bad point's shift")
+          .optional("x_mm", &Shift::x_mm, number(kMillimetres))
+          .optional("y_mm", &Shift::y_mm, number(kMillimetres))
+          .optional("off_mm", &Shift::off_mm, number(kMillimetres))
+          .required("sigmas", &Shift::sigmas, number(kNotNegative))
+          .optional("belt", &Shift::belt, belt_word())
+          .check([](const Cursor& at, Shift& shift) {
+            const bool of_point = shift.x_mm && shift.y_mm;
+            if (at.clean() && of_point == shift.off_mm.has_value())
+              at.expect("x_mm and y_mm of a point, or off_mm of a distance or of a belt");
+          });
   return record;
 }
 

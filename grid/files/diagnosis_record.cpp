@@ -30,7 +30,6 @@ using diagnosis::Term;
 using model::effects::Effect;
 using model::effects::EffectSide;
 
-
 constexpr EffectSide kSides[] = {EffectSide::left,
                                  EffectSide::right,
                                  EffectSide::both,
@@ -115,9 +114,10 @@ const Record<CauseId>& cause_id_record() {
 namespace {
 
 const Record<ParameterEstimate>& estimate_record() {
-  static const auto record = Record<ParameterEstimate>("a value with its sigma")
-                                 .required("value", &ParameterEstimate::value, number(kAnyNumber))
-                                 .required("sigma", &ParameterEstimate::sigma, number(kNotNegative));
+  static const auto record =
+      Record<ParameterEstimate>("a value with its sigma")
+          .required("value", &ParameterEstimate::value, number(kAnyNumber))
+          .required("sigma", &ParameterEstimate::sigma, number(kNotNegative));
   return record;
 }
 

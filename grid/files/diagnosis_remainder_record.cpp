@@ -14,7 +14,6 @@ using diagnosis::Enters;
 using diagnosis::ErrorBudget;
 using diagnosis::Unexplained;
 
-
 template <class Word, std::size_t kCount>
 Value<Word> words(const std::array<Word, kCount>& all) {
   std::vector<std::pair<std::string, Word>> names;
@@ -27,13 +26,11 @@ const Record<BudgetLine>& budget_line_record() {
   using ChangesWith = BudgetLine::ChangesWith;
   static const auto record =
       Record<BudgetLine>("a part of the error")
-          .required("what",
-                    &BudgetLine::what,
-                    words(std::array{What::settings,
-                                     What::cause,
-                                     What::unexplained,
-                                     What::noise,
-                                     What::inseparable}))
+          .required(
+              "what",
+              &BudgetLine::what,
+              words(std::array{
+                  What::settings, What::cause, What::unexplained, What::noise, What::inseparable}))
           .optional("cause", &BudgetLine::cause, object(cause_id_record()))
           .required("mean_square_mm2", &BudgetLine::mean_square_mm2, number(kAnyNumber))
           .required("share", &BudgetLine::share, number(kAnyNumber))
@@ -85,22 +82,24 @@ namespace {
 /// A value with its sigma under its parameter's name.
 const Record<diagnosis::ParameterEstimate>& named_estimate_record() {
   using diagnosis::ParameterEstimate;
-  static const auto record = Record<ParameterEstimate>("a size with its sigma")
-                                 .required("parameter", &ParameterEstimate::parameter, text())
-                                 .required("value", &ParameterEstimate::value, number(kAnyNumber))
-                                 .required("sigma", &ParameterEstimate::sigma, number(kNotNegative));
+  static const auto record =
+      Record<ParameterEstimate>("a size with its sigma")
+          .required("parameter", &ParameterEstimate::parameter, text())
+          .required("value", &ParameterEstimate::value, number(kAnyNumber))
+          .required("sigma", &ParameterEstimate::sigma, number(kNotNegative));
   return record;
 }
 
 const Record<diagnosis::Change>& change_record() {
   using diagnosis::Change;
-  static const auto record = Record<Change>("a change")
-                                 .required("cause", &Change::cause, object(cause_id_record()))
-                                 .required("before", &Change::before, object(named_estimate_record()))
-                                 .required("now", &Change::after, object(named_estimate_record()))
-                                 .required("named_before", &Change::named_before, boolean())
-                                 .required("named_now", &Change::named_now, boolean())
-                                 .required("probability", &Change::probability, number(kShare));
+  static const auto record =
+      Record<Change>("a change")
+          .required("cause", &Change::cause, object(cause_id_record()))
+          .required("before", &Change::before, object(named_estimate_record()))
+          .required("now", &Change::after, object(named_estimate_record()))
+          .required("named_before", &Change::named_before, boolean())
+          .required("named_now", &Change::named_now, boolean())
+          .required("probability", &Change::probability, number(kShare));
   return record;
 }
 

@@ -28,7 +28,6 @@ Value<diagnosis::Verdict> verdict_word() {
 
 namespace {
 
-
 bool is_line(const Removal& removal) {
   return removal.what == Removal::What::column || removal.what == Removal::What::row;
 }

@@ -278,7 +278,7 @@ bool is_json_text(std::string_view text) {
 ReadGrid parse_grid(const std::string& text, const std::string& file, const GridOptions& options) {
   Problems problems(file);
   return is_json_text(text) ? parse_json_grid(text, options, problems)
-                       : parse_csv_grid(text, options, problems);
+                            : parse_csv_grid(text, options, problems);
 }
 
 ReadGrid read_grid(const fs::path& path, const GridOptions& options) {

@@ -85,12 +85,13 @@ const Record<MapAccuracy>& accuracy_record() {
 }
 
 const Record<SettingResult>& setting_record() {
-  static const auto record = Record<SettingResult>("a setting")
-                                 .required("setting", &SettingResult::setting, setting_word())
-                                 .required("stated", &SettingResult::stated, number(kAnyNumber))
-                                 .required("calibrated", &SettingResult::calibrated, number(kAnyNumber))
-                                 .required("sigma", &SettingResult::sigma, number(kNotNegative))
-                                 .required("off", &SettingResult::off, boolean());
+  static const auto record =
+      Record<SettingResult>("a setting")
+          .required("setting", &SettingResult::setting, setting_word())
+          .required("stated", &SettingResult::stated, number(kAnyNumber))
+          .required("calibrated", &SettingResult::calibrated, number(kAnyNumber))
+          .required("sigma", &SettingResult::sigma, number(kNotNegative))
+          .required("off", &SettingResult::off, boolean());
   return record;
 }
 

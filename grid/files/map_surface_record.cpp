@@ -13,7 +13,6 @@
 namespace chaintrue::grid::files {
 namespace {
 
-
 Value<Numbers> numbers(std::size_t fewest = 0) { return list(number(kAnyNumber), fewest); }
 
 const Record<model::SheetPlacement>& sheet_placement_record() {

@@ -79,11 +79,13 @@ fs::path file_behind(const fs::path& path) {
   if (path.empty()) refuse_file("output file", "an empty name", "the name of a file");
   if (descriptor_behind(path)) return {};
   std::error_code error;
-  if (fs::is_directory(path, error)) refuse_file(path.string(), "a directory", "the name of a file");
+  if (fs::is_directory(path, error))
+    refuse_file(path.string(), "a directory", "the name of a file");
   fs::path target = path;
   if (fs::is_symlink(path, error)) {
     target = fs::weakly_canonical(path, error);
-    if (error) refuse_file(path.string(), system_words(error.value()), "a link that leads to a file");
+    if (error)
+      refuse_file(path.string(), system_words(error.value()), "a link that leads to a file");
   }
   struct stat status = {};
   if (::stat(target.c_str(), &status) != 0) return target;
@@ -94,8 +96,8 @@ fs::path file_behind(const fs::path& path) {
   const bool is_protected = (status.st_mode & kAnybodyWrites) == 0;
   if (is_protected || ::access(target.c_str(), W_OK) != 0) {
     refuse_file(path.string(),
-         is_protected ? "a protected file" : system_words(errno),
-         "a file that may be written to");
+                is_protected ? "a protected file" : system_words(errno),
+                "a file that may be written to");
   }
   return target;
 }
@@ -142,7 +144,8 @@ PendingFile::PendingFile(fs::path path) : path_(std::move(path)), target_(file_b
   const int error_number = errno;
   temporary_.clear();
   free_slot(slot_);
-  refuse_file(path_.string(), system_words(error_number), "a directory that exists and can be written to");
+  refuse_file(
+      path_.string(), system_words(error_number), "a directory that exists and can be written to");
 }
 
 PendingFile::~PendingFile() { discard(); }
@@ -206,8 +209,8 @@ void PendingFile::put_out() const {
   if (is_written) return;
   if (error_number == EPIPE) throw ReaderGone();
   refuse_file(path_ == "-" ? "standard output" : path_.string(),
-       system_words(error_number),
-       "something that can be written to");
+              system_words(error_number),
+              "something that can be written to");
 }
 
 void take_places(const std::vector<PendingFile*>& files) {

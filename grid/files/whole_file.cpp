@@ -31,8 +31,8 @@ std::string read_to_the_end(std::FILE* file, const std::string& name) {
   while ((count = std::fread(buffer, 1, sizeof buffer, file)) > 0) text.append(buffer, count);
   if (std::ferror(file) != 0) {
     refuse_file(name,
-         fmt::format("a read error ({})", system_words(errno)),
-         "a file that can be read to its end");
+                fmt::format("a read error ({})", system_words(errno)),
+                "a file that can be read to its end");
   }
   return text;
 }
@@ -81,7 +81,8 @@ std::string read_whole_file(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) refuse_file(path.string(), "a directory", "a file");
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file) refuse_file(path.string(), system_words(errno), "a file that can be opened for reading");
+  if (!file)
+    refuse_file(path.string(), system_words(errno), "a file that can be opened for reading");
   return read_text(file.get(), path.string());
 }
 

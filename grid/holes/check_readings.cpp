@@ -183,7 +183,8 @@ struct CheckedPart {
   std::optional<observation::TapeDistances> distances;
 };
 
-tl::expected<CheckedPart, CheckFailure> part_of(const CompensationMap& map, const MeasuredGrid& grid) {
+tl::expected<CheckedPart, CheckFailure> part_of(const CompensationMap& map,
+                                                const MeasuredGrid& grid) {
   MeasuredGrid with_machine = grid;
   if (!with_machine.machine && map.machine() != nullptr) with_machine.machine = *map.machine();
   const auto points = length_points(with_machine);
@@ -197,7 +198,8 @@ tl::expected<CheckedPart, CheckFailure> part_of(const CompensationMap& map, cons
   return part;
 }
 
-tl::expected<CheckedPart, CheckFailure> part_of(const CompensationMap& map, const MeasuredHoles& set) {
+tl::expected<CheckedPart, CheckFailure> part_of(const CompensationMap& map,
+                                                const MeasuredHoles& set) {
   if (!set.machine) {
     return fail(
         Reason::no_machine,

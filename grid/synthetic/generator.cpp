@@ -239,8 +239,7 @@ tl::expected<SyntheticSession, UnreachableMark> generate(const Machine& stated,
   }
 
   const model::ReadingModel reading_model(answer.machine, spec.model);
-  const auto lengths =
-      model::readings(reading_model, visits, counting(progress, visits.size()));
+  const auto lengths = model::readings(reading_model, visits, counting(progress, visits.size()));
   if (!lengths) {
     const BedPoint place = visits[lengths.error().index].position;
     return tl::unexpected(UnreachableMark{answer.sheet.to_mark(place), lengths.error().reason});
@@ -286,8 +285,7 @@ PlacesRead read_places(const Machine& stated,
       result.unreachable.emplace_back(i, reading.error());
     }
   }
-  const auto lengths =
-      model::readings(reading_model, reached, counting(progress, reached.size()));
+  const auto lengths = model::readings(reading_model, reached, counting(progress, reached.size()));
   result.grid.machine = stated;
   for (std::size_t i = 0; i < reached.size(); ++i) {
     result.grid.points.push_back({mark_frame.written(model::laid_as_bed(reached[i].position)),

@@ -30,7 +30,7 @@ struct Session {
   int bad_readings = 0;
 };
 
-MeasuredBelts measured(const Session& session) {
+MeasuredBelts measured_in(const Session& session) {
   synthetic::BeltsSpec spec;
   // Wide and high: the usual sizes of all causes are then seen.
   spec.width_share = 0.7;
@@ -79,8 +79,8 @@ TEST_P(HiddenCause, IsNamedWithItsBeltAndItsSize) {
                        std::string_view(hidden.effect) == "tooth_skip";
   if (sets_in) parameters["first_visit"] = 37.0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Diagnosis found =
-        diagnosed(measured({.hidden = {{hidden.effect, hidden.side, parameters}}, .seed = seed}));
+    const Diagnosis found = diagnosed(
+        measured_in({.hidden = {{hidden.effect, hidden.side, parameters}}, .seed = seed}));
     ASSERT_EQ(found.verdict, Verdict::named) << "seed " << seed << ": " << found.sentence;
     const auto& cause = found.causes.front();
     EXPECT_EQ(cause.cause.effect->id, hidden.effect) << "seed " << seed;
@@ -88,9 +88,8 @@ TEST_P(HiddenCause, IsNamedWithItsBeltAndItsSize) {
     EXPECT_EQ(cause.parameters[0].parameter, hidden.size);
     // 24 sets: the worst of them is beyond four sigmas once in 650 runs of this suite; a whole number
     // of teeth is exact.
-    EXPECT_NEAR(cause.parameters[0].value,
-                hidden.value,
-                std::max(4.0 * cause.parameters[0].sigma, 1e-9))
+    EXPECT_NEAR(
+        cause.parameters[0].value, hidden.value, std::max(4.0 * cause.parameters[0].sigma, 1e-9))
         << "seed " << seed;
     EXPECT_LT(found.belts->spread_mm, found.belts->spread_before_mm);
     ASSERT_TRUE(found.belts->foretold && found.belts->foretold_before);
@@ -100,7 +99,8 @@ TEST_P(HiddenCause, IsNamedWithItsBeltAndItsSize) {
 
 TEST(BeltsDiagnosis, NothingIsNamedWhereNothingIsWrong) {
   for (std::uint64_t seed = 1; seed <= 15; ++seed) {
-    const Diagnosis found = diagnosed(measured({.hidden = {}, .seed = seed, .noise_mm = 0.2 + 0.05 * static_cast<double>(seed)}));
+    const Diagnosis found = diagnosed(measured_in(
+        {.hidden = {}, .seed = seed, .noise_mm = 0.2 + 0.05 * static_cast<double>(seed)}));
     EXPECT_TRUE(found.causes.empty()) << "seed " << seed << ": " << found.sentence;
     EXPECT_THAT(found.sentence, AnyOf(HasSubstr("Nothing"), HasSubstr("smoothly")));
   }
@@ -110,7 +110,7 @@ TEST(BeltsDiagnosis, OneReadingFarOffIsNamedByItsPointAndBelt) {
   for (const bool stretched : {false, true}) {
     Session session;
     if (stretched) session.hidden = {{"belt_stretch", "", {{"elongation", 0.004}}}};
-    MeasuredBelts belts = measured(session);
+    MeasuredBelts belts = measured_in(session);
     belts.points[17].lengths_mm.tr += 80.0;
     const Diagnosis found = diagnosed(belts);
     ASSERT_EQ(found.outliers.size(), 1U) << found.sentence;
@@ -126,7 +126,7 @@ TEST(BeltsDiagnosis, OneReadingFarOffIsNamedByItsPointAndBelt) {
 }
 
 TEST(BeltsDiagnosis, APlaceOfWhichSeveralReadingsAreOffIsBadAsAWhole) {
-  MeasuredBelts belts = measured({});
+  MeasuredBelts belts = measured_in({});
   // No other place makes one belt of a side longer and the other shorter.
   belts.points[40].lengths_mm.tr += 40.0;
   belts.points[40].lengths_mm.tl -= 40.0;
@@ -137,14 +137,14 @@ TEST(BeltsDiagnosis, APlaceOfWhichSeveralReadingsAreOffIsBadAsAWhole) {
 }
 
 TEST(BeltsDiagnosis, LengthsThatLeaveTheArmsOutSaySo) {
-  MeasuredBelts belts = measured({.hidden = {{"belt_zero", "all", {{"offset_mm", -153.4}}}}});
+  MeasuredBelts belts = measured_in({.hidden = {{"belt_zero", "all", {{"offset_mm", -153.4}}}}});
   const Diagnosis found = diagnosed(belts);
   ASSERT_FALSE(found.causes.empty()) << found.sentence;
   EXPECT_THAT(found.what_to_do.front(), HasSubstr("leave arm and extension out"));
 }
 
 TEST(BeltsDiagnosis, WhatNoBeltShowsIsNotTestableAndSaysWhatWould) {
-  MeasuredBelts belts = measured({});
+  MeasuredBelts belts = measured_in({});
   for (auto& point : belts.points) point.order.reset();
   const Diagnosis found = diagnosed(belts);
   const auto reason = [&](std::string_view id, std::string_view side) -> std::string {
@@ -160,7 +160,7 @@ TEST(BeltsDiagnosis, WhatNoBeltShowsIsNotTestableAndSaysWhatWould) {
 
 TEST(BeltsDiagnosis, TheFileSaysAllOfItAgain) {
   const Diagnosis found =
-      diagnosed(measured({.hidden = {{"drift", "tl", {{"rate_mm_per_visit", 0.06}}}}}));
+      diagnosed(measured_in({.hidden = {{"drift", "tl", {{"rate_mm_per_visit", 0.06}}}}}));
   const std::string text = files::write_diagnosis(found);
   EXPECT_THAT(text, HasSubstr("\"observations\": \"belts\""));
   const Diagnosis again = files::parse_diagnosis(text, "belts.json");
@@ -170,13 +170,13 @@ TEST(BeltsDiagnosis, TheFileSaysAllOfItAgain) {
 }
 
 TEST(BeltsDiagnosis, SameReadingsSameBytes) {
-  MeasuredBelts belts = measured({.hidden = {{"belt_scale", "bl", {{"scale", 0.003}}}}});
+  MeasuredBelts belts = measured_in({.hidden = {{"belt_scale", "bl", {{"scale", 0.003}}}}});
   const Diagnosis first = diagnosed(belts);
   EXPECT_EQ(files::write_diagnosis(first), files::write_diagnosis(diagnosed(belts)));
 }
 
 TEST(BeltsDiagnosis, FailsInTheWordsOfTheFit) {
-  MeasuredBelts belts = measured({});
+  MeasuredBelts belts = measured_in({});
   belts.points.resize(4);
   const auto found = diagnosis::diagnose(belts);
   ASSERT_FALSE(found);

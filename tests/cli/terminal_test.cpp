@@ -151,12 +151,18 @@ Seen Terminal::shown_of_enough(const Prepare& prepare,
 
 TEST_F(Terminal, ShowsAtWhichStepADiagnosisIsAndHowLongTheGainWillTake) {
   simulate(kManyPoints);
-  const Seen seen = shown("diagnose g.json -o d.json", stop_after("s left"));
-  EXPECT_THAT(seen.text,
-              ContainsRegex("diagnose: [0-9]+ s, step 1 of 4, the causes against each other"));
-  EXPECT_THAT(seen.text,
+  EXPECT_THAT(shown("diagnose g.json -o d.json", stop_after("s left")).text,
               ContainsRegex("step 3 of 4, what a name gains, block by block, [0-9]+ % done, about "
                             "[0-9]+ s left"));
+  // Of few points a fast machine has compared the causes before anything is shown.
+  std::string text;
+  const std::string words = "step 1 of 4, the causes against each other";
+  for (int points = kManyPoints; points <= 4 * kManyPoints; points *= 2) {
+    simulate(points);
+    text = shown("diagnose g.json -o d.json", stop_after(words)).text;
+    if (text.find(words) != std::string::npos) break;
+  }
+  EXPECT_THAT(text, ContainsRegex("diagnose: [0-9]+ s, " + words));
 }
 
 TEST_F(Terminal, ShowsHowFarACheckIsAndHowLongItWillTake) {
@@ -212,10 +218,11 @@ TEST_F(Terminal, ShowsHowManyPointsOfAQueryAreAnswered) {
 }
 
 TEST_F(Terminal, ShowsHowFarASimulationIs) {
-  const Seen seen = shown(fmt::format("simulate --machine {}/machines/classic.json --random 1000000 "
-                                      "--length-noise-mm 0.2 -o g.json",
-                                      CHAINTRUE_FIXTURES),
-                          stop_after("s left"));
+  const Seen seen =
+      shown(fmt::format("simulate --machine {}/machines/classic.json --random 1000000 "
+                        "--length-noise-mm 0.2 -o g.json",
+                        CHAINTRUE_FIXTURES),
+            stop_after("s left"));
   EXPECT_THAT(seen.text,
               ContainsRegex("simulate: [0-9]+ s, the machine read at every mark, [0-9]+ % done, "
                             "about [0-9]+ s left"));

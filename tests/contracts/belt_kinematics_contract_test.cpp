@@ -13,12 +13,12 @@
 namespace chaintrue::model {
 namespace {
 
-struct Kind {
+struct BeltController {
   std::string name;
   BeltMachine machine;
 };
 
-void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+void PrintTo(const BeltController& kind, std::ostream* out) { *out << kind.name; }
 
 BeltMachine plain() {
   BeltMachine machine;
@@ -37,12 +37,12 @@ BeltMachine skew() {
   return machine;
 }
 
-std::vector<Kind> kinds() {
-  std::vector<Kind> all;
+std::vector<BeltController> belt_controllers() {
+  std::vector<BeltController> all;
   for (const BeltLengths lengths :
        {BeltLengths::belt, BeltLengths::belt_and_arm, BeltLengths::span}) {
     for (const auto& [frame, machine] : {std::pair("plain", plain()), std::pair("skew", skew())}) {
-      Kind kind{std::string(name(lengths)) + "_" + frame, machine};
+      BeltController kind{std::string(name(lengths)) + "_" + frame, machine};
       kind.machine.lengths = lengths;
       all.push_back(kind);
     }
@@ -50,7 +50,7 @@ std::vector<Kind> kinds() {
   return all;
 }
 
-class BeltKinematicsLaws : public testing::TestWithParam<Kind> {
+class BeltKinematicsLaws : public testing::TestWithParam<BeltController> {
  protected:
   [[nodiscard]] const BeltMachine& machine() const { return GetParam().machine; }
   /// Places over the frame, 250 mm within its anchors so that none is inside an arm.
@@ -68,7 +68,7 @@ class BeltKinematicsLaws : public testing::TestWithParam<Kind> {
 
 INSTANTIATE_TEST_SUITE_P(Every,
                          BeltKinematicsLaws,
-                         testing::ValuesIn(kinds()),
+                         testing::ValuesIn(belt_controllers()),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST_P(BeltKinematicsLaws, TheUpperTwoLengthsOfAPlaceLeadBackToIt) {

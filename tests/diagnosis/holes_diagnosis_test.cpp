@@ -20,8 +20,8 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
+using ::chaintrue::testing_support::nine_holes;
 using ::testing::HasSubstr;
-using testing_support::nine_holes;
 
 bool is_long() { return std::getenv("CHAINTRUE_LONG") != nullptr; }
 

@@ -20,12 +20,12 @@ using testing_support::verdict_alone;
 
 constexpr const char* kUnsettled = "Calibrating had not come to rest";
 
-Analysis analysis_of(const MeasuredGrid& grid) {
+Analysis analysis_of_grid(const MeasuredGrid& grid) {
   return analyse(make_session(grid).value(), verdict_alone()).value();
 }
 
 TEST(Settling, WhatDidNotComeToRestIsSaid) {
-  Analysis a = analysis_of(session_of({}, 1, 5, 4));
+  Analysis a = analysis_of_grid(session_of({}, 1, 5, 4));
   Diagnosis settled;
   put_into_words(a, settled);
   EXPECT_THAT(settled.notes, Not(Contains(HasSubstr(kUnsettled))));
@@ -39,7 +39,7 @@ TEST(Settling, ATurnOfTheSheetCountsAsItsEdgeMoves) {
   // A turn of 1e-4 rad is 0.12 mm at the edge of the bed: at rest it is far below that.
   MeasuredGrid grid = session_of({}, 2, 5, 4);
   grid.sheet = SheetUncertainty{20.0, 10.0};
-  const Analysis a = analysis_of(grid);
+  const Analysis a = analysis_of_grid(grid);
   ASSERT_TRUE(a.settled);
   auto again = linearise(a.session, a.state, a.options.steps).value();
   again.g = RegressorColumns(a.session.rows);

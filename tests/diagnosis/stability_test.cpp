@@ -24,7 +24,7 @@ using testing::Not;
 using testing_support::session_of;
 using testing_support::verdict_alone;
 
-const model::AppliedEffect kLongLeft{"chain_pitch_error", "left", {{"elongation", 0.0015}}};
+const model::AppliedEffect kLongLeftChain{"chain_pitch_error", "left", {{"elongation", 0.0015}}};
 
 std::size_t count(const Stability& stability, Removal::What what) {
   return static_cast<std::size_t>(std::count_if(stability.removals.begin(),
@@ -80,7 +80,7 @@ TEST(LeavingOut, MarksThatLieAnywhereHaveNoColumns) {
 
 // Nothing left out: the comparison itself, but for what the followed models leave aside.
 TEST(Downdating, OfAllPointsIsTheComparison) {
-  const auto session = make_session(session_of({kLongLeft}, 3));
+  const auto session = make_session(session_of({kLongLeftChain}, 3));
   const auto a = analyse(*session, verdict_alone());
   ASSERT_TRUE(a);
   ASSERT_FALSE(a->decision.listed.empty());
@@ -99,7 +99,7 @@ TEST(Downdating, OfAllPointsIsTheComparison) {
 TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
   const model::AppliedEffect wave{
       "sprocket_eccentricity", "left", {{"amplitude_mm", 0.6}, {"phase_rad", 1.0}}};
-  for (const auto& [hidden, seed] : {std::pair(wave, 1), std::pair(kLongLeft, 2)}) {
+  for (const auto& [hidden, seed] : {std::pair(wave, 1), std::pair(kLongLeftChain, 2)}) {
     SCOPED_TRACE(hidden.effect);
     const auto session = make_session(session_of({hidden}, static_cast<std::uint64_t>(seed)));
     const auto a = analyse(*session, verdict_alone());
@@ -112,8 +112,8 @@ TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
     for (std::size_t k = 0; k < groups.size(); k += 3) {
       std::vector<bool> excluded(session->units.size(), false);
       for (const std::size_t i : groups[k].units) excluded[i] = true;
-      const ModelComparison comparison = compare_models(
-          a->system, excluded, {.steps = verdict_alone().steps});
+      const ModelComparison comparison =
+          compare_models(a->system, excluded, {.steps = verdict_alone().steps});
       const Decision decision = decide(a->system, comparison, excluded, true, a->decision.classes);
       EXPECT_EQ(stability->removals[k].stands, still_named(a->decision, decision)) << "group " << k;
       // What the models of all points leave aside: sets of outliers and discrepancies that only
@@ -125,7 +125,7 @@ TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
 }
 
 TEST(Stability, AStrongNameStandsWithoutAnyPointColumnOrRow) {
-  const auto found = diagnose(session_of({kLongLeft}, 5), verdict_alone());
+  const auto found = diagnose(session_of({kLongLeftChain}, 5), verdict_alone());
   ASSERT_TRUE(found);
   ASSERT_EQ(found->verdict, Verdict::named) << found->sentence;
   ASSERT_TRUE(found->stability);
@@ -151,7 +151,7 @@ TEST(Stability, OfNothingNamedThereIsNone) {
 
 // Which points speak for a name depends on the marks, not on where they stand in the file.
 TEST(Stability, DoesNotDependOnTheOrderInTheFile) {
-  MeasuredGrid grid = session_of({kLongLeft}, 5);
+  MeasuredGrid grid = session_of({kLongLeftChain}, 5);
   const auto one = diagnose(grid, verdict_alone());
   std::reverse(grid.points.begin(), grid.points.end());
   const auto other = diagnose(grid, verdict_alone());

@@ -24,7 +24,7 @@ using testing_support::kCorpus;
 using testing_support::test_name;
 
 /// As promised; the stored values have 17 digits and passed through inches.
-constexpr double kToleranceMm = 1e-6;
+constexpr double kSamePlaceMm = 1e-6;
 
 struct CanonicalMove {
   std::string kind;
@@ -115,7 +115,7 @@ TEST_P(CanonicalMoves, EqualLinuxCncs) {
     ASSERT_EQ(got.line, want.line);
     ASSERT_EQ(got.turns, want.turns);
     for (std::size_t k = 0; k < std::min(got.numbers.size(), want.numbers.size()); ++k) {
-      ASSERT_NEAR(got.numbers[k], want.numbers[k], kToleranceMm);
+      ASSERT_NEAR(got.numbers[k], want.numbers[k], kSamePlaceMm);
     }
     // Feed rates reach 2e6 mm/min here: compared by their own size.
     if (want.feed > 0.0) {

@@ -26,9 +26,9 @@ struct Outcome {
   Findings findings;
 };
 
-Outcome compensate(const std::string& program,
-                   const Corrector& corrector,
-                   CompensateOptions options = {}) {
+Outcome compensate_within(const std::string& program,
+                          const Corrector& corrector,
+                          CompensateOptions options = {}) {
   Outcome result;
   Compensator compensator(
       corrector, std::move(options), [&](std::string_view bytes) { result.text += bytes; });
@@ -42,10 +42,10 @@ Outcome compensate(const std::string& program,
   return result;
 }
 
-VerifySummary verified(const std::string& original,
-                       const std::string& run,
-                       const Corrector& corrector,
-                       const VerifyOptions& options = {}) {
+VerifySummary verified_within(const std::string& original,
+                              const std::string& run,
+                              const Corrector& corrector,
+                              const VerifyOptions& options = {}) {
   auto a = LineSource::from_text(original);
   auto b = LineSource::from_text(run);
   const auto summary = verify(a, b, corrector, {}, options);
@@ -61,26 +61,26 @@ class Limits : public testing::Test {
 };
 
 TEST_F(Limits, AFileThatWasCompensatedIsRefused) {
-  const auto once = compensate("G0 X10 Y10\nF100 G1 X20\nM2\n", corrector_);
+  const auto once = compensate_within("G0 X10 Y10\nF100 G1 X20\nM2\n", corrector_);
   EXPECT_EQ(once.message, "");
-  const auto twice = compensate(once.text, corrector_);
+  const auto twice = compensate_within(once.text, corrector_);
   EXPECT_THAT(
       twice.message,
       HasSubstr("has been compensated before; compensate the original (already_compensated)"));
 }
 
 TEST_F(Limits, WhatCannotBeCutRightIsNamedByLine) {
-  EXPECT_EQ(compensate("G0 X0 Y0\nG0 X1500 Y0\n", corrector_).message,
+  EXPECT_EQ(compensate_within("G0 X0 Y0\nG0 X1500 Y0\n", corrector_).message,
             "line 2: X1500.000 Y0.000 lies outside the map (outside_map)");
-  EXPECT_THAT(compensate("G0 X1 Y1\nG28\n", corrector_).message,
+  EXPECT_THAT(compensate_within("G0 X1 Y1\nG28\n", corrector_).message,
               HasSubstr("line 2: G28 and G30 go to a place that only the machine knows"));
-  EXPECT_THAT(compensate("F9 G0 X1 Y1 Z5\nG38.2 Z-5\n", corrector_).message,
+  EXPECT_THAT(compensate_within("F9 G0 X1 Y1 Z5\nG38.2 Z-5\n", corrector_).message,
               HasSubstr("line 2: probing needs a dotted code"));
-  EXPECT_THAT(compensate("G0 X1 Y1 A5\n", corrector_).message,
+  EXPECT_THAT(compensate_within("G0 X1 Y1 A5\n", corrector_).message,
               HasSubstr("line 1: a two-chain router has no axis A, B or C"));
   CompensateOptions options;
   options.largest_correction_mm = 3.0;
-  EXPECT_THAT(compensate("G0 X1 Y1\n", corrector_, options).message,
+  EXPECT_THAT(compensate_within("G0 X1 Y1\n", corrector_, options).message,
               HasSubstr("line 1: X1.000 Y1.000 would be corrected by 3.61 mm, more than the 3 mm "
                         "that are allowed (correction_too_large)"));
 }
@@ -88,15 +88,15 @@ TEST_F(Limits, WhatCannotBeCutRightIsNamedByLine) {
 TEST_F(Limits, ASteepCorrectionIsRefused) {
   const FormulaMap steep([](model::BedPoint p) { return model::BedPoint{0.08 * p.x_mm, 0.0}; });
   const Corrector corrector(steep, kinematics_, firmware(model::ControllerKind::ideal));
-  EXPECT_THAT(compensate("G0 X0 Y0\nG0 X100\n", corrector).message,
+  EXPECT_THAT(compensate_within("G0 X0 Y0\nG0 X100\n", corrector).message,
               HasSubstr("changes by 0.080 mm per mm, more than the 0.05"));
 }
 
 TEST_F(Limits, TargetsThatTheControllerWouldClampAreAllFound) {
   CompensateOptions options;
   options.clamp_box = ClampBox{1219.2, 609.6};
-  const auto outcome =
-      compensate("G0 X1217 Y0\nG0 X0 Y-608\nG0 X0 Y0\nG0 X1215 Y-607\n", corrector_, options);
+  const auto outcome = compensate_within(
+      "G0 X1217 Y0\nG0 X0 Y-608\nG0 X0 Y0\nG0 X1215 Y-607\n", corrector_, options);
   ASSERT_EQ(outcome.findings.problem_count, 2U);
   EXPECT_THAT(
       outcome.findings.problems[0].message(),
@@ -109,12 +109,12 @@ TEST_F(Limits, HomeIsAddedAndTheOutputRunsAtZero) {
   CompensateOptions options;
   options.home = {100.0, -50.0};
   const auto outcome =
-      compensate("G21\nG0 X1 Y2\nG91 G0 X1\nG90 F60 G1 X0 Y0\nM2\n", corrector_, options);
+      compensate_within("G21\nG0 X1 Y2\nG91 G0 X1\nG90 F60 G1 X0 Y0\nM2\n", corrector_, options);
   EXPECT_THAT(outcome.text, HasSubstr("\nG0 X104 Y-50\nG0 X105 Y-50\nG1 X103 Y-52 F60\nM2\n"));
 }
 
 TEST_F(Limits, KeepsWordsCommentsAndFeedsInPlace) {
-  const auto outcome = compensate(
+  const auto outcome = compensate_within(
       "(part)\nG21 S900 M3\nG0 Z5\nG0 X0 Y0\nT2 M6\nG1 Z-1 F90\nG4 P1\nG1 X5 Y0\nG93 X15 "
       "F2\nG94\nG1 X16 F300 ; last\nM5\nM30\n",
       corrector_);
@@ -126,12 +126,12 @@ TEST_F(Limits, KeepsWordsCommentsAndFeedsInPlace) {
 }
 
 TEST_F(Limits, NeverTouchesAnAxisThatTheProgramDoesNot) {
-  const std::string text = compensate("G0 Z5\nM3\nG0 Z6\n", corrector_).text;
+  const std::string text = compensate_within("G0 Z5\nM3\nG0 Z6\n", corrector_).text;
   EXPECT_THAT(text, testing::EndsWith("G21 G90\nG0 Z5\nM3\nG0 Z6\n"));
 }
 
 TEST_F(Limits, MovesThatRoundToNothingAreLeftOut) {
-  const auto outcome = compensate(
+  const auto outcome = compensate_within(
       "G0 X1 Y1\nF9 G1 X1.0001\nG1 X1.0002\nG1 X1.0003\nG0 X1.0003\nG1 Y1.001\n", corrector_);
   EXPECT_EQ(outcome.summary.commands, 2U);
 }
@@ -168,9 +168,9 @@ TEST_F(Limits, TakesHardlyMoreCommandsThanTheToleranceNeeds) {
       ASSERT_GT(good, t);
       t = good;
     }
-    const auto outcome = compensate(program, corrector);
+    const auto outcome = compensate_within(program, corrector);
     EXPECT_LE(static_cast<double>(outcome.summary.commands - 1), 1.5 * least) << "least " << least;
-    EXPECT_EQ(verified(program, outcome.text, corrector).fault, "");
+    EXPECT_EQ(verified_within(program, outcome.text, corrector).fault, "");
   }
 }
 
@@ -184,13 +184,13 @@ TEST_F(Limits, PlayIsTakenUpWhereAChainTurnsAround) {
       "Y-200 I100 J0\nG1 X300 Y-150\n";
   VerifyOptions verify_options;
   verify_options.half_play_mm = {0.25, 0.3};
-  const auto ignored = compensate(program, corrector);
-  EXPECT_GT(verified(program, ignored.text, corrector, verify_options).largest_mm(), 0.2);
+  const auto ignored = compensate_within(program, corrector);
+  EXPECT_GT(verified_within(program, ignored.text, corrector, verify_options).largest_mm(), 0.2);
   CompensateOptions options;
   options.half_play_mm = verify_options.half_play_mm;
-  const auto corrected = compensate(program, corrector, options);
+  const auto corrected = compensate_within(program, corrector, options);
   EXPECT_EQ(corrected.message, "");
-  EXPECT_EQ(verified(program, corrected.text, corrector, verify_options).fault, "");
+  EXPECT_EQ(verified_within(program, corrected.text, corrector, verify_options).fault, "");
 }
 
 /// A machine that differs from what its controller believes, by centimetres of motor position and
@@ -215,12 +215,12 @@ TEST_P(RealController, HoldsTheToleranceOnATrueMachine) {
       "G1 Z-3\nG2 I-300 J0 Z-6\nG0 Z5\nM2\n";
   CompensateOptions options;
   options.largest_correction_mm = 60.0;
-  const auto outcome = compensate(program, corrector, options);
+  const auto outcome = compensate_within(program, corrector, options);
   ASSERT_EQ(outcome.message, "");
-  const auto summary = verified(program, outcome.text, corrector);
+  const auto summary = verified_within(program, outcome.text, corrector);
   EXPECT_EQ(summary.fault, "");
   EXPECT_LE(summary.largest_mm(), options.tolerance_mm);
-  EXPECT_GT(verified(program, program, corrector).largest_mm(), 1.0);
+  EXPECT_GT(verified_within(program, program, corrector).largest_mm(), 1.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers,
@@ -235,19 +235,19 @@ INSTANTIATE_TEST_SUITE_P(Controllers,
 /// order.
 TEST_F(Limits, VerifySeesEveryKindOfFault) {
   const std::string program = "G0 X0 Y0\nM3\nF600 G1 X100\nG1 Y100\nG1 X0\nM5\nG1 Y0 Z-1\n";
-  const std::string good = compensate(program, corrector_).text;
-  EXPECT_LE(verified(program, good, corrector_).largest_mm(), 0.05);
+  const std::string good = compensate_within(program, corrector_).text;
+  EXPECT_LE(verified_within(program, good, corrector_).largest_mm(), 0.05);
   const auto without = [&](const std::string& line) {
     std::string text = good;
     const std::size_t found = text.find(line);
     EXPECT_NE(found, std::string::npos) << good;
     return text.erase(found, line.size());
   };
-  EXPECT_GT(verified(program, without("G1 X103 Y98\n"), corrector_).largest_mm(), 20.0);
-  EXPECT_GT(verified(program, good + "G1 X50 Y50\n", corrector_).largest_mm(), 20.0);
-  EXPECT_GT(verified(program, without(" Z-1"), corrector_).largest_mm(), 0.9);
-  EXPECT_EQ(verified(program, without("M5\n"), corrector_).words_differ, "missing: M5");
-  EXPECT_TRUE(verified(program, good, corrector_).holds());
+  EXPECT_GT(verified_within(program, without("G1 X103 Y98\n"), corrector_).largest_mm(), 20.0);
+  EXPECT_GT(verified_within(program, good + "G1 X50 Y50\n", corrector_).largest_mm(), 20.0);
+  EXPECT_GT(verified_within(program, without(" Z-1"), corrector_).largest_mm(), 0.9);
+  EXPECT_EQ(verified_within(program, without("M5\n"), corrector_).words_differ, "missing: M5");
+  EXPECT_TRUE(verified_within(program, good, corrector_).holds());
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace chaintrue::witness {
 namespace {
 
-const std::string kFolder = std::string(CHAINTRUE_FIXTURES) + "/gcode/corpus/";
+const std::string kCorpusFolder = std::string(CHAINTRUE_FIXTURES) + "/gcode/corpus/";
 
 /// A program and its answer that can be compared, of each hundred.
 constexpr std::size_t kLeastAccepted = 80;
@@ -27,8 +27,7 @@ void expect_same(const std::vector<Record>& programs, const std::vector<Record>&
     ASSERT_EQ(programs[i].name, truths[i].name);
     const Answer linuxcnc = read_truth(truths[i].text);
     accepted += linuxcnc.accepted ? 1U : 0U;
-    const auto found =
-        unlisted_difference(programs[i].text, linuxcnc, limited(programs[i].text));
+    const auto found = unlisted_difference(programs[i].text, linuxcnc, limited(programs[i].text));
     EXPECT_EQ(found.value_or(""), "") << programs[i].name << ":\n" << programs[i].text;
   }
   EXPECT_GE(accepted * 100, programs.size() * kLeastAccepted)
@@ -36,9 +35,9 @@ void expect_same(const std::vector<Record>& programs, const std::vector<Record>&
 }
 
 TEST(GeneratedPrograms, GoWhereLinuxCncWasStoredToGo) {
-  const auto programs = read_records(read_file(kFolder + "generated.records"));
+  const auto programs = read_records(read_file(kCorpusFolder + "generated.records"));
   EXPECT_GE(programs.size(), 200U);
-  expect_same(programs, read_records(read_file(kFolder + "generated.canon")));
+  expect_same(programs, read_records(read_file(kCorpusFolder + "generated.canon")));
 }
 
 TEST(GeneratedPrograms, GoWhereTheLivingLinuxCncGoes) {

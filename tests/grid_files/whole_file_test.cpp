@@ -35,7 +35,7 @@ class WholeFile : public ::testing::Test {
 };
 
 template <class Action>
-std::string message_of(const Action& action) {
+std::string refusal_of(const Action& action) {
   try {
     action();
   } catch (const InputError& error) {
@@ -56,19 +56,19 @@ TEST_F(WholeFile, IsReadAsItWasWritten) {
 
 TEST_F(WholeFile, ThatCannotBeReadIsNamed) {
   EXPECT_THAT(
-      message_of([&] { (void)read_whole_file(folder_ / "none"); }),
+      refusal_of([&] { (void)read_whole_file(folder_ / "none"); }),
       HasSubstr(
           "none: found No such file or directory, expected a file that can be opened for reading"));
-  EXPECT_THAT(message_of([&] { (void)read_whole_file(folder_); }),
+  EXPECT_THAT(refusal_of([&] { (void)read_whole_file(folder_); }),
               HasSubstr("found a directory, expected a file"));
 }
 
 TEST_F(WholeFile, ThatCannotBeWrittenLeavesNothingBehind) {
-  EXPECT_THAT(message_of([&] { write_whole_file(folder_, "x"); }),
+  EXPECT_THAT(refusal_of([&] { write_whole_file(folder_, "x"); }),
               HasSubstr("found a directory, expected the name of a file"));
-  EXPECT_THAT(message_of([&] { write_whole_file(folder_ / "none" / "file", "x"); }),
+  EXPECT_THAT(refusal_of([&] { write_whole_file(folder_ / "none" / "file", "x"); }),
               HasSubstr("found No such file or directory, expected a directory that exists"));
-  EXPECT_THAT(message_of([&] { write_whole_file("", "x"); }), HasSubstr("found an empty name"));
+  EXPECT_THAT(refusal_of([&] { write_whole_file("", "x"); }), HasSubstr("found an empty name"));
   EXPECT_EQ(files_in_folder(), 0U);
 }
 
@@ -76,7 +76,7 @@ TEST_F(WholeFile, ThatIsProtectedStaysAsItIs) {
   const fs::path file = folder_ / "file";
   write_whole_file(file, "old");
   fs::permissions(file, fs::perms::owner_read);
-  EXPECT_THAT(message_of([&] { write_whole_file(file, "new"); }),
+  EXPECT_THAT(refusal_of([&] { write_whole_file(file, "new"); }),
               HasSubstr("found a protected file, expected a file that may be written to"));
   EXPECT_EQ(read_whole_file(file), "old");
 }
@@ -102,10 +102,10 @@ TEST_F(WholeFile, NewOnesHaveTheRightsOfTheProcess) {
 }
 
 TEST_F(WholeFile, DevicesAreWrittenTo) {
-  EXPECT_EQ(message_of([] { write_whole_file("/dev/null", "x"); }), "no error");
+  EXPECT_EQ(refusal_of([] { write_whole_file("/dev/null", "x"); }), "no error");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   if (fs::exists("/dev/full")) {
-    EXPECT_THAT(message_of([] { write_whole_file("/dev/full", "x"); }),
+    EXPECT_THAT(refusal_of([] { write_whole_file("/dev/full", "x"); }),
                 HasSubstr("/dev/full: found No space left on device"));
   }
 }

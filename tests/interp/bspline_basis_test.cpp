@@ -11,7 +11,7 @@
 namespace chaintrue::interp {
 namespace {
 
-constexpr std::uint64_t kSeed = 3;
+constexpr std::uint64_t kBasisSeed = 3;
 
 Eigen::VectorXd random_coefficients(const BsplineBasis& basis, std::uint64_t seed) {
   truths::Random random(seed);
@@ -21,9 +21,9 @@ Eigen::VectorXd random_coefficients(const BsplineBasis& basis, std::uint64_t see
 }
 
 TEST(BsplineBasis, PenaltyIsTheIntegralOfTheSquaredSecondDerivatives) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kBasisSeed);
   const BsplineBasis basis({-2, 3, 1, 2}, 4, 3);
-  const Eigen::VectorXd c = random_coefficients(basis, kSeed);
+  const Eigen::VectorXd c = random_coefficients(basis, kBasisSeed);
   // The mid-point rule over second derivatives from differences of the analytic gradient: an
   // integration that shares neither the quadrature nor the second derivatives with the penalty.
   constexpr int kCells = 240;
@@ -90,9 +90,9 @@ TEST(BsplineBasis, HoldsEveryBicubic) {
 }
 
 TEST(BsplineBasis, GradientAgreesWithDifferencesAndTheOutsideIsC1) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kBasisSeed);
   const BsplineBasis basis({0, 2, 0, 1}, 5, 3);
-  const Eigen::VectorXd c = random_coefficients(basis, kSeed + 1);
+  const Eigen::VectorXd c = random_coefficients(basis, kBasisSeed + 1);
   constexpr double kStep = 1e-6;
   for (const auto& [x, y] :
        {std::pair{0.3, 0.4}, {-0.5, 0.2}, {2.7, 1.4}, {1.0, -0.3}, {2.0, 1.0}}) {

@@ -16,7 +16,7 @@ using truths::even;
 using truths::kBed;
 using truths::sample;
 
-constexpr std::uint64_t kSeed = 97;
+constexpr std::uint64_t kCompiledSeed = 97;
 
 std::array<double, 2> chains(double x, double y) {
   return {truths::wrapped_chain(x, y, -1.0), truths::wrapped_chain(x, y, 1.0)};
@@ -33,13 +33,13 @@ std::vector<PlanePoint> random_points(std::uint64_t seed, std::size_t count, dou
 }
 
 TEST(CompiledPair, IsTheTwoSplinesAlsoOutside) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kCompiledSeed);
   const auto x = even(kBed.x_min, kBed.x_max, 7);
   const auto y = even(kBed.y_min, kBed.y_max, 4);
   const TensorSpline left(x, y, sample(x, y, [](double a, double b) { return chains(a, b)[0]; }));
   const TensorSpline right(x, y, sample(x, y, [](double a, double b) { return chains(a, b)[1]; }));
   const CompiledPair table = CompiledPair::from_splines(left, right);
-  for (const PlanePoint& p : random_points(kSeed, 2000, 100.0)) {
+  for (const PlanePoint& p : random_points(kCompiledSeed, 2000, 100.0)) {
     const PairGradient z = table.at(p.x, p.y);
     const TensorSpline* splines[] = {&left, &right};
     for (std::size_t k = 0; k < 2; ++k) {
@@ -52,9 +52,9 @@ TEST(CompiledPair, IsTheTwoSplinesAlsoOutside) {
 }
 
 TEST(CompiledPair, EveryInstructionSetAndThreadCountGivesTheSameBits) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kCompiledSeed);
   const CompiledPair table = CompiledPair::compile(kBed, 24, 12, chains);
-  const auto points = random_points(kSeed + 1, 5000, 200.0);
+  const auto points = random_points(kCompiledSeed + 1, 5000, 200.0);
   std::vector<PairGradient> expected(points.size());
   force_plain_instructions(true);
   table.at(points, expected);
@@ -77,11 +77,11 @@ TEST(CompiledPair, EveryInstructionSetAndThreadCountGivesTheSameBits) {
 }
 
 TEST(CompiledPair, StatesABoundThatHolds) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kCompiledSeed);
   for (const auto& [nx, ny] : {std::pair{12, 6}, {25, 13}, {100, 50}}) {
     const CompiledPair table = CompiledPair::compile(kBed, nx, ny, chains);
     double worst = 0.0;
-    for (const PlanePoint& p : random_points(kSeed + 2, 20000, 0.0)) {
+    for (const PlanePoint& p : random_points(kCompiledSeed + 2, 20000, 0.0)) {
       const auto exact = chains(p.x, p.y);
       const auto ours = table.value(p.x, p.y);
       worst = std::max({worst, std::abs(exact[0] - ours[0]), std::abs(exact[1] - ours[1])});
@@ -117,9 +117,9 @@ TEST(CompiledPair, InverseReturnsEveryPointOfAPathInFourEvaluations) {
 }
 
 TEST(CompiledPair, InverseFindsEveryPointFromTheMiddleOfTheBed) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kCompiledSeed);
   const CompiledPair table = CompiledPair::compile(kBed, 100, 50, chains);
-  for (const PlanePoint& p : random_points(kSeed + 3, 4000, 0.0)) {
+  for (const PlanePoint& p : random_points(kCompiledSeed + 3, 4000, 0.0)) {
     const InverseResult r = table.inverse(table.value(p.x, p.y), {0.0, 0.0});
     ASSERT_EQ(r.status, InverseStatus::converged) << p.x << " " << p.y;
     EXPECT_NEAR(r.x, p.x, 1e-9);

@@ -19,11 +19,11 @@ using truths::even;
 using truths::kBed;
 using truths::sample;
 
-constexpr std::uint64_t kSeed = 12;
+constexpr std::uint64_t kSurfacesSeed = 12;
 
 TEST(QuinticSpline, AtDegreeThreeIsTheNotAKnotBicubic) {
-  SCOPED_TRACE(kSeed);
-  truths::Random random(kSeed);
+  SCOPED_TRACE(kSurfacesSeed);
+  truths::Random random(kSurfacesSeed);
   for (const auto& [nx, ny] : {std::pair{7, 4}, {9, 5}, {3, 2}, {13, 7}}) {
     const auto x = random.nodes(nx, kBed.x_min, kBed.x_max);
     const auto y = random.nodes(ny, kBed.y_min, kBed.y_max);
@@ -132,8 +132,8 @@ class Tilted final : public Surface {
 };
 
 TEST(ConvexHull, HoldsItsPointsAndFindsTheNearest) {
-  SCOPED_TRACE(kSeed);
-  truths::Random random(kSeed + 1);
+  SCOPED_TRACE(kSurfacesSeed);
+  truths::Random random(kSurfacesSeed + 1);
   std::vector<PlanePoint> points;
   for (int i = 0; i < 60; ++i) points.push_back({random.uniform(-1, 1), random.uniform(-1, 1)});
   const ConvexHull hull(points);

@@ -14,7 +14,7 @@
 namespace chaintrue::interp {
 namespace {
 
-constexpr std::uint64_t kSeed = 20240611;
+constexpr std::uint64_t kLikelihoodSeed = 20240611;
 
 struct Joint {
   Eigen::MatrixXd design;
@@ -25,7 +25,7 @@ struct Joint {
 // Two fields on the same points coupled by three shared columns with a prior, as a machine's
 // settings couple the two chains.
 Joint joint_problem(int points, bool overlapping_prior) {
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(kLikelihoodSeed);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   const auto normal = [&] {
     return std::sqrt(-2.0 * std::log(1.0 - uniform())) * std::cos(6.283185307179586 * uniform());
@@ -92,7 +92,7 @@ double response_space_v(
 class RemlLikelihood : public testing::TestWithParam<bool> {};
 
 TEST_P(RemlLikelihood, IsThatOfTheMixedModelUpToAConstant) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kLikelihoodSeed);
   const Joint joint = joint_problem(30, GetParam());
   const Eigen::Index nullity = GetParam() ? 3 : 6;
   const auto ours = [&](double a, double b, double s2) {
@@ -111,7 +111,7 @@ TEST_P(RemlLikelihood, IsThatOfTheMixedModelUpToAConstant) {
 }
 
 TEST_P(RemlLikelihood, DerivativesAgreeWithDifferences) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kLikelihoodSeed);
   Joint joint = joint_problem(30, GetParam());
   joint.problem.noise = {NoiseKnowledge::from_repeats, 7.0};
   const reml::Marginal marginal(joint.problem, std::nullopt);
@@ -172,7 +172,7 @@ TEST(Reml, FindsTheMinimumAGridFinds) {
 }
 
 TEST(Reml, HeldOutResidualsAreThoseOfARefit) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kLikelihoodSeed);
   const Joint joint = joint_problem(30, false);
   const auto fit = fit_penalised(joint.problem).value();
   for (const Eigen::Index group : {0, 7, 29}) {

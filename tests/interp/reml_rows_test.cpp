@@ -12,14 +12,14 @@
 namespace chaintrue::interp {
 namespace {
 
-constexpr std::uint64_t kSeed = 77;
+constexpr std::uint64_t kRowsSeed = 77;
 constexpr Eigen::Index kRows = 20;
 constexpr Eigen::Index kRidge = 24;
 constexpr Eigen::Index kShared = 3;
 
 // y = F u + Z s + sigma e with graded F, as smooth functions at scattered points are.
 PenalisedProblem problem_of(double sigma, bool keeps_rows) {
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(kRowsSeed);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   const auto normal = [&] {
     return std::sqrt(-2.0 * std::log(1.0 - uniform())) * std::cos(6.283185307179586 * uniform());
@@ -46,7 +46,7 @@ PenalisedProblem problem_of(double sigma, bool keeps_rows) {
 }
 
 TEST(RemlRows, AgreeWithTheGramMatrixWhereThatHasTheDigits) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kRowsSeed);
   const auto rows = fit_penalised(problem_of(0.3, true)).value();
   const auto gram = fit_penalised(problem_of(0.3, false)).value();
   // Both minima are found to a gradient of 1e-7.
@@ -62,7 +62,7 @@ TEST(RemlRows, AgreeWithTheGramMatrixWhereThatHasTheDigits) {
 // The coefficients by M = sigma2 I + F F' / lambda + Z S0^-1 Z', the covariance of the responses,
 // and an LU of it.
 TEST(RemlRows, AreTheMixedModel) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kRowsSeed);
   const PenalisedProblem problem = problem_of(1e-7, true);
   const Eigen::MatrixXd f = problem.design.leftCols(kRidge);
   const Eigen::MatrixXd z = problem.design.rightCols(kShared);

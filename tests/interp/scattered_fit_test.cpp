@@ -14,7 +14,7 @@ namespace {
 using truths::even;
 using truths::kBed;
 
-constexpr std::uint64_t kSeed = 5;
+constexpr std::uint64_t kScatteredSeed = 5;
 
 // Smooth terms of 0.8 mm that no machine model has.
 double unmodelled_left(double x, double y) {
@@ -70,9 +70,9 @@ class NoisyPoints : public testing::TestWithParam<NoisyCase> {};
 // one bed they are strongly correlated. 92 to 98 % over 40 draws and both terms is what is
 // promised.
 TEST_P(NoisyPoints, AreSmoothedWellAndTheirIntervalsCoverTheTruth) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kScatteredSeed);
   const NoisyCase& c = GetParam();
-  truths::Random random(kSeed);
+  truths::Random random(kScatteredSeed);
   double rms = 0.0;
   double covered = 0.0;
   double asked = 0.0;
@@ -158,8 +158,8 @@ TEST(ScatteredFit, DoesNotSwingWhereBisplrepDoes) {
 }
 
 TEST(ScatteredFit, OnePointOffIsFoundAndHardlyCounts) {
-  SCOPED_TRACE(kSeed);
-  truths::Random random(kSeed + 1);
+  SCOPED_TRACE(kScatteredSeed);
+  truths::Random random(kScatteredSeed + 1);
   auto points = measured(random, 5, 9, 0.3, unmodelled_left);
   const auto clean = fit_scattered(points, over_the_bed());
   points[17].z += 6.35;  // a chain link miscounted
@@ -175,7 +175,7 @@ TEST(ScatteredFit, OnePointOffIsFoundAndHardlyCounts) {
 }
 
 TEST(ScatteredFit, RepeatsThatDisagreeAreNamed) {
-  truths::Random random(kSeed + 2);
+  truths::Random random(kScatteredSeed + 2);
   auto points = measured(random, 5, 9, 0.3, unmodelled_left);
   for (ScatteredPoint& p : points) p.sigma = 0.3;
   ScatteredPoint again = points[3];
@@ -193,8 +193,8 @@ TEST(ScatteredFit, RepeatsThatDisagreeAreNamed) {
 }
 
 TEST(ScatteredFit, LeftOutErrorsAreThoseOfARefit) {
-  SCOPED_TRACE(kSeed);
-  truths::Random random(kSeed + 3);
+  SCOPED_TRACE(kScatteredSeed);
+  truths::Random random(kScatteredSeed + 3);
   const auto points = measured(random, 4, 7, 0.3, unmodelled_left);
   ScatteredOptions options = over_the_bed();
   options.robust = false;
@@ -236,8 +236,8 @@ TEST(ScatteredFit, RefusesGarbageByName) {
             "all points lie on one line: they say nothing about the surface beside it");
 
   // Noise of 1 stated as 1e-6: the surface must swing through every point.
-  SCOPED_TRACE(kSeed);
-  truths::Random random(kSeed + 4);
+  SCOPED_TRACE(kScatteredSeed);
+  truths::Random random(kScatteredSeed + 4);
   std::vector<ScatteredPoint> wild;
   for (int i = 0; i < 40; ++i) {
     wild.push_back({random.uniform(0, 1), random.uniform(0, 1), random.normal(), 1e-6});
@@ -270,7 +270,7 @@ TEST(ScatteredFit, BrokenPreconditionsThrowWithTheirValues) {
 }
 
 TEST(ScatteredFit, TheSameInputGivesTheSameBytes) {
-  truths::Random random(kSeed + 5);
+  truths::Random random(kScatteredSeed + 5);
   const auto points = measured(random, 5, 9, 0.3, unmodelled_left);
   const auto a = fit_scattered(points);
   const auto b = fit_scattered(points);
@@ -280,8 +280,8 @@ TEST(ScatteredFit, TheSameInputGivesTheSameBytes) {
 }
 
 TEST(ScatteredFit, AnIntervalCountGivenAloneIsKept) {
-  SCOPED_TRACE(kSeed);
-  truths::Random random(kSeed);
+  SCOPED_TRACE(kScatteredSeed);
+  truths::Random random(kScatteredSeed);
   const auto points = measured(random, 5, 8, 0.1, unmodelled_left);
   ScatteredOptions both = over_the_bed();
   both.intervals_x = 11;

@@ -20,7 +20,7 @@ using truths::even;
 using truths::kBed;
 using truths::sample;
 
-constexpr std::uint64_t kSeed = 41;
+constexpr std::uint64_t kTensorSeed = 41;
 
 // One-dimensional reference that shares nothing with the spline under test: all 4 (n - 1) power
 // coefficients at once, from interpolation, continuity and the two end conditions, by full
@@ -113,8 +113,8 @@ TEST(TensorSpline, AnswersTheProposalsOwnExample) {
 }
 
 TEST(TensorSpline, EqualsAnIndependentSolverForEveryPairOfEnds) {
-  SCOPED_TRACE(kSeed);
-  truths::Random random(kSeed);
+  SCOPED_TRACE(kTensorSeed);
+  truths::Random random(kTensorSeed);
   const EndCondition all[] = {EndCondition::not_a_knot,
                               EndCondition::natural,
                               EndCondition::parabolic,
@@ -141,8 +141,8 @@ TEST(TensorSpline, EqualsAnIndependentSolverForEveryPairOfEnds) {
 
 #ifdef CHAINTRUE_HAS_ALGLIB
 TEST(TensorSpline, ParabolicEndsAreAlglibs) {
-  SCOPED_TRACE(kSeed);
-  truths::Random random(kSeed + 1);
+  SCOPED_TRACE(kTensorSeed);
+  truths::Random random(kTensorSeed + 1);
   for (const auto& [nx, ny] : {std::pair{7, 4}, {3, 5}, {2, 2}, {25, 13}}) {
     const auto x = random.nodes(nx, kBed.x_min, kBed.x_max);
     const auto y = random.nodes(ny, kBed.y_min, kBed.y_max);
@@ -171,8 +171,8 @@ TEST(TensorSpline, ParabolicEndsAreAlglibs) {
 #endif
 
 TEST(TensorSpline, NotAKnotReproducesEveryBicubicAlsoOutside) {
-  SCOPED_TRACE(kSeed);
-  truths::Random random(kSeed + 2);
+  SCOPED_TRACE(kTensorSeed);
+  truths::Random random(kTensorSeed + 2);
   Eigen::Matrix4d c;
   for (Eigen::Index i = 0; i < 16; ++i) c(i) = random.uniform(-1, 1);
   const auto powers = [](double t) { return Eigen::Vector4d(1, t, t * t, t * t * t); };
@@ -233,7 +233,7 @@ TEST(TensorSpline, TwoAndThreeNodesGiveTheLineAndTheParabola) {
 }
 
 TEST(TensorSpline, SecondDerivativesAreContinuousAcrossNodes) {
-  truths::Random random(kSeed + 3);
+  truths::Random random(kTensorSeed + 3);
   const auto x = random.nodes(6, 0, 5);
   const auto y = random.nodes(5, 0, 4);
   const Eigen::MatrixXd z = sample(x, y, [&](double, double) { return random.uniform(-1, 1); });

@@ -41,7 +41,7 @@ grid::MeasuredGrid lattice() {
   return grid;
 }
 
-CompensationMap fitted(const grid::MeasuredGrid& grid) {
+CompensationMap fitted_lattice(const grid::MeasuredGrid& grid) {
   auto map = grid::fit(grid);
   if (!map) throw std::runtime_error(map.error().sentence);
   return *std::move(map);
@@ -53,7 +53,7 @@ const grid::ModelSurface& surface_of(const CompensationMap& map) {
 
 TEST(LatticeResidual, TheMapPassesThroughEveryReading) {
   const auto grid = lattice();
-  const CompensationMap map = fitted(grid);
+  const CompensationMap map = fitted_lattice(grid);
   ASSERT_TRUE(surface_of(map).lattice);
   EXPECT_THAT(map.contents().notes, Contains(HasSubstr("passes through every one")));
   for (const auto& point : grid.points) {
@@ -64,7 +64,7 @@ TEST(LatticeResidual, TheMapPassesThroughEveryReading) {
 }
 
 TEST(LatticeResidual, TheMapsDerivativeIsThatOfItsLengths) {
-  const CompensationMap map = fitted(lattice());
+  const CompensationMap map = fitted_lattice(lattice());
   ASSERT_TRUE(surface_of(map).lattice);
   constexpr double kStep = 0.01;
   for (const MarkPoint p : {MarkPoint{12, 34}, {-1100, -500}, {1150, 590}, {333, -77}}) {
@@ -87,7 +87,7 @@ TEST(LatticeResidual, AnEmptyNodeIsFilledNamedAndDoubted) {
   auto grid = lattice();
   const MarkPoint empty = grid.points[17].mark;
   grid.points.erase(grid.points.begin() + 17);
-  const CompensationMap map = fitted(grid);
+  const CompensationMap map = fitted_lattice(grid);
   ASSERT_TRUE(surface_of(map).lattice);
   EXPECT_THAT(map.contents().notes, Contains(HasSubstr("No reading at (0, 0)")));
   const auto there = map.query(empty).value();
@@ -101,7 +101,7 @@ TEST(LatticeResidual, AnEmptyNodeIsFilledNamedAndDoubted) {
 TEST(LatticeResidual, SigmaGrowsBeyondTheLattice) {
   auto grid = lattice();
   grid.machine->bed.width_mm += 300.0;
-  const CompensationMap map = fitted(grid);
+  const CompensationMap map = fitted_lattice(grid);
   ASSERT_TRUE(surface_of(map).lattice);
   double before = map.query({1219.2, 0.0}).value().sigma.left_mm;
   for (double x : {1260.0, 1300.0, 1350.0}) {
@@ -120,27 +120,27 @@ TEST(LatticeResidual, ReadingsThatBearNoiseKeepThePenalisedSurface) {
       point.lengths->left_mm += 0.3 * random.normal();
       point.lengths->right_mm += 0.3 * random.normal();
     }
-    EXPECT_FALSE(surface_of(fitted(grid)).lattice);
+    EXPECT_FALSE(surface_of(fitted_lattice(grid)).lattice);
   }
 }
 
 TEST(LatticeResidual, StatedNoiseRepeatsAndPointsBesideTheLinesKeepThePenalisedSurface) {
   auto stated = lattice();
   stated.noise = grid::StatedNoise{0.1, 0.1, 10.0};
-  EXPECT_FALSE(surface_of(fitted(stated)).lattice);
+  EXPECT_FALSE(surface_of(fitted_lattice(stated)).lattice);
   auto repeated = lattice();
   repeated.points.push_back(repeated.points.front());
-  EXPECT_FALSE(surface_of(fitted(repeated)).lattice);
+  EXPECT_FALSE(surface_of(fitted_lattice(repeated)).lattice);
   auto beside = lattice();
   beside.points[8].mark.x_mm += 5.0;
   beside.points[8].lengths = truth_at(beside.points[8].mark);
-  EXPECT_FALSE(surface_of(fitted(beside)).lattice);
+  EXPECT_FALSE(surface_of(fitted_lattice(beside)).lattice);
 }
 
 TEST(LatticeResidual, TheFileKeepsIt) {
   auto grid = lattice();
   grid.points.erase(grid.points.begin() + 17);
-  const CompensationMap map = fitted(grid);
+  const CompensationMap map = fitted_lattice(grid);
   const std::string text = grid::files::write_map(map);
   const CompensationMap read = grid::files::parse_map(text, "map.json");
   ASSERT_TRUE(surface_of(read).lattice);
@@ -155,7 +155,7 @@ TEST(LatticeResidual, TheFileKeepsIt) {
 }
 
 TEST(LatticeResidual, AFileWhoseNodesDoNotRiseIsRefused) {
-  std::string text = grid::files::write_map(fitted(lattice()));
+  std::string text = grid::files::write_map(fitted_lattice(lattice()));
   const std::size_t at = text.find("-850", text.find("\"lattice\""));
   ASSERT_NE(at, std::string::npos);
   text.replace(at, 4, "+850" + std::string());

@@ -12,23 +12,23 @@ namespace {
 
 using generator::Mix;
 
-TrialOptions options(Mix mix) {
+TrialOptions ablation_options(Mix mix) {
   TrialOptions o;
   o.recipe.kind = mix;
   o.recipe.points = 28;
   return o;
 }
 
-int count(const std::vector<Trial>& all, bool (*hit)(const Trial&)) {
+int count_of_all(const std::vector<Trial>& all, bool (*hit)(const Trial&)) {
   return static_cast<int>(std::count_if(all.begin(), all.end(), hit));
 }
 
 // Signatures that are not projected share most of their length with the settings' own.
 TEST(Ablation, WithoutProjectionCausesAreMistaken) {
-  TrialOptions o = options(Mix::single);
-  const int with = count(trials(o, 9100, 20), leads_right);
+  TrialOptions o = ablation_options(Mix::single);
+  const int with = count_of_all(trials(o, 9100, 20), leads_right);
   o.steps.project_settings = false;
-  const int without = count(trials(o, 9100, 20), leads_right);
+  const int without = count_of_all(trials(o, 9100, 20), leads_right);
   std::printf("right with projection %d, without %d of 20\n", with, without);
   EXPECT_GE(with, 17);  // 96.7 % at least, and one set more
   EXPECT_LE(without, with - 2);
@@ -38,7 +38,7 @@ TEST(Ablation, WithoutProjectionCausesAreMistaken) {
 // upwards neither chain notices; off sideways, both do, one against the other. Two lengths there
 // are one error seen twice and one number that is nearly exact.
 TEST(Ablation, WithoutWhiteningLessIsFound) {
-  TrialOptions o = options(Mix::single);
+  TrialOptions o = ablation_options(Mix::single);
   o.recipe.machine.emplace();
   for (auto& axis : o.recipe.machine->axis) axis.y = 760.0;
   o.recipe.noise = {0.05, 1.0};
@@ -46,9 +46,9 @@ TEST(Ablation, WithoutWhiteningLessIsFound) {
   const auto names_it_alone = [](const Trial& t) {
     return t.verdict == grid::diagnosis::Verdict::named && leads_right(t);
   };
-  const int with = count(trials(o, 9600, 16), names_it_alone);
+  const int with = count_of_all(trials(o, 9600, 16), names_it_alone);
   o.steps.whiten = false;
-  const int without = count(trials(o, 9600, 16), names_it_alone);
+  const int without = count_of_all(trials(o, 9600, 16), names_it_alone);
   std::printf("right with whitening %d, without %d of 16\n", with, without);
   EXPECT_GE(with, 11);
   EXPECT_LE(without, with - 3);
@@ -59,11 +59,11 @@ TEST(Ablation, WithoutTheNoisesAnchorWrongNoiseIsNotSeen) {
   const auto said = [](const Trial& t) {
     return t.verdict == grid::diagnosis::Verdict::noise_larger_than_stated;
   };
-  TrialOptions o = options(Mix::nothing);
+  TrialOptions o = ablation_options(Mix::nothing);
   o.recipe.noise_ratio = 1.0 / 3.0;
-  const int with = count(trials(o, 9700, 8), said);
+  const int with = count_of_all(trials(o, 9700, 8), said);
   o.steps.anchor_noise = false;
-  const int without = count(trials(o, 9700, 8), said);
+  const int without = count_of_all(trials(o, 9700, 8), said);
   std::printf("said with the anchor %d, without %d of 8\n", with, without);
   EXPECT_GE(with, 7);
   EXPECT_LE(without, 1);
@@ -71,16 +71,16 @@ TEST(Ablation, WithoutTheNoisesAnchorWrongNoiseIsNotSeen) {
 
 // A slip of the pen weighs more than any cause where no point may be set aside.
 TEST(Ablation, WithoutARobustStartSlipsMakeCauses) {
-  TrialOptions o = options(Mix::bad_points);
+  TrialOptions o = ablation_options(Mix::bad_points);
   o.steps.robust = false;
   // Two sets of three are named so; of ten fewer than three once in 200 times.
-  EXPECT_GE(count(trials(o, 9400, 10), names_something), 3);
+  EXPECT_GE(count_of_all(trials(o, 9400, 10), names_something), 3);
 }
 
 // Places that may be chosen freely fit noise better than they should: the best of many counts in
 // full only where the price of the choice is paid.
 TEST(Ablation, WithoutAveragingPlacesAreTooSure) {
-  TrialOptions o = options(Mix::nothing);
+  TrialOptions o = ablation_options(Mix::nothing);
   const auto placed = [](const std::vector<Trial>& all) {
     double sum = 0.0;
     for (const Trial& t : all) {

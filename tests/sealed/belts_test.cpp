@@ -23,8 +23,8 @@ int right_of(const BeltRecipe& recipe, std::uint64_t first_seed, Right right) {
       ++good;
     } else {
       testing::Test::RecordProperty("wrong", static_cast<int>(trial.seed));
-      std::cout << "seed " << trial.seed << ", " << trial.secret.effect << " "
-                << trial.secret.side << ": " << trial.sentence << "\n";
+      std::cout << "seed " << trial.seed << ", " << trial.secret.effect << " " << trial.secret.side
+                << ": " << trial.sentence << "\n";
     }
   }
   return good;
@@ -40,14 +40,13 @@ TEST(SealedBelts, AStrongCauseIsNamedAlone) {
 
 TEST(SealedBelts, WhereNothingIsHiddenNothingIsNamed) {
   // A name where noise does as much once in a thousand sessions: one of twelve is wrong in 1 run of 80.
-  EXPECT_GE(right_of({.effect = "", .nothing = true}, 951, [](const BeltsTrial& t) {
-              return !t.named;
-            }),
-            kSets);
+  EXPECT_GE(
+      right_of({.effect = "", .nothing = true}, 951, [](const BeltsTrial& t) { return !t.named; }),
+      kSets);
 }
 
 TEST(SealedBelts, WhatIsProposedPartsCausesThatAreLeftOpen) {
-  constexpr int kDraws = 16;
+  constexpr int kDraws = 24;
   int proposed = 0;
   int parted = 0;
   for (std::uint64_t seed = 1101; seed < 1101 + kDraws; ++seed) {
@@ -56,12 +55,13 @@ TEST(SealedBelts, WhatIsProposedPartsCausesThatAreLeftOpen) {
     proposed += trial.proposed > 0;
     parted += trial.parted;
     if (trial.proposed > 0 && !trial.parted) {
-      std::cout << "seed " << seed << ", " << trial.secret.effect << " " << trial.secret.side << ": "
-                << trial.sentence << "\n";
+      std::cout << "seed " << seed << ", " << trial.secret.effect << " " << trial.secret.side
+                << ": " << trial.sentence << "\n";
     }
   }
-  ASSERT_GT(proposed, 3) << "seeds 1101 to " << 1100 + kDraws << " leave nothing open";
-  EXPECT_GT(2 * parted, proposed) << "of seeds 1101 to " << 1100 + kDraws;
+  ASSERT_GT(proposed, 5) << "seeds 1101 to " << 1100 + kDraws << " leave nothing open";
+  // 34 of 51 are parted (docs/maslow4.md): fewer than a third of nine are so in 1 run of 120.
+  EXPECT_GE(3 * parted, proposed) << "of seeds 1101 to " << 1100 + kDraws;
 }
 
 TEST(SealedBelts, BadReadingsAreFoundByPointAndBelt) {

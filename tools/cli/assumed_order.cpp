@@ -47,12 +47,12 @@ bool is_second_visit(const std::vector<MeasuredPoint>& points, std::size_t index
 
 /// Side of the square that one mark has to itself.
 double usual_spacing_mm(const std::vector<PlaceInTurn>& places) {
-  const auto [low_a, high_a] =
-      std::minmax_element(places.begin(), places.end(), [](const PlaceInTurn& a, const PlaceInTurn& b) {
+  const auto [low_a, high_a] = std::minmax_element(
+      places.begin(), places.end(), [](const PlaceInTurn& a, const PlaceInTurn& b) {
         return a.across_mm < b.across_mm;
       });
-  const auto [low_b, high_b] =
-      std::minmax_element(places.begin(), places.end(), [](const PlaceInTurn& a, const PlaceInTurn& b) {
+  const auto [low_b, high_b] = std::minmax_element(
+      places.begin(), places.end(), [](const PlaceInTurn& a, const PlaceInTurn& b) {
         return a.along_mm < b.along_mm;
       });
   const double area_mm2 =
@@ -108,9 +108,10 @@ tl::expected<std::vector<int>, std::string> assumed_order(const std::vector<Meas
   std::vector<int> numbers(points.size());
   int visit = 0;
   for (std::size_t line = 0; line < lines.size(); ++line) {
-    std::stable_sort(lines[line].begin(), lines[line].end(), [](const PlaceInTurn& a, const PlaceInTurn& b) {
-      return a.along_mm < b.along_mm;
-    });
+    std::stable_sort(
+        lines[line].begin(), lines[line].end(), [](const PlaceInTurn& a, const PlaceInTurn& b) {
+          return a.along_mm < b.along_mm;
+        });
     if (serpentine && line % 2 == 1) std::reverse(lines[line].begin(), lines[line].end());
     for (const PlaceInTurn& place : lines[line]) numbers[place.index] = visit++;
   }

@@ -28,7 +28,6 @@ using report::Paragraph;
 using report::Section;
 using report::Table;
 
-
 /// From this chance down something is said to stand out.
 constexpr double kSurprising = 0.01;
 

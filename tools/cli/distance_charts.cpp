@@ -130,12 +130,15 @@ double largest(const Diagnosis& found, const std::vector<DistancePanel>& panels)
   double value = 0.0;
   for (const DistancePicture& distance : found.distances) {
     if (distance.bad) continue;
-    for (const DistancePanel& panel : panels) value = std::max(value, std::abs(distance.*panel.residual));
+    for (const DistancePanel& panel : panels)
+      value = std::max(value, std::abs(distance.*panel.residual));
   }
   return value;
 }
 
-Chart residual_panels(const Diagnosis& found, const std::vector<DistancePanel>& panels, std::string title) {
+Chart residual_panels(const Diagnosis& found,
+                      const std::vector<DistancePanel>& panels,
+                      std::string title) {
   const double full_mm = largest(found, panels);
   double noise_mm = 0.0;
   Panels drawn(found);
@@ -224,7 +227,8 @@ Chart scatter_chart(const Diagnosis& found, const DistanceScatter& scatter) {
 }  // namespace
 
 Chart distance_chart(const Diagnosis& found) {
-  std::vector<DistancePanel> panels = {{"Before: the machine calibrated", &DistancePicture::before_mm}};
+  std::vector<DistancePanel> panels = {
+      {"Before: the machine calibrated", &DistancePicture::before_mm}};
   if (!found.causes.empty())
     panels.push_back({"After: with what was named", &DistancePicture::after_mm});
   return residual_panels(found, panels, "The distances, as read less as predicted");

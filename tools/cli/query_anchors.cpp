@@ -43,7 +43,9 @@ grid::BeltMap map_of(const files::FittedAnchors& anchors, const std::string& fil
 }
 
 /// The upper two decide where the tool is; the lower two follow it there.
-AnswerOfBelts answered(const grid::BeltMap& map, const model::BeltMachine& machine, model::BedPoint point) {
+AnswerOfBelts answered(const grid::BeltMap& map,
+                       const model::BeltMachine& machine,
+                       model::BedPoint point) {
   AnswerOfBelts line{point, std::nullopt, {}};
   const auto upper = map.lengths(point);
   if (!upper || map.status(point) == grid::MapStatus::outside) return line;

@@ -69,7 +69,8 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
   for (const model::MarkPoint& place : files::read_points(options.points)) {
     visits.push_back({model::laid_as_bed(place), static_cast<int>(visits.size())});
   }
-  synthetic::PlacesRead read = synthetic::read_places(machine, hidden, visits, model, shown_progress());
+  synthetic::PlacesRead read =
+      synthetic::read_places(machine, hidden, visits, model, shown_progress());
   read.grid.name = options.name.empty() ? "readings at given places" : options.name;
   for (const auto& [index, reason] : read.unreachable) {
     fmt::print(

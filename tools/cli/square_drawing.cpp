@@ -60,16 +60,16 @@ class SquarePicture {
 };
 
 void write_text(std::string& svg,
-          double x,
-          double y,
-          std::string_view anchor,
-          std::string_view words,
-          double turn_deg = 0.0) {
+                double x,
+                double y,
+                std::string_view anchor,
+                std::string_view words,
+                double turn_deg = 0.0) {
   const std::string turn =
       turn_deg == 0.0 ? ""
                       : fmt::format(" transform=\"rotate({:.0f} {:.1f} {:.1f})\"", turn_deg, x, y);
   fmt::format_to(std::back_inserter(svg),
-                 "<write_text x=\"{:.1f}\" y=\"{:.1f}\" write_text-anchor=\"{}\"{}>{}</write_text>\n",
+                 "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n",
                  x,
                  y,
                  anchor,
@@ -115,11 +115,11 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
       fmt::format(
           "A {:g} mm square at ({:g}, {:g}) mm", task.size_mm, task.corner.x_mm, task.corner.y_mm));
   write_text(svg,
-       kWide / 2,
-       58.0,
-       "middle",
-       fmt::format("dashed: commanded · solid: cut, errors drawn {:g} times as large",
-                   picture.magnification()));
+             kWide / 2,
+             58.0,
+             "middle",
+             fmt::format("dashed: commanded · solid: cut, errors drawn {:g} times as large",
+                         picture.magnification()));
   const auto side = [&square](SquareSide which) {
     const model::CutSide& s = square.side(which);
     return fmt::format("{:.2f} mm, bow {:+.2f}", s.length_mm, s.bow_mm);
@@ -130,26 +130,26 @@ std::string draw_square(const model::CutSquare& square, const model::SquareTask&
   write_text(svg, kLeft + 70.0, middle_y, "middle", side(SquareSide::left), -90.0);
   write_text(svg, kLeft + kSide - 60.0, middle_y, "middle", side(SquareSide::right), -90.0);
   write_text(svg,
-       kWide / 2,
-       kTop + kSide + 90.0,
-       "middle",
-       fmt::format("diagonals: rising {:.2f} mm, falling {:.2f} mm (commanded {:.2f})",
-                   square.rising_diagonal_mm,
-                   square.falling_diagonal_mm,
-                   task.size_mm * std::sqrt(2.0)));
+             kWide / 2,
+             kTop + kSide + 90.0,
+             "middle",
+             fmt::format("diagonals: rising {:.2f} mm, falling {:.2f} mm (commanded {:.2f})",
+                         square.rising_diagonal_mm,
+                         square.falling_diagonal_mm,
+                         task.size_mm * std::sqrt(2.0)));
   write_text(svg,
-       kWide / 2,
-       kTop + kSide + 116.0,
-       "middle",
-       fmt::format("as a whole moved by ({:+.2f}, {:+.2f}) mm and turned by {:+.3f} mrad",
-                   square.offset.x_mm,
-                   square.offset.y_mm,
-                   1e3 * square.rotation_rad));
+             kWide / 2,
+             kTop + kSide + 116.0,
+             "middle",
+             fmt::format("as a whole moved by ({:+.2f}, {:+.2f}) mm and turned by {:+.3f} mrad",
+                         square.offset.x_mm,
+                         square.offset.y_mm,
+                         1e3 * square.rotation_rad));
   write_text(svg,
-       kWide / 2,
-       kTop + kSide + 142.0,
-       "middle",
-       "bow: the farthest that a side leaves the line between its corners, + outwards");
+             kWide / 2,
+             kTop + kSide + 142.0,
+             "middle",
+             "bow: the farthest that a side leaves the line between its corners, + outwards");
   return svg + "</svg>\n";
 }
 

@@ -14,7 +14,7 @@ install(TARGETS ${libraries} EXPORT chaintrueTargets ARCHIVE COMPONENT library L
 # Headers keep their folders: #include "model/machine.hpp" here and there alike.
 install(DIRECTORY interp model grid
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/chaintrue COMPONENT library
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN "json_*.hpp" EXCLUDE PATTERN "*_record.hpp" EXCLUDE
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN "json_*.hpp" EXCLUDE PATTERN "*_record.hpp" EXCLUDE PATTERN "record_values.hpp" EXCLUDE
   PATTERN "*_keys.hpp" EXCLUDE PATTERN "content_hash.hpp" EXCLUDE PATTERN "formats.hpp" EXCLUDE PATTERN "meanings.hpp" EXCLUDE PATTERN "schemas.hpp" EXCLUDE PATTERN "read_log.hpp" EXCLUDE
   PATTERN "printing*" EXCLUDE)
 install(EXPORT chaintrueTargets NAMESPACE chaintrue:: DESTINATION ${package_dir} COMPONENT library)

@@ -1,9 +1,9 @@
 # Headers that nearly every source reads, parsed once for all: half of the time of a cold build. Off, every file stands on
 # its own includes; the dev presets build so.
 option(CHAINTRUE_PRECOMPILED_HEADERS "Parse the common headers once" ON)
-# What ten neighbours make of the same templates, compiled once: a third of what is left. Names in unnamed namespaces have
+# What neighbours make of the same templates, compiled once: a quarter of what is left. Names in unnamed namespaces have
 # to differ within a room for it. Off, a change of one file compiles that file; the dev presets build so.
-option(CHAINTRUE_UNITY_BUILD "Compile sources of a library ten at a time" ON)
+option(CHAINTRUE_UNITY_BUILD "Compile several sources of a library at a time" ON)
 
 set(chaintrue_common_headers
   <algorithm> <array> <charconv> <cmath> <filesystem> <functional> <map> <memory> <optional> <set> <span> <string>
@@ -25,9 +25,9 @@ function(chaintrue_use_precompiled target library)
   endif()
 endfunction()
 
-# chaintrue_compile_together(target)
-function(chaintrue_compile_together target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${CHAINTRUE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 10)
+# chaintrue_compile_together(target most)
+function(chaintrue_compile_together target most)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${CHAINTRUE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE ${most})
   # A class of one source that holds others of its unnamed namespace is as safe as before.
   if(CHAINTRUE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
