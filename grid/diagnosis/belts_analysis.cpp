@@ -64,14 +64,30 @@ void leave_noise_open(Decision& decision) {
     decision.verdict = Verdict::nothing_found;
 }
 
+/// The likeliest pattern without any cause beside it; false where none was weighed.
+bool take_pattern_alone(const ModelComparison& comparison, Decision& decision) {
+  const auto alone = std::find_if(
+      comparison.models.begin(), comparison.models.end(), [](const CandidateModel& model) {
+        return model.discrepancy >= 0 && model.regressors.empty();
+      });
+  if (alone == comparison.models.end()) return false;
+  decision.best_discrepancy = alone->discrepancy;
+  decision.marginalised = alone->marginalised;
+  decision.discrepancy_left = true;
+  return true;
+}
+
 /// Where the strongest cause is no more than noise does by chance, none is named, whatever a pattern
 /// beside it seems to leave for it.
-void take_names_back(Decision& decision) {
+void take_names_back(const ModelComparison& comparison, Decision& decision) {
   if (decision.listed.empty() && decision.regressors.empty()) return;
-  decision.verdict = decision.discrepancy > kDiscrepancyLikely ? Verdict::model_discrepancy
-                                                               : Verdict::nothing_found;
   decision.listed.clear();
   decision.regressors.clear();
+  decision.discrepancy_left = false;
+  decision.verdict =
+      decision.discrepancy > kDiscrepancyLikely && take_pattern_alone(comparison, decision)
+          ? Verdict::model_discrepancy
+          : Verdict::nothing_found;
 }
 
 /// By how much the readings make the odds of a cause beside a pattern larger than they are beforehand;
@@ -103,7 +119,7 @@ void take_expected_back(BeltsAnalysis& a) {
   if (decision.verdict != Verdict::named || !(decision.discrepancy > kDiscrepancyLikely)) return;
   if (decision.marginal.front().probability >= kNamedAlone) return;
   const CauseClass& named = decision.classes[decision.listed.front()];
-  if (spoken_for(a.analysis, named) < kSpokenFor) take_names_back(decision);
+  if (spoken_for(a.analysis, named) < kSpokenFor) take_names_back(a.analysis.comparison, decision);
 }
 
 /// Decision, and the estimate of its causes: beside the pattern that it holds, if any.
@@ -111,7 +127,7 @@ void decide(bool seen, BeltsAnalysis& a) {
   Analysis& own = a.analysis;
   const std::vector<bool> none(own.system.units.size(), false);
   own.decision = decide_for_leaders(own.system, own.comparison, none, seen);
-  if (!seen) take_names_back(own.decision);
+  if (!seen) take_names_back(own.comparison, own.decision);
   take_expected_back(a);
   own.estimate = estimate(own.system,
                           own.comparison.marginalised_systems[own.decision.marginalised],

@@ -64,6 +64,15 @@ TEST(SealedBelts, WhatIsProposedPartsCausesThatAreLeftOpen) {
   EXPECT_GE(3 * parted, proposed) << "of seeds 1101 to " << 1100 + kDraws;
 }
 
+TEST(SealedBelts, APatternThatIsTheAnswerHasASize) {
+  // A name was taken back here, and the pattern in its place had neither size nor length.
+  const BeltsTrial trial =
+      run_belts_trial({.effect = "", .least_strength = 6.0, .most_strength = 8.0}, 2004);
+  EXPECT_NE(trial.sentence.find("changes smoothly from place to place"), std::string::npos)
+      << trial.sentence;
+  EXPECT_EQ(trial.sentence.find("over some 0 mm"), std::string::npos) << trial.sentence;
+}
+
 TEST(SealedBelts, BadReadingsAreFoundByPointAndBelt) {
   EXPECT_GE(right_of({.effect = "", .nothing = true, .bad_readings = 3},
                      1001,

@@ -56,6 +56,8 @@ void show(const BeltsTrial& trial) {
              trial.secret.strength,
              trial.family_wise_p,
              trial.sentence);
+  for (const auto& [point, belt] : trial.secret.bad)
+    fmt::print("    bad: point {}, belt {} of tl tr bl br\n", point, belt);
   std::fflush(stdout);
 }
 
