@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/belts_findings.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
@@ -76,8 +77,8 @@ double uncertain_mm(const model::BeltMachine& machine,
     const belts::AnchorVector moved =
         belts::anchors_of(machine) +
         std::sqrt(std::max(axes.eigenvalues()[i], 0.0)) * axes.eigenvectors().col(i);
-    const double own = shape_error_mm(
-        believed(belts::with_anchors(machine, moved), machine, {}, places), places);
+    const double own =
+        shape_error_mm(believed(belts::with_anchors(machine, moved), machine, {}, places), places);
     square += own * own;
   }
   return std::sqrt(square);
@@ -206,6 +207,43 @@ Unexplained unexplained(const BeltsAnalysis& a) {
   return result;
 }
 
+namespace {
+
+/// What a place leaves of its other readings once it has been put where these want it, in sigmas^2.
+double left_without(const belts::FrameView& view, std::size_t point, Belt without) {
+  Eigen::Matrix<double, 3, 1> residual;
+  Eigen::Matrix<double, 3, 2> by_place;
+  Eigen::Index row = 0;
+  for (const Belt belt : kBelts) {
+    if (belt == without) continue;
+    const auto at = static_cast<Eigen::Index>(4 * point + static_cast<std::size_t>(belt));
+    residual(row) = view.equations().residual(at) / view.solver().sigma_mm();
+    by_place.row(row++) = view.equations().by_place.row(at) / view.solver().sigma_mm();
+  }
+  const Eigen::Vector2d moved =
+      (by_place.transpose() * by_place).ldlt().solve(by_place.transpose() * residual);
+  return (residual - by_place * moved).squaredNorm();
+}
+
+/// The belt that may be off in place of a bad one: on the line between two anchors, where only the sum
+/// of both lengths is checked, both look alike.
+std::optional<Belt> looks_alike(const belts::FrameView& view, std::size_t point, Belt bad) {
+  // Odds of twenty to one tell them apart.
+  const double told = left_without(view, point, bad) + 2.0 * std::log(20.0);
+  std::optional<Belt> other;
+  double least = told;
+  for (const Belt belt : kBelts) {
+    if (belt == bad) continue;
+    if (const double left = left_without(view, point, belt); left < least) {
+      least = left;
+      other = belt;
+    }
+  }
+  return other;
+}
+
+}  // namespace
+
 std::vector<Outlier> bad_belts(const Explained& explained) {
   const belts::FrameView view(explained.freed, explained.beside.frame);
   std::vector<Outlier> result;
@@ -223,7 +261,10 @@ std::vector<Outlier> bad_belts(const Explained& explained) {
       outlier.distance = std::abs(own.sigmas);
     }
     if (bad.empty()) continue;
-    if (bad.size() == 1) outlier.belt = bad.front();
+    if (bad.size() == 1) {
+      outlier.belt = bad.front();
+      outlier.or_belt = looks_alike(view, k, bad.front());
+    }
     result.push_back(outlier);
   }
   return result;

@@ -30,13 +30,19 @@ std::string end_of(const BeltEnd& end) {
   return fmt::format("({:g}, {:g})", at.x_mm, at.y_mm);
 }
 
+/// ", or the bottom right one", or nothing.
+std::string or_else(const Outlier& bad) {
+  return bad.or_belt ? fmt::format(", or the {} one", model::words(*bad.or_belt)) : "";
+}
+
 std::vector<std::string> bad_belts(const Diagnosis& d) {
   std::vector<std::string> result;
   for (const Outlier& bad : d.outliers) {
     result.push_back(bad.belt
-                         ? fmt::format("the {} belt at point {}, read {:.1f} mm too {}",
+                         ? fmt::format("the {} belt at point {}{}, read {:.1f} mm too {}",
                                        model::words(*bad.belt),
                                        bad.index,
+                                       or_else(bad),
                                        std::abs(bad.off_mm),
                                        bad.off_mm > 0.0 ? "long" : "short")
                          : fmt::format("point {}, where more than one belt disagrees", bad.index));

@@ -151,6 +151,8 @@ struct Outlier {
   Observations of = Observations::points;  ///< points, distances or belts
   std::size_t index = 0;                   ///< of a belt's reading that of its place
   std::optional<model::Belt> belt{};       ///< empty of belts: all that was read at the place
+  /// The belt of the same place that may be off instead, where the lengths do not tell which.
+  std::optional<model::Belt> or_belt{};
   /// Where the tool would have to have been, less where the mark is.
   Eigen::Vector2d shift_mm = Eigen::Vector2d::Zero();
   double distance = 0.0;  ///< in sigmas

@@ -60,6 +60,7 @@ struct Shift {
   std::optional<double> off_mm;
   double sigmas = 0.0;
   std::optional<model::Belt> belt{};
+  std::optional<model::Belt> or_belt{};
 };
 
 const Record<Shift>& shift_record() {
@@ -70,6 +71,7 @@ const Record<Shift>& shift_record() {
           .optional("off_mm", &Shift::off_mm, number(kMillimetres))
           .required("sigmas", &Shift::sigmas, number(kNotNegative))
           .optional("belt", &Shift::belt, belt_word())
+          .optional("or_belt", &Shift::or_belt, belt_word())
           .check([](const Cursor& at, Shift& shift) {
             const bool of_point = shift.x_mm && shift.y_mm;
             if (at.clean() && of_point == shift.off_mm.has_value())
@@ -135,6 +137,7 @@ void outlier_keys(Record<Diagnosis>& record) {
           object.outliers[i].off_mm = shift.off_mm.value_or(0.0);
           object.outliers[i].distance = shift.sigmas;
           object.outliers[i].belt = shift.belt;
+          object.outliers[i].or_belt = shift.or_belt;
         }
       },
       [](const Diagnosis& object) {
@@ -142,7 +145,7 @@ void outlier_keys(Record<Diagnosis>& record) {
         for (const Outlier& bad : object.outliers) {
           json.push_back(shift_record().write(
               bad.of != Observations::points
-                  ? Shift{{}, {}, bad.off_mm, bad.distance, bad.belt}
+                  ? Shift{{}, {}, bad.off_mm, bad.distance, bad.belt, bad.or_belt}
                   : Shift{bad.shift_mm.x() + 0.0, bad.shift_mm.y() + 0.0, {}, bad.distance}));
         }
         return std::optional<Json>(std::move(json));

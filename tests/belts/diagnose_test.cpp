@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <set>
 
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
@@ -116,6 +117,7 @@ TEST(BeltsDiagnosis, OneReadingFarOffIsNamedByItsPointAndBelt) {
     ASSERT_EQ(found.outliers.size(), 1U) << found.sentence;
     EXPECT_EQ(found.outliers[0].index, 17U);
     EXPECT_EQ(found.outliers[0].belt, Belt::tr);
+    EXPECT_FALSE(found.outliers[0].or_belt);
     // One reading's place is known to about its noise.
     EXPECT_NEAR(found.outliers[0].off_mm, 80.0, 5.0 * session.noise_mm);
     EXPECT_EQ(found.causes.size(), stretched ? 1U : 0U) << found.sentence;
@@ -123,6 +125,19 @@ TEST(BeltsDiagnosis, OneReadingFarOffIsNamedByItsPointAndBelt) {
                     (found.what_to_do.size() > 1 ? found.what_to_do[1] : ""),
                 HasSubstr("the top right belt at point 17"));
   }
+}
+
+TEST(BeltsDiagnosis, OnTheLineBetweenTwoAnchorsEitherBeltMayBeTheBadOne) {
+  MeasuredBelts belts = measured_in({});
+  // The middle of nine times nine, where both diagonals of the frame meet.
+  belts.points[40].lengths_mm.tl += 20.0;
+  const Diagnosis found = diagnosed(belts);
+  ASSERT_EQ(found.outliers.size(), 1U) << found.sentence;
+  const auto& bad = found.outliers[0];
+  EXPECT_EQ(bad.index, 40U);
+  ASSERT_TRUE(bad.belt && bad.or_belt) << found.sentence;
+  EXPECT_EQ((std::set<Belt>{*bad.belt, *bad.or_belt}), (std::set<Belt>{Belt::tl, Belt::br}));
+  EXPECT_THAT(found.sentence, HasSubstr("at point 40, or the "));
 }
 
 TEST(BeltsDiagnosis, APlaceOfWhichSeveralReadingsAreOffIsBadAsAWhole) {

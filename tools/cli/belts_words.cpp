@@ -118,18 +118,20 @@ std::string scale_in_words(const MeasuredBelts& belts, const BeltsFit& fit) {
         fit.machine.belt_turn_mm);
     const auto best = grid::distance_for_scale(belts, fit);
     if (!best) {
-      return text + "Tape one long distance, between two anchors or two holes that were cut, and add "
-                    "it to the file's \"distances\".\n";
+      return text +
+             "Tape one long distance, between two anchors or two holes that were cut, and add "
+             "it to the file's \"distances\".\n";
     }
-    return text + fmt::format(
-                      "Tape the distance from {} to {}, about {:.0f} mm, and add it to the file's "
-                      "\"distances\": read to {:g} mm it tells the scale to {:.2g} %, better than any "
-                      "other.\n",
-                      words_of(best->distance.from),
-                      words_of(best->distance.to),
-                      best->distance.distance_mm,
-                      best->distance.sigma_mm,
-                      100.0 * best->sigma);
+    return text +
+           fmt::format(
+               "Tape the distance from {} to {}, about {:.0f} mm, and add it to the file's "
+               "\"distances\": read to {:g} mm it tells the scale to {:.2g} %, better than any "
+               "other.\n",
+               words_of(best->distance.from),
+               words_of(best->distance.to),
+               best->distance.distance_mm,
+               best->distance.sigma_mm,
+               100.0 * best->sigma);
   }
   std::string text = fmt::format(
       "Scale: by the tape everything is {:.5f} +- {:.5f} times what the belts make it, {:.1f} mm "
@@ -160,19 +162,21 @@ std::string belts_fit_in_words(const MeasuredBelts& belts, const BeltsFit& fit) 
 
 std::string holes_beside_belts_in_words(const grid::HolesBesideBelts& holes) {
   std::string text = fmt::format(
-      "Holes: {} distances, each foretold by all others to {:.2f} mm rms; tape and holes err {:.2g} "
+      "Holes: {} distances, each foretold by all others to {:.2f} mm rms; tape and holes err "
+      "{:.2g} "
       "times what was stated.\n",
       holes.distances.size(),
       holes.left_out_rms_mm,
       holes.noise_factor);
   for (const auto& distance : holes.distances) {
     if (!distance.set_aside) continue;
-    fmt::format_to(std::back_inserter(text),
-                   "Set aside: the distance {}, taped {:.1f} mm {} than all others make it; tape it "
-                   "again.\n",
-                   distance.words,
-                   std::abs(distance.left_out_mm),
-                   distance.left_out_mm > 0.0 ? "longer" : "shorter");
+    fmt::format_to(
+        std::back_inserter(text),
+        "Set aside: the distance {}, taped {:.1f} mm {} than all others make it; tape it "
+        "again.\n",
+        distance.words,
+        std::abs(distance.left_out_mm),
+        distance.left_out_mm > 0.0 ? "longer" : "shorter");
   }
   if (!holes.displacement)
     return text + "No bend of the tool's place over the sheet is left that the holes could show.\n";
@@ -229,12 +233,17 @@ std::string places_in_a_table(const BeltsFit& fit) {
 std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad) {
   if (!bad.belt)
     return fmt::format("point {} as a whole: more than one of its belts disagrees", bad.index);
-  return fmt::format("the {} belt at point {}: read {:.1f} mm too {} ({:.1f} sigmas)",
-                     model::words(*bad.belt),
-                     bad.index,
-                     std::abs(bad.off_mm),
-                     bad.off_mm > 0.0 ? "long" : "short",
-                     bad.distance);
+  std::string text = fmt::format("the {} belt at point {}: read {:.1f} mm too {} ({:.1f} sigmas)",
+                                 model::words(*bad.belt),
+                                 bad.index,
+                                 std::abs(bad.off_mm),
+                                 bad.off_mm > 0.0 ? "long" : "short",
+                                 bad.distance);
+  if (bad.or_belt) {
+    text += fmt::format("; or the {} one, which looks the same at this place",
+                        model::words(*bad.or_belt));
+  }
+  return text;
 }
 
 std::string diagnosed_belts_in_words(const grid::diagnosis::BeltsFindings& found) {

@@ -26,7 +26,8 @@ bool same_bad(const generator::BeltSecret& secret, const grid::diagnosis::Diagno
   return std::all_of(found.outliers.begin(), found.outliers.end(), [&](const auto& bad) {
     return std::any_of(secret.bad.begin(), secret.bad.end(), [&](const auto& hidden) {
       return bad.belt && static_cast<int>(bad.index) == hidden[0] &&
-             static_cast<int>(*bad.belt) == hidden[1];
+             (static_cast<int>(*bad.belt) == hidden[1] ||
+              (bad.or_belt && static_cast<int>(*bad.or_belt) == hidden[1]));
     });
   });
 }
@@ -104,12 +105,12 @@ BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t se
   };
   trial.held = std::any_of(found->causes.begin(), found->causes.end(), holds);
   trial.exact = found->verdict == grid::diagnosis::Verdict::named && trial.held;
-  trial.right_belt =
-      trial.named && name(found->causes.front().cause.side) == draw.secret.side;
+  trial.right_belt = trial.named && name(found->causes.front().cause.side) == draw.secret.side;
   trial.separable = is_separable(draw.secret, *found);
   trial.bad_found = same_bad(draw.secret, *found);
   for (const auto& h : found->hypotheses) {
-    if (h.effect == draw.secret.effect && h.side == draw.secret.side) trial.probability = h.probability;
+    if (h.effect == draw.secret.effect && h.side == draw.secret.side)
+      trial.probability = h.probability;
   }
   if (!go_on || found->verdict == grid::diagnosis::Verdict::named) return trial;
   trial.proposed = measure_as_proposed(draw, *found, seed, belts);
