@@ -29,7 +29,8 @@ chaintrue_headers_only(CLI11::CLI11)
 chaintrue_headers_only(tl::expected)
 chaintrue_headers_only(fast_float::fast_float)
 
-add_compile_options(-fwasm-exceptions -msimd128 -msse2)
+# Small before fast: the page is mailed, and its engine is far from its limits of time (docs/page.md).
+add_compile_options(-fwasm-exceptions -msimd128 -msse2 -Os)
 add_link_options(-fwasm-exceptions)
 
 # fmt's functions once, and not in every translation unit: a third of the compiler's time.
