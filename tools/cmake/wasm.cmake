@@ -29,8 +29,7 @@ chaintrue_headers_only(CLI11::CLI11)
 chaintrue_headers_only(tl::expected)
 chaintrue_headers_only(fast_float::fast_float)
 
-# Small before fast: the page is mailed, and its engine is far from its limits of time (docs/page.md).
-add_compile_options(-fwasm-exceptions -msimd128 -msse2 -Os)
+add_compile_options(-fwasm-exceptions -msimd128 -msse2)
 add_link_options(-fwasm-exceptions)
 
 # fmt's functions once, and not in every translation unit: a third of the compiler's time.
@@ -45,4 +44,17 @@ function(chaintrue_link_for_pages target)
     -sMODULARIZE -sEXPORT_NAME=createChaintrue -sENVIRONMENT=web,worker,node -sINVOKE_RUN=0 -sEXIT_RUNTIME
     -sALLOW_MEMORY_GROWTH -sTOTAL_STACK=8388608 -sFORCE_FILESYSTEM
     -sNODEJS_CATCH_EXIT=0 -sNODEJS_CATCH_REJECTION=0 -sEXPORTED_RUNTIME_METHODS=FS,callMain)
+endfunction()
+
+# chaintrue_compile_small(target...): a page is mailed. What computes would take five times as long so; what reads, says
+# and draws does not show it.
+function(chaintrue_compile_small)
+  if(CHAINTRUE_PRECOMPILED_HEADERS)
+    chaintrue_precompile(chaintrue_common_small "Eigen3::Eigen;fmt::fmt;tl::expected" ${chaintrue_common_headers})
+    target_compile_options(chaintrue_common_small PRIVATE -Os)
+  endif()
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE -Os)
+    chaintrue_use_precompiled(${target} chaintrue_common_small)
+  endforeach()
 endfunction()
