@@ -23,6 +23,8 @@ constexpr double kSoundMm = 15.0;
 constexpr double kBetter = 4.0;
 /// Anchors that are known to a decimetre or two; a mirror image is off by a side of the frame.
 constexpr double kFarMm = 400.0;
+/// Far above what settling leaves, and far below any reading's noise.
+constexpr double kRoundingMm = 1e-6;
 /// As many points tell a swap as well as all.
 constexpr std::size_t kMostLookedAt = 16;
 
@@ -113,13 +115,14 @@ std::optional<SwappedBelts> suspected_swap(const MeasuredBelts& belts) {
     if (frame.spread_mm > kSoundMm || is_far(few, frame)) return false;
     return is_frame || kBetter * frame.spread_mm < as_stated.spread_mm;
   };
+  // Of pairs that are mirror images of each other the first: only rounding tells them apart.
+  const auto is_nearer = [](const Frame& a, const Frame& b) {
+    if (std::abs(a.far_mm - b.far_mm) > kRoundingMm) return a.far_mm < b.far_mm;
+    return a.spread_mm < b.spread_mm - kRoundingMm;
+  };
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (!is_better(frames[i])) continue;
-    if (!best || std::pair(frames[i].far_mm, frames[i].spread_mm) <
-                     std::pair(frames[*best].far_mm, frames[*best].spread_mm)) {
-      best = i;
-    }
+    if (is_better(frames[i]) && (!best || is_nearer(frames[i], frames[*best]))) best = i;
   }
   if (!best) return std::nullopt;
   SwappedBelts result{kPairs[*best], std::nullopt, as_stated.spread_mm, frames[*best].spread_mm};

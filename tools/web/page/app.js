@@ -31,6 +31,7 @@ class Page {
   #banners = {storage: h("p", {class: "banner", role: "alert", hidden: true}), problem: h("p", {class: "banner bad", role: "alert", hidden: true})};
   #steps = {};
   #links = {};
+  #shown = null;
   #undo = h("button", {type: "button", onclick: () => this.store.undo()}, "Undo");
   #redo = h("button", {type: "button", onclick: () => this.store.redo()}, "Redo");
   #zip = h("input", {type: "file", id: "zip", accept: ".zip", hidden: true, onchange: () => this.#opened()});
@@ -73,7 +74,6 @@ class Page {
   #go(step) {
     this.#say("problem", null);
     this.store.show({step});
-    scrollTo(0, 0);
   }
 
   #changed() {
@@ -83,6 +83,10 @@ class Page {
       if (step === view.step) this.#links[step].setAttribute("aria-current", "step");
       else this.#links[step].removeAttribute("aria-current");
       this.#steps[step].update();
+    }
+    if (this.#shown !== view.step) {
+      this.#shown = view.step;
+      scrollTo(0, 0);
     }
     this.maslow4.update();
     this.#undo.disabled = !this.store.canUndo;

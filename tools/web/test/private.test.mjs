@@ -219,4 +219,16 @@ describe("for everybody", () => {
     });
   }
 
+  test("a step begins at its top, also while its report grows", async () => {
+    const visit = await Visit.to("chrome", {width: 400});
+    try {
+      await visit.click("Try an example machine");
+      await visit.text(".said", "the map leaves");
+      await visit.click("See the map and the causes");
+      await visit.report("The map");
+      assert.equal(await visit.page.evaluate(() => scrollY), 0);
+    } finally {
+      await visit.close();
+    }
+  });
 });

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Of a test program under node: files are made with the rights that a shell would give them.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+int main(int argc, char** argv) {
+  ::umask(022);
+  testing::InitGoogleMock(&argc, argv);
+  return RUN_ALL_TESTS();
+}
