@@ -37,6 +37,13 @@ EquilibriumParameters classic(Feed feed = Feed::over_top) {
   return equilibrium_parameters(machine);
 }
 
+// Emscripten's C library passes long doubles on to the functions of doubles: no truth is to be had there.
+#ifdef __EMSCRIPTEN__
+constexpr bool kHasLongFunctions = false;
+#else
+constexpr bool kHasLongFunctions = true;
+#endif
+
 /// Irvine's own form, in extended precision, which loses there what the stable form keeps in
 /// double.
 struct Extent {
@@ -49,6 +56,7 @@ Extent irvine(long double h, long double v, long double s, long double w, long d
 }
 
 TEST(Catenary, IsIrvinesInAFormWithoutCancellation) {
+  if (!kHasLongFunctions) GTEST_SKIP() << "this library computes asinh of long doubles in double";
   Random random(kSeed);
   for (int n = 0; n < 2000; ++n) {
     const double h = random.logarithmic(0.3, 3000.0), s = random.uniform(100.0, 4000.0);
@@ -132,6 +140,7 @@ TEST(Catenary, PointsAlongTheChainAreItsPartialChains) {
 }
 
 TEST(Pose, BalancesInIrvinesForm) {
+  if (!kHasLongFunctions) GTEST_SKIP() << "this library computes asinh of long doubles in double";
   for (const Feed feed : {Feed::over_top, Feed::off_bottom}) {
     const EquilibriumParameters m = classic(feed);
     const auto kinematics = make_kinematics(m);
