@@ -330,7 +330,7 @@ TEST_P(KinematicsLaws, AnyStartLeadsToTheSamePoint) {
       const Eigen::Vector2d d =
           kinematics_->jacobian(pose).inverse() * (wanted - vector(pose.lengths));
       // A short stride cannot leave the domain between the sprockets.
-      const double share = std::min(1.0, 150.0 / d.norm());
+      const double share = d.norm() > 150.0 ? 150.0 / d.norm() : 1.0;
       p = {p.x_mm + share * d.x(), p.y_mm + share * d.y()};
     }
     EXPECT_NEAR(p.x_mm, target.x_mm, 2e-11);  // as in ForwardUndoesInverse
