@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "grid/belts/frame_solver.hpp"
+#include "grid/holes/check_decision.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid {
@@ -240,19 +241,7 @@ tl::expected<AnchorsCheck, AnchorsCheckFailure> check_anchors(const BeltsFit& fi
   if (!(checks.residual_mm.norm() < kAnotherFrameMm * std::sqrt(readings))) return nowhere();
   AnchorsCheck check;
   check.hypotheses = weighed(fit, checks);
-  for (const AnchorsHypothesis& h : check.hypotheses)
-    check.probability[static_cast<std::size_t>(h.verdict)] += h.probability;
-  std::stable_sort(check.hypotheses.begin(),
-                   check.hypotheses.end(),
-                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
-  const auto best = std::max_element(check.probability.begin(), check.probability.end());
-  check.verdict = static_cast<CheckVerdict>(best - check.probability.begin());
-  check.decided = *best >= kDecided;
-  // What is told first is what speaks most for the verdict.
-  const auto first = std::find_if(check.hypotheses.begin(),
-                                  check.hypotheses.end(),
-                                  [&](const auto& h) { return h.verdict == check.verdict; });
-  std::rotate(check.hypotheses.begin(), first, first + 1);
+  decide_verdict(check);
   const Eigen::VectorXd variance = Weighing(fit, checks).base().diagonal();
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     const auto row = 2 * static_cast<Eigen::Index>(k);

@@ -216,7 +216,7 @@ double left_without(const belts::FrameView& view, std::size_t point, Belt withou
   Eigen::Index row = 0;
   for (const Belt belt : kBelts) {
     if (belt == without) continue;
-    const auto at = static_cast<Eigen::Index>(4 * point + static_cast<std::size_t>(belt));
+    const Eigen::Index at = belts::row_of(point, belt);
     residual(row) = view.equations().residual(at) / view.solver().sigma_mm();
     by_place.row(row++) = view.equations().by_place.row(at) / view.solver().sigma_mm();
   }
@@ -225,8 +225,8 @@ double left_without(const belts::FrameView& view, std::size_t point, Belt withou
   return (residual - by_place * moved).squaredNorm();
 }
 
-/// The belt that may be off in place of a bad one: on the line between two anchors, where only the sum
-/// of both lengths is checked, both look alike.
+/// The belt that may be off in place of a bad one: on the line between two anchors the other two belts
+/// alone say how far beside it the place is, and nothing says which of them is off.
 std::optional<Belt> looks_alike(const belts::FrameView& view, std::size_t point, Belt bad) {
   // Odds of twenty to one tell them apart.
   const double told = left_without(view, point, bad) + 2.0 * std::log(20.0);

@@ -6,6 +6,22 @@
 namespace chaintrue::grid::files {
 namespace {
 
+/// What a check of a map and one of anchors both say.
+template <class Check>
+Json verdict_of(const Check& check) {
+  Json json = headed(kCheckFormat);
+  json["verdict"] = std::string(name(check.verdict));
+  json["decided"] = check.decided;
+  json["sentence"] = check.sentence;
+  json["not_told_apart"] = check.not_told_apart;
+  for (const CheckVerdict verdict :
+       {CheckVerdict::valid, CheckVerdict::valid_after_rezeroing, CheckVerdict::measure_again}) {
+    json["probability"][std::string(name(verdict))] =
+        check.probability[static_cast<std::size_t>(verdict)];
+  }
+  return json;
+}
+
 Json per_side(const model::PerSide<double>& value, const model::PerSide<double>& sigma) {
   return Json{{"left", {{"value", value.left}, {"sigma", sigma.left}}},
               {"right", {{"value", value.right}, {"sigma", sigma.right}}}};
@@ -30,16 +46,7 @@ Json hypothesis_of(const CheckHypothesis& hypothesis) {
 }  // namespace
 
 std::string write_check(const MapCheck& check) {
-  Json json = headed(kCheckFormat);
-  json["verdict"] = std::string(name(check.verdict));
-  json["decided"] = check.decided;
-  json["sentence"] = check.sentence;
-  json["not_told_apart"] = check.not_told_apart;
-  for (const CheckVerdict verdict :
-       {CheckVerdict::valid, CheckVerdict::valid_after_rezeroing, CheckVerdict::measure_again}) {
-    json["probability"][std::string(name(verdict))] =
-        check.probability[static_cast<std::size_t>(verdict)];
-  }
+  Json json = verdict_of(check);
   json["new_zero"] = {{"left_mm", check.new_zero.left_mm}, {"right_mm", check.new_zero.right_mm}};
   json["hypotheses"] = Json::array();
   for (const CheckHypothesis& hypothesis : check.hypotheses)
@@ -54,16 +61,7 @@ std::string write_check(const MapCheck& check) {
 }
 
 std::string write_check(const AnchorsCheck& check) {
-  Json json = headed(kCheckFormat);
-  json["verdict"] = std::string(name(check.verdict));
-  json["decided"] = check.decided;
-  json["sentence"] = check.sentence;
-  json["not_told_apart"] = check.not_told_apart;
-  for (const CheckVerdict verdict :
-       {CheckVerdict::valid, CheckVerdict::valid_after_rezeroing, CheckVerdict::measure_again}) {
-    json["probability"][std::string(name(verdict))] =
-        check.probability[static_cast<std::size_t>(verdict)];
-  }
+  Json json = verdict_of(check);
   json["hypotheses"] = Json::array();
   for (const AnchorsHypothesis& h : check.hypotheses) {
     Json one;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grid/holes/check_decision.hpp"
 #include "grid/holes/check_evidence.hpp"
 
 namespace chaintrue::grid {
@@ -99,19 +100,7 @@ void tell(MapCheck& check, const CheckReadings& readings) {
 MapCheck judge(const CheckReadings& readings) {
   MapCheck check;
   check.hypotheses = weighed_hypotheses(readings);
-  for (const CheckHypothesis& hypothesis : check.hypotheses)
-    check.probability[static_cast<std::size_t>(hypothesis.verdict)] += hypothesis.probability;
-  std::stable_sort(check.hypotheses.begin(),
-                   check.hypotheses.end(),
-                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
-  const auto best = std::max_element(check.probability.begin(), check.probability.end());
-  check.verdict = static_cast<CheckVerdict>(best - check.probability.begin());
-  check.decided = *best >= kDecided;
-  // What is told first is what speaks most for the verdict.
-  const auto first = std::find_if(check.hypotheses.begin(),
-                                  check.hypotheses.end(),
-                                  [&](const auto& h) { return h.verdict == check.verdict; });
-  std::rotate(check.hypotheses.begin(), first, first + 1);
+  decide_verdict(check);
   const CheckHypothesis& told = check.hypotheses.front();
   check.new_zero = {readings.zero.left_mm + told.zero_mm.left,
                     readings.zero.right_mm + told.zero_mm.right};

@@ -127,9 +127,9 @@ TEST(BeltsDiagnosis, OneReadingFarOffIsNamedByItsPointAndBelt) {
   }
 }
 
-TEST(BeltsDiagnosis, OnTheLineBetweenTwoAnchorsEitherBeltMayBeTheBadOne) {
+TEST(BeltsDiagnosis, OnTheLineBetweenTwoAnchorsEitherOfTheOtherBeltsMayBeTheBadOne) {
   MeasuredBelts belts = measured_in({});
-  // The middle of nine times nine, where both diagonals of the frame meet.
+  // The middle of nine times nine lies on the line from the top right to the bottom left anchor.
   belts.points[40].lengths_mm.tl += 20.0;
   const Diagnosis found = diagnosed(belts);
   ASSERT_EQ(found.outliers.size(), 1U) << found.sentence;
