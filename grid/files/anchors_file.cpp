@@ -5,6 +5,7 @@
 
 #include "grid/files/belt_holes_record.hpp"
 #include "grid/files/belts_record.hpp"
+#include "grid/files/content_hash.hpp"
 #include "grid/files/record_values.hpp"
 #include "grid/files/schemas.hpp"
 
@@ -230,11 +231,16 @@ const Record<BeltsFit>& fit_record() {
 }
 
 const Record<FittedAnchors>& fitted_anchors_record() {
-  static const auto record =
-      Record<FittedAnchors>("a chaintrue_anchors file", kAnchorsFormat)
-          .sparse("name", &FittedAnchors::name, text())
-          .required("fit", &FittedAnchors::fit, object(fit_record()))
-          .optional("holes", &FittedAnchors::holes, object(holes_beside_belts_record()));
+  static const auto record = [] {
+    Record<FittedAnchors> anchors("a chaintrue_anchors file", kAnchorsFormat);
+    anchors.sparse("name", &FittedAnchors::name, text())
+        .required("fit", &FittedAnchors::fit, object(fit_record()))
+        .optional("holes", &FittedAnchors::holes, object(holes_beside_belts_record()));
+    add_content_hash(anchors).check([](const Cursor& at, FittedAnchors&) {
+      if (at.clean()) check_content(at, kAnchorsFormat);
+    });
+    return anchors;
+  }();
   return record;
 }
 
@@ -258,7 +264,7 @@ bool looks_like_anchors(std::string_view text) {
 }
 
 std::string write_anchors(const FittedAnchors& anchors) {
-  return write_document(fitted_anchors_record(), anchors);
+  return print_with_hash(fitted_anchors_record().write(anchors));
 }
 
 }  // namespace chaintrue::grid::files

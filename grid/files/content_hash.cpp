@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 namespace chaintrue::grid::files {
 namespace {
@@ -50,6 +51,25 @@ std::string content_hash(const Json& document) {
   Fnv1a hash;
   add(document, true, hash);
   return hash.text();
+}
+
+std::string print_with_hash(Json document) {
+  std::string hash = content_hash(document);
+  document["content_hash"] = std::move(hash);
+  return print_json(document);
+}
+
+void check_content(const Cursor& at, const Format& format) {
+  const Cursor hash = at.child("content_hash");
+  if (at.has("content_hash")) {
+    if (hash.json() != content_hash(at.json())) {
+      hash.expect(
+          "the hash of this file's content: something in it was changed or damaged since it was "
+          "written; fit the points again");
+    }
+  } else if (find_older(format, at.child("format_version").json()) == nullptr) {
+    hash.missing("the hash of this file's content");
+  }
 }
 
 }  // namespace chaintrue::grid::files

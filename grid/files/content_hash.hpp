@@ -9,11 +9,31 @@
 
 #include <string>
 
+#include "grid/files/formats.hpp"
+#include "grid/files/json_reader.hpp"
 #include "grid/files/json_text.hpp"
 
 namespace chaintrue::grid::files {
 
 /// 16 hexadecimal digits. The root's "content_hash" and "comment" keys anywhere are left out.
 [[nodiscard]] std::string content_hash(const Json& document);
+
+/// The text of a file that ends in the hash of its content.
+[[nodiscard]] std::string print_with_hash(Json document);
+
+/// The hash stands in files of the newest version, and wherever it stands it must be right.
+void check_content(const Cursor& at, const Format& format);
+
+/// The key of the hash, for a record whose files are printed by print_with_hash and checked by
+/// check_content: of the file, not of what is in it.
+template <class T>
+Record<T>& add_content_hash(Record<T>& record) {
+  return record.custom(
+      "content_hash",
+      false,
+      text().expected,
+      [](const Cursor& at, T&) { (void)at.text(); },
+      [](const T&) { return std::optional<Json>(); });
+}
 
 }  // namespace chaintrue::grid::files

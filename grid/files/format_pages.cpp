@@ -89,7 +89,7 @@ constexpr std::array kDescribed = {
               "Anchors of a router on four belts",
               "Where the belts leave the frame, how well that is known and what it rests on. "
               "`chaintrue fit` writes one from belt lengths; `export maslow4` prints the lines to "
-              "paste."},
+              "paste. It is not to be edited: a hash of its content says whether it was."},
 };
 
 const Described& described(std::string_view name) {

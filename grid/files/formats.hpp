@@ -52,13 +52,15 @@ inline constexpr std::array kOlderHoles = {
                  "that it names"}};
 
 inline constexpr std::array kOlderAnchors = {
-    OlderVersion{"1.0", "written before holes stood beside belts; taken to be of belts alone"}};
+    OlderVersion{"1.0", "written before holes stood beside belts; taken to be of belts alone"},
+    OlderVersion{"1.1",
+                 "written before anchors carried a hash of their content; taken to be undamaged"}};
 
 inline constexpr Format kMachineFormat{"chaintrue_machine", "1.0"};
 inline constexpr Format kGridFormat{"chaintrue_grid", "1.0"};
 inline constexpr Format kHolesFormat{"chaintrue_holes", "1.1", kOlderHoles};
 inline constexpr Format kBeltsFormat{"chaintrue_belts", "1.0"};
-inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.1", kOlderAnchors};
+inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.2", kOlderAnchors};
 inline constexpr Format kMapFormat{"chaintrue_map", "1.1", kOlderMaps};
 inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.3", kOlderDiagnoses};
 inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};

@@ -187,20 +187,6 @@ const Record<DistancesUsed>& distances_record() {
   return record;
 }
 
-/// The hash stands in files of version 1.1, and there it must be right.
-void check_content(const Cursor& at) {
-  const Cursor hash = at.child("content_hash");
-  if (at.has("content_hash")) {
-    if (hash.json() != content_hash(at.json())) {
-      hash.expect(
-          "the hash of this file's content: something in it was changed or damaged since it was "
-          "written; fit the points again");
-    }
-  } else if (find_older(kMapFormat, at.child("format_version").json()) == nullptr) {
-    hash.missing("the hash of this file's content");
-  }
-}
-
 void check_map(const Cursor& at, MapContents& map) {
   const auto stands = [&at](std::string_view key) { return !at.child(key).json().is_null(); };
   if (stands("on_machine") == stands("direct")) {
@@ -211,7 +197,7 @@ void check_map(const Cursor& at, MapContents& map) {
         "another way: without a machine nothing is left where a surface fades out");
   }
   if (!at.clean()) return;
-  check_content(at);
+  check_content(at, kMapFormat);
   try {
     const MeasuredArea area(map.hull, map.edge_mm, map.domain);
   } catch (const std::invalid_argument&) {
@@ -265,14 +251,8 @@ Record<MapContents> make_map_record() {
       .required("points", &MapContents::points, list(object(map_point_record())))
       .optional("mirror", &MapContents::mirror, object(mirror_record()))
       .optional("distances", &MapContents::distances, object(distances_record()))
-      .required("notes", &MapContents::notes, list(text()))
-      // Of the file, not of the map: write_map adds it to all the rest.
-      .custom(
-          "content_hash",
-          false,
-          text().expected,
-          [](const Cursor& at, MapContents&) { (void)at.text(); },
-          [](const MapContents&) { return std::optional<Json>(); })
+      .required("notes", &MapContents::notes, list(text()));
+  add_content_hash(record)
       .schema_also({{"oneOf", {{{"required", {"on_machine"}}}, {{"required", {"direct"}}}}}})
       .check(check_map);
   return record;
@@ -301,9 +281,7 @@ CompensationMap read_map(const std::filesystem::path& path, std::vector<Warning>
 }
 
 std::string write_map(const CompensationMap& map) {
-  Json json = map_record().write(map.contents());
-  json["content_hash"] = content_hash(json);
-  return print_json(json);
+  return print_with_hash(map_record().write(map.contents()));
 }
 
 Json map_schema() { return map_record().schema(); }

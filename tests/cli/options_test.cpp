@@ -215,6 +215,24 @@ TEST_F(Options, AMapThatWasChangedIsRefused) {
   EXPECT_EQ(run("query commented.json 0 0").out, run("query m.json 0 0").out);
 }
 
+TEST_F(Options, AnchorsThatWereChangedAreRefused) {
+  const std::string belts = fixture("belts/thirty_one_places.json");
+  ASSERT_EQ(run("fit " + belts + " -o a.json").code, 0);
+  std::string changed = content_of(folder_ / "a.json");
+  const std::size_t digit = changed.find_first_of("123456789", changed.find("\"tr\""));
+  ASSERT_NE(digit, std::string::npos);
+  changed[digit] = changed[digit] == '1' ? '2' : '1';
+  write("changed.json", changed);
+  write("b.nc", "G21 G90\nG0 X0 Y0\nM2\n");
+  const char* words = "/content_hash: found";
+  expect_refused("query changed.json 0 0", words);
+  expect_refused("report changed.json -o r.html", words);
+  expect_refused("gcode compensate b.nc --map changed.json -o t.nc", words);
+  expect_refused("check changed.json " + belts, words);
+  expect_refused("export maslow4 changed.json", words);
+  expect_refused("simulate --belts changed.json --grid 3x3 -o s.json", words);
+}
+
 /// A map of before maps carried a hash of their content.
 std::string without_hash(std::string map) {
   map.replace(map.find("\"1.1\""), 5, "\"1.0\"");
