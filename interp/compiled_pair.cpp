@@ -97,6 +97,9 @@ std::vector<double> uniform_nodes(double low, double high, int cells) {
   return nodes;
 }
 
+/// Without an extent there is none, which the constructor refuses.
+double cells_per_unit(int count, double extent) { return extent > 0.0 ? count / extent : 0.0; }
+
 }  // namespace
 
 const char* compiled_pair_instructions() { return kernels->name; }
@@ -107,8 +110,8 @@ CompiledPair::CompiledPair(const Rectangle& rectangle, int nx, int ny)
     : rectangle_(rectangle),
       nx_(nx),
       ny_(ny),
-      inverse_step_x_(nx / rectangle.width()),
-      inverse_step_y_(ny / rectangle.height()) {
+      inverse_step_x_(cells_per_unit(nx, rectangle.width())),
+      inverse_step_y_(cells_per_unit(ny, rectangle.height())) {
   if (nx < 1 || ny < 1 || !(rectangle.width() > 0.0) || !(rectangle.height() > 0.0) ||
       !std::isfinite(inverse_step_x_) || !std::isfinite(inverse_step_y_)) {
     throw std::invalid_argument(fmt::format(

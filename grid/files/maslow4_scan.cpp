@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 
 #include "grid/files/belts_record.hpp"
 #include "grid/files/number_text.hpp"
@@ -33,6 +34,14 @@ std::optional<double> number_at(std::string_view line, std::size_t from) {
 std::optional<double> number_after(std::string_view line, std::string_view word) {
   const std::size_t at = line.find(word);
   return at == std::string_view::npos ? std::nullopt : number_at(line, at + word.size());
+}
+
+/// The number of a waypoint; nothing where a line that looks like a message holds none.
+std::optional<int> waypoint_of(std::optional<double> number) {
+  constexpr double kMost = 1e6;  // a firmware's own are a few hundred
+  if (!number || !(*number >= 0.0) || !(*number <= kMost) || *number != std::floor(*number))
+    return std::nullopt;
+  return static_cast<int>(*number);
 }
 
 /// "Run 2:", "// run three", but not "More runs:" or a sentence that runs on.
@@ -221,15 +230,14 @@ class Scanner {
     if (line.find("Waypoints [") != std::string_view::npos) {
       if (line.find("Waypoints [0-") != std::string_view::npos) begin_run("");
       take_waypoints(line);
-    } else if (const auto measured = number_after(line, "Measured waypoint ")) {
-      const int waypoint = static_cast<int>(*measured);
-      if (waypoint == 0 && !run().points.empty()) begin_run("");
-      note_thrown_away(waypoint);
-    } else if (const auto at = number_after(line, "Waypoint ");
+    } else if (const auto measured = waypoint_of(number_after(line, "Measured waypoint "))) {
+      if (*measured == 0 && !run().points.empty()) begin_run("");
+      note_thrown_away(*measured);
+    } else if (const auto at = waypoint_of(number_after(line, "Waypoint "));
                at && line.find("coordinates:") != std::string_view::npos) {
       const auto x = number_after(line, "X=");
       const auto y = number_after(line, "Y=");
-      if (x && y) run().commanded[static_cast<int>(*at)] = {*x, *y};
+      if (x && y) run().commanded[*at] = {*x, *y};
     } else if (const auto rms = number_after(line, "Find Anchors fit: rms=")) {
       run().fit = FirmwareFit{*rms, number_after(line, "max=").value_or(0.0)};
     } else {
@@ -248,10 +256,10 @@ class Scanner {
       const std::size_t comma = entry.find(',');
       if (colon == std::string_view::npos || comma == std::string_view::npos || comma < colon)
         continue;
-      const auto index = number_of(unquoted(entry.substr(0, colon)));
+      const auto waypoint = waypoint_of(number_of(unquoted(entry.substr(0, colon))));
       const auto x = number_of(unquoted(entry.substr(colon + 1, comma - colon - 1)));
       const auto y = number_of(unquoted(entry.substr(comma + 1)));
-      if (index && x && y) run().commanded[static_cast<int>(*index)] = {*x, *y};
+      if (waypoint && x && y) run().commanded[*waypoint] = {*x, *y};
     }
   }
 

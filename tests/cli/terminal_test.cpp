@@ -64,9 +64,10 @@ class Terminal : public testing_support::CommandFixture {
         seen.quiet_s = std::chrono::duration<double>(Clock::now() - start).count();
       seen.text.append(buffer, static_cast<std::size_t>(count));
       const std::string typed = reply(seen.text);
-      if (!typed.empty())
+      if (!typed.empty()) {
         EXPECT_EQ(::write(terminal, typed.data(), typed.size()),
                   static_cast<ssize_t>(typed.size()));
+      }
     }
     ::waitpid(child, &seen.status, 0);
     ::close(terminal);
