@@ -21,14 +21,21 @@ constexpr std::array kPlainTypes = {std::pair{"chaintrue_map", Origin::map},
                                     std::pair{"chaintrue_diagnosis", Origin::diagnosis},
                                     std::pair{"chaintrue_anchors", Origin::anchors},
                                     std::pair{"chaintrue_answer", Origin::answer},
-                                    std::pair{"chaintrue_check", Origin::check}};
+                                    std::pair{"chaintrue_check", Origin::check},
+                                    std::pair{"chaintrue_sweep_summary", Origin::table}};
 constexpr std::array kSignedTypes = {std::pair{"chaintrue_grid", Origin::measured},
                                      std::pair{"chaintrue_holes", Origin::measured},
                                      std::pair{"chaintrue_belts", Origin::measured},
                                      std::pair{"chaintrue_machine", Origin::machine}};
 
+/// What the description of a file format holds.
+constexpr std::string_view kPageOfFormat = "This page is written by `chaintrue formats ";
+constexpr std::string_view kSchemaOfFormat =
+    "{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n  \"title\": \"chaintrue_";
+
 /// What results begin with.
-constexpr std::array<std::string_view, 6> kTables = {
+constexpr std::array<std::string_view, 7> kTables = {
+    "cell,machine,effects,used_on,",
     "x_mm,y_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,status\n",
     "x_mm,y_mm,status\n",
     "line,kind,x_mm,y_mm,z_mm,left_mm,right_mm,",
@@ -115,6 +122,8 @@ Origin origin_of(std::string_view text) {
   for (const std::string_view head : kTables) {
     if (text.starts_with(head)) return Origin::table;
   }
+  if (text.starts_with(kSchemaOfFormat) || text.find(kPageOfFormat) != std::string_view::npos)
+    return Origin::description;
   if (text.starts_with("{")) return origin_of_json(std::string(text));
   if (text.starts_with(std::string(kPageHead) + std::string(kMark))) return Origin::page;
   const std::string_view first_line = text.substr(0, text.find('\n'));

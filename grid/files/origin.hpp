@@ -29,11 +29,12 @@ enum class Origin {
   machine,
   answer,  ///< what a simulation hid
   check,
-  page,     ///< HTML
-  drawing,  ///< SVG
-  program,  ///< G-code
-  table,    ///< results: CSV, lines of JSON, words
-  list,     ///< to be filled in, or to be typed into another program
+  page,         ///< HTML
+  drawing,      ///< SVG
+  program,      ///< G-code
+  table,        ///< results: CSV, lines of JSON, words
+  list,         ///< to be filled in, or to be typed into another program
+  description,  ///< of a file format: its page or its schema
 };
 
 /// Never fails: whatever is not recognised is foreign.

@@ -88,7 +88,11 @@ fs::path file_behind(const fs::path& path) {
       refuse_file(path.string(), system_words(error.value()), "a link that leads to a file");
   }
   struct stat status = {};
-  if (::stat(target.c_str(), &status) != 0) return target;
+  if (::stat(target.c_str(), &status) != 0) {
+    // A name that no file can have shows only when it is to be taken, after others took theirs.
+    if (errno != ENOENT) refuse_file(path.string(), system_words(errno), "the name of a file");
+    return target;
+  }
   if (!S_ISREG(status.st_mode)) return {};
   // An administrator may write everywhere; a file without any right to be written to is protected
   // against that too.

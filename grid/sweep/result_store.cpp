@@ -2,9 +2,11 @@
 #include "grid/sweep/result_store.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -88,6 +90,20 @@ bool read_record(std::istream& in, Record& record) {
 
 fs::path parts_of(const fs::path& directory) { return directory / "parts"; }
 
+/// For this process alone, and gone with it, however it ends.
+OpenFile unnamed_file_in(const fs::path& directory) {
+  std::string name = (directory / "cells-XXXXXX").string();
+  const int descriptor = ::mkstemp(name.data());
+  if (descriptor < 0) refuse(directory, "", "a folder that can be written to");
+  ::unlink(name.c_str());
+  OpenFile file(::fdopen(descriptor, "w+b"));
+  if (!file) {
+    ::close(descriptor);
+    refuse(directory, "", "a folder that can be written to");
+  }
+  return file;
+}
+
 }  // namespace
 
 PartWriter::PartWriter(const fs::path& directory, const std::string& name, std::uint64_t spec_hash)
@@ -132,10 +148,11 @@ ResultStore::ResultStore(fs::path directory, std::uint64_t spec_hash, std::uint6
 void ResultStore::read_parts(
     const std::function<void(std::uint64_t, const CellResult&)>& visit) const {
   std::vector<fs::path> parts;
-  if (fs::is_directory(parts_of(directory_))) {
-    for (const auto& entry : fs::directory_iterator(parts_of(directory_))) {
-      if (entry.path().extension() == ".cells") parts.push_back(entry.path());
-    }
+  // No folder yet: no parts yet.
+  std::error_code error;
+  for (fs::directory_iterator entry(parts_of(directory_), error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().extension() == ".cells") parts.push_back(entry->path());
   }
   std::sort(parts.begin(), parts.end());
   for (const fs::path& part : parts) {
@@ -159,26 +176,23 @@ void ResultStore::for_each(
     throw precondition("sweep: {} of {} cells are missing", cells() - finished_, cells());
   }
   // Sorted on disk: the record of a cell stands at its number.
-  const fs::path sorted = directory_ / "cells.sorted.tmp";
-  {
-    std::ofstream out(sorted, std::ios::binary | std::ios::trunc);
-    read_parts([&](std::uint64_t cell, const CellResult& result) {
-      if (cell >= cells()) return;
-      const Record record = record_of(cell, result);
-      out.seekp(static_cast<std::streamoff>(cell * kRecordBytes));
-      out.write(reinterpret_cast<const char*>(record.data()), kRecordBytes);
-    });
-    if (!out.flush()) refuse(sorted, "", "room on the disk");
-  }
-  std::ifstream in(sorted, std::ios::binary);
+  const OpenFile sorted = unnamed_file_in(directory_);
+  const auto must = [&](bool done) {
+    if (!done) refuse(directory_, "", "room on the disk");
+  };
+  read_parts([&](std::uint64_t cell, const CellResult& result) {
+    if (cell >= cells()) return;
+    const Record record = record_of(cell, result);
+    must(::fseeko(sorted.get(), static_cast<off_t>(cell * kRecordBytes), SEEK_SET) == 0);
+    must(std::fwrite(record.data(), kRecordBytes, 1, sorted.get()) == 1);
+  });
+  must(std::fflush(sorted.get()) == 0 && ::fseeko(sorted.get(), 0, SEEK_SET) == 0);
   Record record;
   for (std::uint64_t cell = 0; cell < cells(); ++cell) {
-    if (!read_record(in, record) || record[0] != cell)
+    if (std::fread(record.data(), kRecordBytes, 1, sorted.get()) != 1 || record[0] != cell)
       throw std::logic_error("sweep: the sorted cells are torn");
     visit(cell, result_of(record));
   }
-  in.close();
-  fs::remove(sorted);
 }
 
 }  // namespace chaintrue::grid::sweep

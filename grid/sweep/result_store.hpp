@@ -24,6 +24,11 @@
 
 namespace chaintrue::grid::sweep {
 
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
+
 /// Appends to one part. Not for two threads at once.
 class PartWriter {
  public:
@@ -36,11 +41,8 @@ class PartWriter {
   void append(std::uint64_t cell, const CellResult& result);
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   std::filesystem::path path_;
-  std::unique_ptr<std::FILE, Close> file_;
+  OpenFile file_;
 };
 
 class ResultStore {

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
-#include "grid/files/input_error.hpp"
+#include "grid/files/pending_file.hpp"
 #include "grid/files/sweep_file.hpp"
 #include "grid/sweep/result_store.hpp"
 
@@ -13,24 +12,6 @@ namespace chaintrue::grid::sweep {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A file that takes its name when it is whole.
-class StreamedFile {
- public:
-  explicit StreamedFile(fs::path path)
-      : path_(std::move(path)), out_(partial(), std::ios::binary | std::ios::trunc) {}
-  void write(const std::string& text) { out_ << text; }
-  void finish() {
-    out_.close();
-    if (!out_) throw files::InputError({{path_.string(), "", "", "room on the disk"}});
-    fs::rename(partial(), path_);
-  }
-
- private:
-  [[nodiscard]] fs::path partial() const { return path_.string() + ".part"; }
-  fs::path path_;
-  std::ofstream out_;
-};
 
 std::string csv_text(const std::string& word) {
   if (word.find_first_of(",\"\n") == std::string::npos) return word;
@@ -105,8 +86,8 @@ class LevelSums {
 std::vector<LevelError> write_results(const SweepSpec& spec,
                                       const ResultStore& store,
                                       const fs::path& directory) {
-  StreamedFile csv(directory / "results.csv");
-  StreamedFile summary(directory / "summary.json");
+  files::PendingFile csv(directory / "results.csv");
+  files::PendingFile summary(directory / "summary.json");
   csv.write(csv_header());
   summary.write(files::sweep_summary_head(spec));
   LevelSums sums(spec);
@@ -131,8 +112,7 @@ std::vector<LevelError> write_results(const SweepSpec& spec,
     }
   });
   summary.write(files::sweep_summary_tail());
-  csv.finish();
-  summary.finish();
+  files::take_places({&csv, &summary});
   return std::move(sums).finished();
 }
 

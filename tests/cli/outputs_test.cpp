@@ -11,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "tests/cli/command_fixture.hpp"
@@ -289,6 +290,79 @@ TEST_F(Outputs, LeaveNothingBehindWhenTheyAreStopped) {
       EXPECT_EQ(WTERMSIG(status), signal_number);
       EXPECT_EQ(files(), before) << signal_number << " after " << wait_ms << " ms";
     }
+  }
+}
+
+// What a person would call their notes, or their own results.
+TEST_F(Outputs, InAFolderReplaceNothingOfAPerson) {
+  const std::string sweep = "sweep " + fixture("sweeps/quick.json") + " -o .";
+  const std::string machine = fixture("machines/groundcontrol.json");
+  struct Case {
+    const char* file;
+    std::string command;
+  };
+  for (const Case& c : {Case{"results.csv", sweep},
+                        Case{"summary.json", sweep},
+                        Case{"report.html", sweep},
+                        Case{"machine.md", "formats --all ."},
+                        Case{"map.schema.json", "formats --all ."},
+                        Case{"marks.csv", "start " + machine + " ."}}) {
+    write(c.file, "mine\n");
+    const std::size_t before = files();
+    expect_refused(
+        c.command, c.file, std::string(c.file) + ": found a file that chaintrue did not make");
+    EXPECT_EQ(files(), before) << c.command;
+    fs::remove(folder_ / c.file);
+  }
+}
+
+TEST_F(Outputs, InAFolderAreReplacedByNewOnes) {
+  for (int time = 0; time < 2; ++time) {
+    EXPECT_EQ(run("formats --all formats").code, 0);
+    EXPECT_EQ(run("sweep " + fixture("sweeps/quick.json") + " -o sweep --resume").code, 0);
+  }
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder_ / "sweep"))
+    names.insert(entry.path().filename().string());
+  EXPECT_THAT(names, testing::ElementsAre("parts", "report.html", "results.csv", "summary.json"));
+  write("sweep/summary.json", "mine\n");
+  expect_refused("sweep " + fixture("sweeps/quick.json") + " -o sweep --resume",
+                 "sweep/summary.json",
+                 "a file that chaintrue did not make");
+  EXPECT_EQ(run("sweep " + fixture("sweeps/quick.json") + " -o sweep --resume --force").code, 0);
+}
+
+// Behind an option that was left without its value.
+TEST_F(Outputs, AreNeverCalledAsAnOptionIs) {
+  const std::size_t before = files();
+  const Outcome outcome = run("effects chain_stretch --machine " +
+                              fixture("machines/classic.json") + " --draw= --force");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--force, expected the name of a file"));
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(Outputs, OfWhichOneCanHaveNoNameAreAllLeftUnwritten) {
+  const std::size_t before = files();
+  const Outcome outcome = run("square --machine " + fixture("machines/classic.json") +
+                              " --controller-machine " + fixture("machines/groundcontrol.json") +
+                              " -o square.svg --gcode " + std::string(300, 'x'));
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(files(), before);
+}
+
+// A file system takes no name of so many letters.
+TEST_F(Outputs, InAFolderThatCannotBeMadeAreRefused) {
+  const std::string long_name(300, 'x');
+  for (const std::string& command :
+       {"formats --all " + long_name,
+        std::string("formats --all ''"),
+        std::string("formats --all -"),
+        "start " + long_name,
+        "sweep " + fixture("sweeps/quick.json") + " -o " + long_name}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.code, 3) << command;
+    EXPECT_THAT(outcome.err, HasSubstr(", expected ")) << command;
   }
 }
 

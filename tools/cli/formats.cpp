@@ -3,12 +3,11 @@
 /// chaintrue formats: the reference page and the JSON Schema of each file format.
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "grid/files/format_pages.hpp"
-#include "grid/files/whole_file.hpp"
+#include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -16,7 +15,6 @@ namespace chaintrue::cli {
 namespace {
 
 namespace files = grid::files;
-namespace fs = std::filesystem;
 
 struct FormatsCommand {
   std::string name;
@@ -24,20 +22,19 @@ struct FormatsCommand {
   std::string all;
 };
 
-int write_all(const fs::path& folder) {
-  std::vector<files::OutputFile> outputs;
+int write_all(Verb verb, const std::string& folder) {
+  std::vector<FolderFile> contents;
   for (const std::string& name : files::described_formats()) {
-    outputs.push_back({(folder / (name + ".md")).string(), files::write_format_page(name)});
-    outputs.push_back(
-        {(folder / (name + ".schema.json")).string(), files::write_format_schema(name)});
+    contents.push_back({name + ".md", files::write_format_page(name), Origin::description});
+    contents.push_back(
+        {name + ".schema.json", files::write_format_schema(name), Origin::description});
   }
-  fs::create_directories(folder);
-  files::write_whole_files(outputs);
+  write_folder(verb, folder, contents);
   return kDone;
 }
 
-int run_formats(const FormatsCommand& command) {
-  if (!command.all.empty()) return write_all(command.all);
+int run_formats(Verb verb, const FormatsCommand& command) {
+  if (verb.is_given("--all")) return write_all(verb, command.all);
   if (command.name.empty()) {
     for (const std::string& name : files::described_formats()) fmt::print("{}\n", name);
     say_next({"formats", files::described_formats().front()});
@@ -59,13 +56,14 @@ void add_formats(Verb app, Run& run) {
   verb.add_option("name", command->name, "Which; without it they are listed")
       .one_of(files::described_formats());
   verb.add_flag("--schema", command->schema, "The JSON Schema, for editors");
-  verb.add_option(
-      "--all", command->all, "Write pages and schemas of all formats into this folder, anew");
+  add_output_folder(
+      verb, "--all", command->all, "Write pages and schemas of all formats into this folder, anew");
   verb.footer(
       "Example:\n"
       "  build/chaintrue formats machine\n"
       "  build/chaintrue formats grid --schema");
-  verb.when_chosen([command, &run] { run = [command] { return run_formats(*command); }; });
+  verb.when_chosen(
+      [command, verb, &run] { run = [command, verb] { return run_formats(verb, *command); }; });
 }
 
 }  // namespace chaintrue::cli

@@ -117,6 +117,8 @@ class PlaceCheck {
     std::error_code error;
     if (fs::is_directory(path, error))
       return add(path.string(), "a directory", "the name of a file");
+    if (error == std::errc::filename_too_long || error == std::errc::too_many_symbolic_link_levels)
+      return add(path.string(), error.message(), "the name of a file");
     if (fs::exists(path, error) || fs::is_symlink(path, error)) return;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, error)) {
@@ -200,8 +202,12 @@ Option add_output(Verb verb,
                   const std::string& help) {
   places().push_back({verb.with_name(), &path, nullptr, std::move(kinds)});
   Option option = verb.add_option(names, path, help);
-  option.refuses([](const std::string& text) {
-    return text.empty() ? std::string("an empty name, expected the name of a file") : std::string();
+  option.refuses([](const std::string& text) -> std::string {
+    if (text.empty()) return "an empty name, expected the name of a file";
+    // What stands behind an option without a value: --svg= --force.
+    if (text.size() > 1 && text.front() == '-')
+      return text + ", expected the name of a file; ./" + text + " where it is one";
+    return "";
   });
   add_force(verb);
   return option;
@@ -216,21 +222,31 @@ Option add_output_folder(Verb verb,
   return option;
 }
 
+void check_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return;
+  PlaceCheck check(chosen_places());
+  for (const FolderFile& file : contents)
+    check.look_at((fs::path(folder) / file.name).string(), {verb, nullptr, nullptr, {file.kind}});
+  check.throw_if_any();
+}
+
 void write_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents) {
+  if (folder.empty() || folder.front() == '-')
+    throw files::InputError({{"the folder",
+                              "",
+                              folder.empty() ? "an empty name" : folder,
+                              "the name of a folder; it will hold many files"}});
   std::error_code error;
   const bool is_new = fs::create_directories(folder, error);
   if (error)
     throw files::InputError(
         {{folder, "", error.message(), "a folder that can be made or written to"}});
   try {
-    PlaceCheck check(chosen_places());
+    check_folder(verb, folder, contents);
     std::vector<files::OutputFile> outputs;
-    for (const FolderFile& file : contents) {
-      const fs::path path = fs::path(folder) / file.name;
-      check.look_at(path.string(), {verb, nullptr, nullptr, {file.kind}});
-      outputs.push_back({path, files::signed_text(file.text, file.kind)});
-    }
-    check.throw_if_any();
+    for (const FolderFile& file : contents)
+      outputs.push_back({fs::path(folder) / file.name, files::signed_text(file.text, file.kind)});
     files::write_whole_files(outputs);
   } catch (...) {
     if (is_new) fs::remove(folder, error);

@@ -55,6 +55,9 @@ struct FolderFile {
   std::string text;
   Origin kind;
 };
+/// Whether such files may be written there, before any work: the rules of outputs. A folder that is
+/// not there yet may be made. \throws files::InputError
+void check_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents);
 /// All or none, held to the rules of outputs. \throws files::InputError
 void write_folder(Verb verb, const std::string& folder, const std::vector<FolderFile>& contents);
 

@@ -113,7 +113,9 @@ int start_template(Verb verb, const std::string& folder) {
 
 /// Without a file the one word is the folder.
 bool names_a_folder(const std::string& word) {
-  return fs::is_directory(word) || (!fs::exists(word) && fs::path(word).extension().empty());
+  std::error_code error;
+  return fs::is_directory(word, error) ||
+         (!fs::exists(word, error) && fs::path(word).extension().empty());
 }
 
 int run_start(Verb verb, const StartCommand& command) {

@@ -80,7 +80,14 @@ void refuse_old_results(const SweepOptions& options) {
   problems.throw_if_any();
 }
 
-int assemble(const sweep::SweepSpec& spec,
+std::vector<FolderFile> results() {
+  return {{"results.csv", "", Origin::table},
+          {"summary.json", "", Origin::table},
+          {"report.html", "", Origin::page}};
+}
+
+int assemble(Verb verb,
+             const sweep::SweepSpec& spec,
              const sweep::ResultStore& store,
              const SweepOptions& options) {
   if (!store.complete()) {
@@ -94,9 +101,11 @@ int assemble(const sweep::SweepSpec& spec,
     say_next({"sweep", options.specification, "-o", options.directory, "--resume"});
     return kDone;
   }
+  check_folder(verb, options.directory, results());
   const auto errors = write_results(spec, store, options.directory);
-  files::write_whole_file(fs::path(options.directory) / "report.html",
-                          report::render(sweep_page(spec, errors)));
+  files::write_whole_file(
+      fs::path(options.directory) / "report.html",
+      files::signed_text(report::render(sweep_page(spec, errors)), Origin::page));
   fmt::print(stderr,
              "{} cells: {}/results.csv, summary.json, report.html (open it in any browser)\n",
              store.cells(),
@@ -105,7 +114,7 @@ int assemble(const sweep::SweepSpec& spec,
   return kDone;
 }
 
-int run_sweep_verb(const SweepOptions& options) {
+int run_sweep_verb(Verb verb, const SweepOptions& options) {
   const Processes processes;
   std::exception_ptr failure;
   std::optional<files::ReadSweep> read;
@@ -120,6 +129,7 @@ int run_sweep_verb(const SweepOptions& options) {
     read = files::read_sweep(options.specification);
     if (processes.rank() == 0) print_warnings(read->warnings);
     refuse_old_results(options);
+    check_folder(verb, options.directory, results());
   } catch (...) {
     failure = std::current_exception();
   }
@@ -137,7 +147,8 @@ int run_sweep_verb(const SweepOptions& options) {
     }
     end_progress();
     if (processes.all(failure == nullptr) && processes.rank() == 0) {
-      return assemble(read->spec,
+      return assemble(verb,
+                      read->spec,
                       sweep::ResultStore(options.directory, read->hash, cells(read->spec)),
                       options);
     }
@@ -153,7 +164,7 @@ void add_sweep(Verb app, Run& run) {
   auto options = std::make_shared<SweepOptions>();
   Verb verb = app.add_verb("sweep", "Accuracy against the simulator over any product of factors");
   add_input(verb, "specification", options->specification, "chaintrue_sweep file").required();
-  verb.add_option("-o,--output", options->directory, "Folder for the parts and the results")
+  add_output_folder(verb, "-o,--output", options->directory, "Folder for the parts and the results")
       .required();
   verb.add_option("--shard", options->shard, "Only this share of the cells, as in 3/16");
   verb.add_flag("--resume",
@@ -166,7 +177,8 @@ void add_sweep(Verb app, Run& run) {
       "  build/chaintrue sweep fixtures/sweeps/quick.json -o sweep");
   add_option_check(verb,
                    [options](OptionProblems& problems) { check_options(*options, problems); });
-  verb.when_chosen([options, &run] { run = [options] { return run_sweep_verb(*options); }; });
+  verb.when_chosen(
+      [options, verb, &run] { run = [options, verb] { return run_sweep_verb(verb, *options); }; });
 }
 
 }  // namespace chaintrue::cli
