@@ -78,9 +78,9 @@ Option Verb::add_option(const std::string& names,
 }
 
 Option Verb::add_option(const std::string& names,
-                        std::vector<double>& values,
+                        std::function<void(const std::vector<std::string>&)> take,
                         const std::string& help) const {
-  return Option(*app_->add_option(names, values, help));
+  return Option(*app_->add_option_function<std::vector<std::string>>(names, std::move(take), help));
 }
 
 Option Verb::add_option(const std::string& names,

@@ -64,8 +64,9 @@ class Verb {
   Option add_option(const std::string& names,
                     std::vector<std::string>& values,
                     const std::string& help) const;
+  /// `take` gets all texts that were given.
   Option add_option(const std::string& names,
-                    std::vector<double>& values,
+                    std::function<void(const std::vector<std::string>&)> take,
                     const std::string& help) const;
   /// `take` gets the text of each occurrence.
   Option add_option(const std::string& names,

@@ -25,6 +25,20 @@ std::string expected(const files::Range& range, bool is_whole) {
   return is_whole ? "a whole number" + text.substr(kNumber.size()) : text;
 }
 
+std::optional<double> read_number(const std::string& name,
+                                  const std::string& text,
+                                  const files::Range& range,
+                                  bool is_whole) {
+  const auto number = files::number_of(text);
+  if (number && range.holds(*number) && (!is_whole || *number == std::floor(*number)))
+    return number;
+  problems().add(name,
+                 text.empty() ? "nothing" : text,
+                 expected(range, is_whole) +
+                     (files::looks_like_decimal_comma(text) ? ", with a decimal point" : ""));
+  return std::nullopt;
+}
+
 }  // namespace
 
 namespace detail {
@@ -38,13 +52,7 @@ Option add_number(Verb verb,
                   std::optional<double> shown_default) {
   const auto read =
       [name = names, range, is_whole, take = std::move(take)](const std::string& text) {
-        const auto number = files::number_of(text);
-        if (number && range.holds(*number) && (!is_whole || *number == std::floor(*number)))
-          return take(*number);
-        problems().add(name,
-                       text.empty() ? "nothing" : text,
-                       expected(range, is_whole) +
-                           (files::looks_like_decimal_comma(text) ? ", with a decimal point" : ""));
+        if (const auto number = read_number(name, text, range, is_whole)) take(*number);
       };
   Option option = verb.add_option(names, read, help).value_word(is_whole ? "INT" : "FLOAT");
   if (shown_default) option.shows_default(fmt::format("{}", *shown_default));
@@ -52,6 +60,19 @@ Option add_number(Verb verb,
 }
 
 }  // namespace detail
+
+Option add_numbers(Verb verb,
+                   const std::string& names,
+                   std::vector<double>& values,
+                   const files::Range& range,
+                   const std::string& help) {
+  const auto read = [name = names, range, &values](const std::vector<std::string>& texts) {
+    // How many there are stays as it was typed, whatever they are.
+    for (const std::string& text : texts)
+      values.push_back(read_number(name, text, range, false).value_or(0.0));
+  };
+  return verb.add_option(names, read, help).value_word("FLOAT");
+}
 
 void check_numbers() { problems().throw_if_any(); }
 

@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "grid/files/number_text.hpp"
 #include "tools/cli/arguments.hpp"
@@ -57,6 +58,13 @@ Option add_number(Verb verb,
         value = static_cast<T>(number);
       });
 }
+
+/// One of several numbers.
+Option add_numbers(Verb verb,
+                   const std::string& names,
+                   std::vector<double>& values,
+                   const grid::files::Range& range,
+                   const std::string& help);
 
 /// After parsing. \throws files::InputError with every number that was none or out of its range.
 void check_numbers();

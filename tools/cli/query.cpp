@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -17,6 +16,7 @@
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/map_input.hpp"
+#include "tools/cli/numbers.hpp"
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
@@ -166,12 +166,8 @@ int run_query(const QueryCommand& command) {
       for (const model::MarkPoint& point : points_asked(command))
         points.push_back(model::laid_as_bed(point));
     }
-    return query_anchors({command.map,
-                          text,
-                          std::move(points),
-                          command.inverse,
-                          command.output,
-                          command.json});
+    return query_anchors(
+        {command.map, text, std::move(points), command.inverse, command.output, command.json});
   }
   const grid::CompensationMap stored = parse_map_input(text, files::name_in_messages(command.map));
   if (command.outside.way == "fade" && stored.machine() == nullptr) {
@@ -220,11 +216,6 @@ void check_usage(const QueryCommand& command) {
   const int ways = (command.coordinates.empty() ? 0 : 1) + (command.points.empty() ? 0 : 1) +
                    (command.inverse.empty() ? 0 : 1);
   if (ways != 1) usage_error("query", "give points as X Y ..., or --points FILE, or --inverse L R");
-  const auto finite = [](double value) { return std::isfinite(value); };
-  if (!std::all_of(command.coordinates.begin(), command.coordinates.end(), finite) ||
-      !std::all_of(command.inverse.begin(), command.inverse.end(), finite)) {
-    usage_error("query", "coordinates and lengths are numbers in mm");
-  }
   if (command.coordinates.size() % 2 != 0) {
     usage_error("query",
                 fmt::format("{} numbers are no pairs of X and Y", command.coordinates.size()));
@@ -240,12 +231,20 @@ void add_query(Verb app, Run& run) {
   add_input(
       verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file; - is standard input")
       .required();
-  verb.add_option("coordinates", command->coordinates, "X Y, in mm, as many pairs as you like");
+  add_numbers(verb,
+              "coordinates",
+              command->coordinates,
+              {"mm", -1e6, 1e6},
+              "X Y, in mm, as many pairs as you like");
   add_input(verb,
             "--points",
             command->points,
             "A CSV with the columns x_mm and y_mm; - is standard input");
-  verb.add_option("--inverse", command->inverse, "Chain lengths L R in mm: where is the tool?")
+  add_numbers(verb,
+              "--inverse",
+              command->inverse,
+              {"mm", -1e6, 1e6},
+              "Chain lengths L R in mm: where is the tool?")
       .takes(2);
   verb.add_option("--frame",
                   command->frame,

@@ -47,12 +47,7 @@ struct SquareOptions {
 
 constexpr const char* kSideNames[] = {"left", "top", "right", "bottom"};
 
-model::SquareTask checked_task(const SquareOptions& options) {
-  OptionProblems problems;
-  problems.require("--size-mm", options.size_mm, 1.0, 5000.0);
-  for (const double coordinate : options.at)
-    problems.require("--at", coordinate, -20000.0, 20000.0);
-  problems.throw_if_any();
+model::SquareTask task_of(const SquareOptions& options) {
   // Where nobody says, around the bed's middle.
   const double half_mm = 0.5 * options.size_mm;
   const model::BedPoint corner = options.at.empty()
@@ -188,7 +183,7 @@ void say_what_to_do(const SquareOptions& options, const model::SquareTask& task)
 }
 
 int run_square(const SquareOptions& options) {
-  const model::SquareTask task = checked_task(options);
+  const model::SquareTask task = task_of(options);
   const auto square = options.map.empty() ? by_machines(options, task) : by_map(options, task);
   if (!square) {
     const SquareRefusal& refusal = square.error();
@@ -232,8 +227,11 @@ void add_square(Verb app, Run& run) {
             "chaintrue_machine file: what the controller believes; of a map its own machine as it "
             "was stated");
   add_number(verb, "--size-mm", options->size_mm, {"mm", 1.0, 5000.0}, "Length of a side");
-  verb.add_option(
-          "--at", options->at, "X Y of the lower left corner, mm; default: around the bed's middle")
+  add_numbers(verb,
+              "--at",
+              options->at,
+              {"mm", -20000.0, 20000.0},
+              "X Y of the lower left corner, mm; default: around the bed's middle")
       .takes(2);
   verb.add_flag(
       "--below", options->below, "The square hangs below --at, which is its upper left corner");
