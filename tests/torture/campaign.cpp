@@ -6,111 +6,22 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "tests/torture/invocations.hpp"
 
 namespace chaintrue::torture {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A verb that reads `IN`; `OUT` is where it writes. The weight is how often it is drawn: the slow
-/// ones seldom.
-struct Reading {
-  const char* seed_file;
-  int weight;
-  std::vector<std::string> arguments;
-};
+constexpr int kMisused = 2;  ///< the command's own exit codes
+constexpr int kRefused = 3;
 
-const std::vector<Reading>& readings() {
-  static const std::vector<Reading> all = {
-      {"grid.json", 8, {"fit", "IN", "-o", "OUT"}},
-      {"grid.json", 1, {"diagnose", "IN", "-o", "OUT"}},
-      {"grid.json", 4, {"check", "map.json", "IN"}},
-      {"grid.csv", 8, {"fit", "IN", "--machine", "machine.json", "-o", "OUT"}},
-      {"grid.csv", 4, {"fit", "IN", "--surface", "direct", "-o", "OUT"}},
-      {"machine.json", 6, {"simulate", "--machine", "IN", "--grid", "4x3", "-o", "OUT"}},
-      {"machine.json",
-       4,
-       {"simulate", "--machine", "IN", "--grid", "3x3", "--length-noise-mm", "0"}},
-      {"machine.json", 2, {"plan", "--machine", "IN", "--points", "12", "-o", "OUT"}},
-      {"machine.json", 2, {"effects", "chain_stretch", "--machine", "IN"}},
-      {"machine.json", 6, {"export", "groundcontrol", "IN"}},
-      {"machine.json",
-       4,
-       {"square", "--machine", "IN", "--controller-machine", "machine.json", "--at", "0", "0"}},
-      {"holes.json", 5, {"fit", "IN", "-o", "OUT"}},
-      {"holes.csv", 5, {"fit", "IN", "--machine", "machine.json", "-o", "OUT"}},
-      {"holes.json", 3, {"check", "map.json", "IN"}},
-      {"belts.json", 6, {"fit", "IN", "-o", "OUT"}},
-      {"maslow4.txt", 6, {"import", "maslow4", "IN", "-o", "OUT"}},
-      {"anchors.json", 4, {"export", "maslow4", "IN"}},
-      {"settings.ini", 8, {"import", "groundcontrol", "IN", "-o", "OUT"}},
-      {"scan.csv", 6, {"import", "optical", "IN", "--machine", "controller.json", "-o", "OUT"}},
-      {"points.csv", 8, {"query", "map.json", "--points", "IN"}},
-      {"points.csv", 4, {"simulate", "--machine", "machine.json", "--points", "IN"}},
-      {"map.json", 8, {"query", "IN", "0", "0", "900", "-400"}},
-      {"diagnosis.json", 6, {"report", "IN", "-o", "OUT"}},
-      {"diagnosis.json", 4, {"plan", "grid.json", "--after", "IN"}},
-      {"sweep.json", 2, {"sweep", "IN", "-o", "OUT", "--shard", "1/4"}},
-      {"part.nc", 10, {"gcode", "check", "IN"}},
-      {"part.nc", 10, {"gcode", "compensate", "IN", "--map", "map.json", "-o", "OUT"}},
-      {"part.nc", 6, {"gcode", "lengths", "IN", "--map", "map.json", "-o", "OUT"}},
-      {"part.nc", 4, {"gcode", "verify", "IN", "IN", "--map", "map.json"}},
-      {"part.nc", 4, {"gcode", "explain", "IN:3"}},
-  };
-  return all;
-}
-
-/// An option that wants a number, on a verb that takes it.
-struct Option {
-  const char* name;
-  std::vector<std::string> arguments;
-};
-
-const std::vector<Option>& options() {
-  static const std::vector<std::string> fit = {"fit", "grid.json", "-o", "OUT"};
-  static const std::vector<std::string> check = {"check", "map.json", "few.json"};
-  static const std::vector<std::string> holes = {"fit", "holes.json", "-o", "OUT"};
-  static const std::vector<std::string> simulate = {
-      "simulate", "--machine", "machine.json", "--grid", "4x3", "-o", "OUT"};
-  static const std::vector<std::string> plan = {"plan", "--machine", "machine.json", "-o", "OUT"};
-  static const std::vector<std::string> gcode = {
-      "gcode", "compensate", "part.nc", "--map", "map.json", "-o", "OUT"};
-  static const std::vector<std::string> lengths = {
-      "gcode", "lengths", "part.nc", "--map", "map.json", "-o", "OUT"};
-  static const std::vector<std::string> query = {"query", "map.json", "10", "20"};
-  static const std::vector<Option> all = {{"--noise-length-mm", fit},
-                                          {"--noise-position-mm", fit},
-                                          {"--noise-dof", fit},
-                                          {"--noise-length-mm", check},
-                                          {"--noise-position-mm", check},
-                                          {"--noise-dof", check},
-                                          {"--tape-sigma-mm", holes},
-                                          {"--hook-offset-mm", holes},
-                                          {"--hook-sigma-mm", holes},
-                                          {"--hole-sigma-mm", holes},
-                                          {"--length-noise-mm", simulate},
-                                          {"--position-noise-mm", simulate},
-                                          {"--jitter-mm", simulate},
-                                          {"--repeats", simulate},
-                                          {"--bad-points", simulate},
-                                          {"--bad-size-mm", simulate},
-                                          {"--margin-mm", simulate},
-                                          {"--seed", simulate},
-                                          {"--points", plan},
-                                          {"--margin-mm", plan},
-                                          {"--length-noise-mm", plan},
-                                          {"--tolerance-mm", gcode},
-                                          {"--decimals", gcode},
-                                          {"--largest-correction-mm", gcode},
-                                          {"--steepest-correction", gcode},
-                                          {"--step-budget", gcode},
-                                          {"--home", gcode},
-                                          {"--every-mm", lengths},
-                                          {"--fade-mm", query},
-                                          {"--outside", query}};
-  return all;
-}
+/// Where no file is, or none can be.
+const std::vector<std::string> kNoFiles = {"", "..", "nowhere/x", "-", std::string(300, 'x')};
 
 std::vector<std::string> with(std::vector<std::string> arguments,
                               const std::string& in,
@@ -120,6 +31,23 @@ std::vector<std::string> with(std::vector<std::string> arguments,
     if (argument == "OUT") argument = out;
   }
   return arguments;
+}
+
+std::string output_of(const std::vector<std::string>& arguments) {
+  return arguments[0] == "report" ? "out.html" : "out";
+}
+
+/// Whether two texts say the same in JSON, other than in comments; false where one is none.
+bool same_content(const std::string& a, const std::string& b) {
+  using Json = nlohmann::json;
+  const auto parsed = [](const std::string& text) {
+    const auto leave_out_comments = [](int, Json::parse_event_t event, Json& value) {
+      return event != Json::parse_event_t::key || value != "comment";
+    };
+    return Json::parse(text, leave_out_comments, false, true);
+  };
+  const Json first = parsed(a);
+  return !first.is_discarded() && first == parsed(b);
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -133,6 +61,12 @@ std::string joined(const std::vector<std::string>& words) {
 Campaign::Campaign(Command command, fs::path fixtures, fs::path failures, std::uint64_t seed)
     : command_(std::move(command)), failures_(std::move(failures)), seed_(seed), mutate_(seed) {
   prepare(fixtures);
+  for (const std::string& verb : verbs_of(command_)) {
+    const auto is_of_verb = [&](const auto& arguments) { return verb_of(arguments) == verb; };
+    if (std::none_of(invocations().begin(), invocations().end(), is_of_verb))
+      throw std::runtime_error("no invocation is known of the verb: " + verb);
+    options_[verb] = options_of(command_, verb);
+  }
 }
 
 void Campaign::write(const std::string& name, const std::string& text) const {
@@ -140,32 +74,13 @@ void Campaign::write(const std::string& name, const std::string& text) const {
 }
 
 void Campaign::prepare(const fs::path& fixtures) {
-  const std::pair<const char*, const char*> copies[] = {
-      {"grid.json", "grids/seven_by_four.json"},
-      {"few.json", "grids/five_new_points.json"},
-      {"grid.csv", "good/grid_plain.csv"},
-      {"machine.json", "machines/classic.json"},
-      {"controller.json", "machines/groundcontrol.json"},
-      {"holes.json", "holes/nine_holes.json"},
-      {"holes.csv", "good/holes_plain.csv"},
-      {"belts.json", "belts/thirty_one_places.json"},
-      {"maslow4.txt", "good/maslow4_notes.txt"},
-      {"anchors.json", "good/anchors_every_key.json"},
-      {"settings.ini", "good/groundcontrol_ring.ini"},
-      {"scan.csv", "good/optical_scan.csv"},
-      {"part.nc", "gcode/bracket.nc"}};
-  for (const auto& [name, from] : copies) fs::copy_file(fixtures / from, at(name));
+  for (const auto& [name, from] : copied_files()) fs::copy_file(fixtures / from, at(name));
   write("points.csv", "x_mm,y_mm\n0,0\n100,200\n-900,-400\n");
   std::string sweep = content_of(fixtures / "sweeps/quick.json");
   const std::string place = "../machines/classic.json";
   sweep.replace(sweep.find(place), place.size(), "machine.json");
   write("sweep.json", sweep);
-  const std::vector<std::vector<std::string>> makers = {
-      {"fit", "grid.json", "-o", "map.json"},
-      {"diagnose", "holes.json", "-o", "diagnosis.json"},
-      {"gcode", "compensate", "part.nc", "--map", "map.json", "-o", "true.nc"},
-      {"sweep", "sweep.json", "-o", "whole"}};
-  for (const auto& arguments : makers) {
+  for (const auto& arguments : makers()) {
     const Ended ended = command_.run(arguments);
     if (ended.code != 0)
       throw std::runtime_error("could not be prepared:" + joined(arguments) + "\n" + ended.err);
@@ -230,15 +145,14 @@ void Campaign::judge(const Case& what) {
     const bool is_output =
         std::find(what.outputs.begin(), what.outputs.end(), name) != what.outputs.end();
     if (wrong.empty() && !is_input && !is_output) wrong = "left behind: " + name;
-    if (wrong.empty() && is_output && ended.code == 3 && fs::is_regular_file(at(name)))
+    if (wrong.empty() && is_output && ended.code == kRefused && fs::is_regular_file(at(name)))
       wrong = "refused, and yet written: " + name;
-    const bool is_page = name.ends_with(".html");
-    if (wrong.empty() && is_output && !is_page && fs::is_regular_file(at(name))) {
+    if (wrong.empty() && is_output && fs::is_regular_file(at(name))) {
       if (const std::string found = no_number_in(content_of(at(name))); !found.empty())
         wrong = "a number that is none in the output: " + found;
     }
   }
-  if (wrong.empty() && what.must_be_refused && ended.code != 3)
+  if (wrong.empty() && what.must_be_refused && ended.code != kRefused && ended.code != kMisused)
     wrong = fmt::format("taken, exit code {}", ended.code);
   if (!wrong.empty()) fail(what, wrong, ended);
   clean();
@@ -255,45 +169,128 @@ Campaign::Case Campaign::damaged_input() {
     if (left < 0) break;
   }
   const std::string in = std::string("in_") + chosen->seed_file;
-  const std::string out = chosen->arguments[0] == "report" ? "out.html" : "out";
+  const std::string out = output_of(chosen->arguments);
   write(in, mutate_.damaged(permanent_.at(chosen->seed_file)));
-  return {"damaged " + std::string(chosen->seed_file) + ", " + chosen->arguments[0],
-          with(chosen->arguments, in, out),
-          {in},
-          {out}};
+  return {"damaged " + chosen->seed_file, with(chosen->arguments, in, out), {in}, {out}};
 }
 
-Campaign::Case Campaign::tampered_map() {
-  const std::vector<std::vector<std::string>> uses = {
-      {"query", "IN", "0", "0", "1100", "-500"},
-      {"query", "IN", "--inverse", "1600", "1700"},
-      {"report", "IN", "-o", "OUT"},
-      {"check", "IN", "few.json"},
-      {"gcode", "compensate", "part.nc", "--map", "IN", "-o", "OUT"}};
-  std::string text = mutate_.with_another_number(permanent_.at("map.json"));
-  const bool changed = text != permanent_.at("map.json");
+Campaign::Case Campaign::tampered_file() {
+  const Sealed& sealed = mutate_.one_of(sealed_files());
+  const std::string& original = permanent_.at(sealed.file);
+  std::string text = mutate_.with_number(
+      original, mutate_.below(2) == 0 ? Mutator::NumberKind::odd : Mutator::NumberKind::near);
+  // Another number may be the same number (0 for -0), and a comment may say anything.
+  const bool must_be_refused = !same_content(text, original);
   const bool as_old = mutate_.below(2) == 0;
   if (as_old) {  // as version 1.0, which carries no hash: every check after it must hold
-    const std::size_t version = text.find("\"1.1\"");
-    if (version != std::string::npos) text.replace(version, 5, "\"1.0\"");
-    const std::size_t key = text.rfind(",\n  \"content_hash\"");
-    if (key != std::string::npos) text = text.substr(0, key) + "\n}\n";
+    const std::string key = "\"format_version\": \"";
+    const std::size_t version = text.find(key);
+    if (version != std::string::npos) text.replace(version + key.size(), 3, "1.0");
+    const std::size_t hash = text.rfind(",\n  \"content_hash\"");
+    if (hash != std::string::npos) text = text.substr(0, hash) + "\n}\n";
   }
-  write("in_map.json", text);
-  const std::string out = "out.html";
-  // Another number may be the same number: 0 for -0.
-  (void)changed;
-  return {as_old ? "tampered map of version 1.0" : "tampered map",
-          with(mutate_.one_of(uses), "in_map.json", out),
-          {"in_map.json"},
-          {out}};
+  const std::string in = "in_" + sealed.file;
+  write(in, text);
+  const std::vector<std::string>& use = mutate_.one_of(sealed.uses);
+  const std::string out = output_of(use);
+  return {"tampered " + sealed.file + (as_old ? " of version 1.0" : ""),
+          with(use, in, out),
+          {in},
+          {out},
+          must_be_refused && !as_old};
 }
 
-Campaign::Case Campaign::odd_option() {
-  const Option& option = mutate_.one_of(options());
-  std::vector<std::string> arguments = with(option.arguments, "", "out");
-  arguments.push_back(std::string(option.name) + "=" + mutate_.odd_number());
-  return {"odd option", arguments, {}, {"out"}};
+std::string Campaign::any_text(const Option& option) {
+  const std::vector<std::string>& good =
+      option.choices.empty() ? good_texts(option.name) : option.choices;
+  const std::size_t way = mutate_.below(10);
+  if (way < 4 && !good.empty()) return mutate_.one_of(good);
+  if (way < 6 && !good.empty()) return mutate_.damaged(mutate_.one_of(good));
+  if (way < 8)
+    return std::next(permanent_.begin(),
+                     static_cast<std::ptrdiff_t>(mutate_.below(permanent_.size())))
+        ->first;
+  if (way < 9) return mutate_.odd_number();
+  return mutate_.one_of(kNoFiles);
+}
+
+std::string Campaign::any_output(const Case& what) {
+  switch (mutate_.below(4)) {
+    case 0:
+      return mutate_.one_of(kNoFiles);
+    case 1: {  // what the command reads
+      std::vector<std::string> read;
+      for (const std::string& word : what.arguments) {
+        if (permanent_.count(word) != 0) read.push_back(word);
+      }
+      if (!read.empty()) return mutate_.one_of(read);
+      return "out";
+    }
+    case 2:
+      return "out";
+    default:
+      return "out2.html";
+  }
+}
+
+void Campaign::add(const Option& option, Case& what) {
+  const auto stands =
+      std::find_if(what.arguments.begin(), what.arguments.end(), [&](const std::string& word) {
+        return word == option.name || (!option.short_name.empty() && word == option.short_name);
+      });
+  if (option.type.empty()) {
+    if (stands == what.arguments.end()) what.arguments.push_back(option.name);
+    return;
+  }
+  const auto value = [&] {
+    if (is_output(option.name)) return any_output(what);
+    return option.type == "TEXT" ? any_text(option) : mutate_.odd_number();
+  };
+  if (stands != what.arguments.end() && std::next(stands) != what.arguments.end()) {
+    *std::next(stands) = value();
+  } else if (option.values == 1) {
+    what.arguments.push_back(option.name + "=" + value());
+  } else {
+    what.arguments.push_back(option.name);
+    for (int i = 0; i < option.values; ++i) what.arguments.push_back(value());
+  }
+}
+
+Campaign::Case Campaign::odd_options() {
+  const auto& [verb, options] =
+      *std::next(options_.begin(), static_cast<std::ptrdiff_t>(mutate_.below(options_.size())));
+  std::vector<std::vector<std::string>> calls;
+  std::copy_if(invocations().begin(),
+               invocations().end(),
+               std::back_inserter(calls),
+               [&](const auto& arguments) { return verb_of(arguments) == verb; });
+  const std::vector<std::string>& call = mutate_.one_of(calls);
+  Case what{"odd options, " + verb,
+            with(call, "", output_of(call)),
+            {},
+            {"out", "out.html", "out2.html", "nowhere"}};
+  for (std::string& word : what.arguments) {
+    const std::size_t number = word.find("NUMBER");
+    if (number != std::string::npos) word.replace(number, 6, mutate_.odd_number());
+  }
+  if (options.empty()) return what;
+  for (std::size_t left = 1 + mutate_.below(3); left > 0; --left)
+    add(mutate_.one_of(options), what);
+  return what;
+}
+
+void Campaign::resume_a_damaged_sweep() {
+  const Case what{
+      "damaged sweep, resumed", {"sweep", "sweep.json", "-o", "out", "--resume"}, {}, {"out"}};
+  count(what.kind, command_.run({"sweep", "sweep.json", "-o", "out", "--shard", "1/2"}));
+  std::vector<fs::path> parts;
+  for (const auto& entry : fs::recursive_directory_iterator(at("out"))) {
+    if (entry.is_regular_file()) parts.push_back(entry.path());
+  }
+  std::sort(parts.begin(), parts.end());
+  const fs::path& part = mutate_.one_of(parts);
+  std::ofstream(part, std::ios::binary) << mutate_.damaged(content_of(part));
+  judge(what);
 }
 
 void Campaign::kill_while_writing() {
@@ -372,11 +369,12 @@ void Campaign::script_in_a_page() {
 void Campaign::attack() {
   ++number_;
   const std::size_t kind = mutate_.below(100);
-  if (kind < 62) return judge(damaged_input());
-  if (kind < 76) return judge(tampered_map());
-  if (kind < 92) return judge(odd_option());
-  if (kind < 97) return kill_while_writing();
-  if (kind < 98) return kill_a_sweep();
+  if (kind < 56) return judge(damaged_input());
+  if (kind < 66) return judge(tampered_file());
+  if (kind < 91) return judge(odd_options());
+  if (kind < 96) return kill_while_writing();
+  if (kind < 97) return kill_a_sweep();
+  if (kind < 98) return resume_a_damaged_sweep();
   return script_in_a_page();
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/torture/help.hpp"
 #include "tests/torture/mutation.hpp"
 #include "tests/torture/run.hpp"
 
@@ -46,8 +47,13 @@ class Campaign {
 
   void prepare(const std::filesystem::path& fixtures);
   [[nodiscard]] Case damaged_input();
-  [[nodiscard]] Case tampered_map();
-  [[nodiscard]] Case odd_option();
+  [[nodiscard]] Case tampered_file();
+  [[nodiscard]] Case odd_options();
+  /// What a person or a script may give such an option.
+  [[nodiscard]] std::string any_text(const Option& option);
+  [[nodiscard]] std::string any_output(const Case& what);
+  void add(const Option& option, Case& what);
+  void resume_a_damaged_sweep();
   void kill_while_writing();
   void kill_a_sweep();
   void script_in_a_page();
@@ -68,7 +74,8 @@ class Campaign {
   std::uint64_t seed_;
   std::uint64_t number_ = 0;
   Mutator mutate_;
-  std::map<std::string, std::string> permanent_;  ///< name and content
+  std::map<std::string, std::string> permanent_;        ///< name and content
+  std::map<std::string, std::vector<Option>> options_;  ///< by verb
   std::string sweep_results_;
   std::map<std::string, Tally> tallies_;
 };

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/torture/mutation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 namespace chaintrue::torture {
 namespace {
@@ -38,13 +45,24 @@ constexpr std::array<std::string_view, 24> kWords = {"{",
                                                      "\"comment\": 1,",
                                                      "%"};
 
+constexpr std::array<const char*, 8> kEntries = {
+    "0", "-1", "1e9", "\"\"", "[]", "{}", "true", "[1, 2, 3]"};
+
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 }  // namespace
 
 std::string Mutator::odd_number() { return std::string(one_of(kNumbers)); }
 
-std::string Mutator::with_another_number(std::string text) {
+std::string Mutator::near_number(const std::string& number) {
+  constexpr std::array<double, 12> kFactors = {
+      -1.0, 0.0, 0.01, 0.1, 0.5, 0.98, 0.9999, 1.0001, 1.02, 2.0, 10.0, 100.0};
+  const double value = std::strtod(number.c_str(), nullptr);
+  const double other = below(3) == 0 ? value + one_of(kFactors) : value * one_of(kFactors);
+  return fmt::format("{:.8g}", std::isfinite(other) ? other : 0.0);
+}
+
+std::string Mutator::with_number(std::string text, NumberKind kind) {
   if (text.empty()) return text;
   const std::size_t start = below(text.size());
   std::size_t begin = start;
@@ -57,7 +75,45 @@ std::string Mutator::with_another_number(std::string text) {
                                                           std::string_view::npos)) {
     ++end;
   }
-  return text.replace(begin, end - begin, odd_number());
+  const std::string other =
+      kind == NumberKind::odd ? odd_number() : near_number(text.substr(begin, end - begin));
+  return text.replace(begin, end - begin, other);
+}
+
+std::string Mutator::with_another_entry(const std::string& text) {
+  using Json = nlohmann::json;
+  const Json flat = Json::parse(text, nullptr, false);
+  if (!flat.is_structured() || flat.empty()) return with_number(text, NumberKind::near);
+  Json document = flat;
+  Json* parent = &document;
+  // Down to where a step would end at a value, or earlier.
+  for (;;) {
+    Json& next = *std::next(parent->begin(), static_cast<std::ptrdiff_t>(below(parent->size())));
+    if (!next.is_structured() || next.empty() || below(4) == 0) break;
+    parent = &next;
+  }
+  const auto at = [&] {
+    return std::next(parent->begin(), static_cast<std::ptrdiff_t>(below(parent->size())));
+  };
+  switch (below(4)) {
+    case 0:
+      parent->erase(at());
+      break;
+    case 1:
+      std::swap(*at(), *at());
+      break;
+    case 2:
+      if (parent->is_array()) {
+        const Json copy = *at();
+        parent->push_back(copy);
+      } else {
+        *at() = nullptr;
+      }
+      break;
+    default:
+      *at() = Json::parse(one_of(kEntries));
+  }
+  return document.dump(1);
 }
 
 void Mutator::slip(std::string& text) {
@@ -91,12 +147,21 @@ void Mutator::slip(std::string& text) {
       text.replace(place, length, one_of(kWords));
       break;
     default:
-      text = with_another_number(text);
+      text = with_number(text, NumberKind::odd);
   }
 }
 
 std::string Mutator::damaged(std::string text) {
-  for (std::size_t slips = 1 + below(4); slips > 0; --slips) slip(text);
+  const std::size_t way = below(4);
+  for (std::size_t slips = 1 + below(4); slips > 0; --slips) {
+    if (way == 0) {
+      text = with_number(text, NumberKind::near);
+    } else if (way == 1) {
+      text = with_another_entry(text);
+    } else {
+      slip(text);
+    }
+  }
   return text;
 }
 

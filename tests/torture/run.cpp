@@ -84,6 +84,8 @@ std::string content_of(const fs::path& path) {
 }
 
 std::string no_number_in(const std::string& text) {
+  // A page holds the program that draws it, which has such words; its numbers are those of files.
+  if (text.starts_with("<!DOCTYPE")) return {};
   const auto is_letter = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            static_cast<unsigned char>(c) >= 0x80U;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The verbs and options of the command as its --help tells them, so that none escapes the campaign.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/torture/run.hpp"
+
+namespace chaintrue::torture {
+
+struct Option {
+  std::string name;                  ///< "--output"
+  std::string short_name;            ///< "-o", or empty
+  std::string type;                  ///< TEXT, INT, FLOAT; empty: a flag
+  std::vector<std::string> choices;  ///< where only these are taken
+  int values = 1;                    ///< how many one takes
+};
+
+/// "fit", "gcode check", ...
+[[nodiscard]] std::vector<std::string> verbs_of(const Command& command);
+/// What one of them takes, without --help itself.
+[[nodiscard]] std::vector<Option> options_of(const Command& command, const std::string& verb);
+
+}  // namespace chaintrue::torture
