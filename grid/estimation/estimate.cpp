@@ -244,8 +244,9 @@ void Estimator::fill_units(Estimate& estimate) const {
     UnitEstimate own{unit.observation, unit.unit, weights_[at], distances_[at], {}, {}, {}, {}};
     own.residual =
         back * (problem_->response().segment(unit.first_row, unit.rows) - rows * fit_.coefficients);
-    own.left_out = back * left_out.residual(u);
-    own.left_out_covariance = back * left_out.covariance(u) * back.transpose();
+    const LeftOut::Seen seen = left_out.seen(u);
+    own.left_out = back * seen.residual;
+    own.left_out_covariance = back * seen.covariance * back.transpose();
     estimate.units.push_back(std::move(own));
   }
   for (const UnitGroup& group : input_.held_out_together) {

@@ -76,6 +76,26 @@ Eigen::VectorXd LeftOut::residual_of(std::size_t unit) const {
   return response_of(unit) - rows_of(unit) * fit_.coefficients;
 }
 
+LeftOut::Seen LeftOut::seen(std::size_t unit) const {
+  const auto at = static_cast<Eigen::Index>(unit);
+  const bool by_formula =
+      weights_[at] == 0.0 ||
+      interp::held_out_residual(residual_of(unit), weights_[at] * spread_of(unit), fit_.sigma2);
+  if (!by_formula) {
+    Eigen::VectorXd without = weights_;
+    without[at] = 0.0;
+    if (const auto rest =
+            interp::fit_with_smoothing(problem_.weighted(without), fit_.lambda, fit_.sigma2)) {
+      const Eigen::MatrixXd rows = rows_of(unit);
+      Seen seen{response_of(unit) - rows * rest->coefficients,
+                rows * rest->covariance * rows.transpose()};
+      seen.covariance.diagonal().array() += fit_.sigma2;
+      return seen;
+    }
+  }
+  return {residual(unit), covariance(unit)};
+}
+
 Eigen::VectorXd LeftOut::residual(std::size_t unit) const {
   const double weight = weights_[static_cast<Eigen::Index>(unit)];
   Eigen::VectorXd residual = residual_of(unit);

@@ -146,9 +146,10 @@ TEST_F(Options, OfAFarMotorGiveNoTableOfNothing) {
       EXPECT_TRUE(outcome.code == 0 || outcome.code == 3 || outcome.code == 4) << outcome.code;
       EXPECT_THAT(outcome.out, Not(HasSubstr("nan")));
       EXPECT_THAT(outcome.err, Not(HasSubstr("internal error")));
-      if (outcome.code != 0)
+      if (outcome.code != 0) {
         EXPECT_THAT(outcome.err,
                     testing::AnyOf(HasSubstr("left motor"), HasSubstr("/motors/left")));
+      }
     }
   }
 }
