@@ -172,6 +172,7 @@ tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
   }
   result.theta = scan(marginal, balance, limits);
   auto state = marginal.evaluate(result.theta, Order::hessian);
+  if (!state) return tl::unexpected(FitFailure::Reason::rank_deficient);
   bool settled = false;
   while (!settled) {
     const std::vector<bool> held = held_at_limit(result.theta, state->gradient, limits);
@@ -197,6 +198,7 @@ tl::expected<SearchResult, FitFailure::Reason> search(const Marginal& marginal,
       const double before = state->value;
       result.theta = next;
       state = marginal.evaluate(result.theta, Order::hessian);
+      if (!state) return tl::unexpected(FitFailure::Reason::rank_deficient);
       // Nothing of V is worth 1e-10 of one; where its gradient is all rounding it never gets small.
       settled = before - state->value < 1e-10;
     }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -73,87 +74,120 @@ Checks checks_at(const MeasuredBelts& belts,
   return checks;
 }
 
+/// What may have been added to the checks: columns over some rows, each times a normal number of
+/// sigma_mm; or, without columns, such a number on every check.
+struct Addition {
+  double sigma_mm = 0.0;
+  Eigen::Index first_row = 0;
+  Eigen::MatrixXd columns = {};
+  bool on_each = false;
+};
+
+/// (1) in units of s. V = d I + Z Z' with the few columns Z of D C D' and B, so that
+///
+///   |V| = d^(n - k) |G|,   V^-1 r = (r - Z G^-1 Z' r) / d,   G = d I + Z' Z  (k x k)            (2)
+///
+/// (Woodbury; G. Golub and C. Van Loan, Matrix Computations (2013), 2.1.4): linear in the places.
 class Weighing {
  public:
   Weighing(const BeltsFit& fit, const Checks& checks)
-      : spread_(fit.spread_mm), dof_(fit.checks), checks_(checks) {
-    const Eigen::Index n = checks.residual_mm.size();
-    base_ = checks.by_anchor * fit.covariance_mm2 * checks.by_anchor.transpose();
-    base_ += spread_ * spread_ * Eigen::MatrixXd::Identity(n, n);
+      : spread_(fit.spread_mm), dof_(fit.checks), residual_(checks.residual_mm / spread_) {
+    // Positive but for rounding.
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(fit.covariance_mm2);
+    by_anchor_ = checks.by_anchor * parts.eigenvectors() *
+                 (parts.eigenvalues().cwiseMax(0.0).cwiseSqrt() / spread_).asDiagonal();
+    gram_ = by_anchor_.transpose() * by_anchor_;
+    by_residual_ = by_anchor_.transpose() * residual_;
   }
 
-  [[nodiscard]] const Eigen::MatrixXd& base() const { return base_; }
+  /// s^2 I + D C D'.
+  [[nodiscard]] double variance(Eigen::Index row) const {
+    return spread_ * spread_ * (1.0 + by_anchor_.row(row).squaredNorm());
+  }
 
-  /// (1), with B = column sigma^2 column'; the most probable size of what it is.
-  double log_density(const Eigen::MatrixXd& columns, double sigma_mm, double* size_mm) const {
-    const Eigen::MatrixXd own = sigma_mm * columns;
-    const Eigen::MatrixXd v = (base_ + own * own.transpose()) / (spread_ * spread_);
-    const Eigen::LLT<Eigen::MatrixXd> llt(v);
-    const Eigen::VectorXd r = checks_.residual_mm / spread_;
-    const Eigen::VectorXd solved = llt.solve(r);
-    if (size_mm != nullptr) {
-      const Eigen::VectorXd size = sigma_mm / spread_ * own.transpose() * solved;
-      *size_mm = size.size() == 1 ? size(0) : size.norm();
+  /// (1), and the most probable size of what was added.
+  double log_density(const Addition& added, double* size_mm) const {
+    const double scale = added.sigma_mm / spread_;
+    const double d = 1.0 + (added.on_each ? scale * scale : 0.0);
+    const Eigen::Index anchors = gram_.rows();
+    const Eigen::Index own = added.columns.cols();
+    const Eigen::Index k = anchors + own;
+    Eigen::MatrixXd gram(k, k);
+    Eigen::VectorXd by_residual(k);
+    gram.topLeftCorner(anchors, anchors) = gram_;
+    by_residual.head(anchors) = by_residual_;
+    if (own > 0) {
+      const Eigen::Index rows = added.columns.rows();
+      const Eigen::MatrixXd z = scale * added.columns;
+      gram.bottomRightCorner(own, own) = z.transpose() * z;
+      gram.bottomLeftCorner(own, anchors) =
+          z.transpose() * by_anchor_.middleRows(added.first_row, rows);
+      gram.topRightCorner(anchors, own) = gram.bottomLeftCorner(own, anchors).transpose();
+      by_residual.tail(own) = z.transpose() * residual_.segment(added.first_row, rows);
     }
-    const double log_det = 2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
+    const Eigen::LLT<Eigen::MatrixXd> g(gram + d * Eigen::MatrixXd::Identity(k, k));
+    const Eigen::VectorXd solved = g.solve(by_residual);
+    const double square = residual_.squaredNorm();
+    if (size_mm != nullptr && added.on_each) {
+      const double left = square - 2.0 * solved.dot(by_residual) + solved.dot(gram * solved);
+      *size_mm = added.sigma_mm * scale * std::sqrt(std::max(left, 0.0)) / d;
+    } else if (size_mm != nullptr) {
+      const Eigen::VectorXd size = added.sigma_mm / d * (by_residual - gram * solved).tail(own);
+      *size_mm = own == 1 ? size(0) : size.norm();
+    }
+    const auto n = static_cast<double>(residual_.size());
+    const double log_det = (n - static_cast<double>(k)) * std::log(d) +
+                           2.0 * g.matrixLLT().diagonal().array().log().sum();
     return -0.5 * log_det -
-           0.5 * (static_cast<double>(r.size()) + dof_) * std::log1p(r.dot(solved) / dof_);
+           0.5 * (n + dof_) * std::log1p((square - by_residual.dot(solved)) / d / dof_);
   }
 
  private:
   double spread_;
   double dof_;
-  const Checks& checks_;
-  Eigen::MatrixXd base_;
+  Eigen::VectorXd residual_;
+  Eigen::MatrixXd by_anchor_;
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd by_residual_;
 };
 
-std::vector<AnchorsHypothesis> weighed(const BeltsFit& fit, const Checks& checks) {
-  const Weighing weighing(fit, checks);
+std::vector<AnchorsHypothesis> weighed(const Weighing& weighing, const Checks& checks) {
   std::vector<AnchorsHypothesis> all;
   std::vector<double> logs;
-  const auto weigh =
-      [&](AnchorsHypothesis h, double prior, const Eigen::MatrixXd& columns, double sigma_mm) {
-        logs.push_back(std::log(prior) + weighing.log_density(columns, sigma_mm, &h.size_mm));
-        all.push_back(std::move(h));
-      };
-  const Eigen::Index n = checks.residual_mm.size();
-  const auto places = static_cast<std::size_t>(n) / 2;
+  const auto weigh = [&](AnchorsHypothesis h, double prior, const Addition& added) {
+    logs.push_back(std::log(prior) + weighing.log_density(added, &h.size_mm));
+    all.push_back(std::move(h));
+  };
+  const auto places = static_cast<std::size_t>(checks.residual_mm.size()) / 2;
   const CheckPriors& prior = kCheckPriors;
-  weigh({.what = "nothing"}, prior.nothing, Eigen::MatrixXd(n, 0), 0.0);
+  weigh({.what = "nothing"}, prior.nothing, {});
   const auto rezero = CheckVerdict::valid_after_rezeroing;
   const auto again = CheckVerdict::measure_again;
   for (const Belt belt : kBelts) {
     weigh({.what = "zero", .belt = belt, .verdict = rezero},
           (prior.one_zero + prior.tooth) / kBelts.size(),
-          checks.by_belt.col(static_cast<Eigen::Index>(belt)),
-          kBeltZeroShiftMm);
+          {kBeltZeroShiftMm, 0, checks.by_belt.col(static_cast<Eigen::Index>(belt))});
   }
   weigh({.what = "zero", .verdict = rezero},
         prior.both_zeros,
-        checks.by_belt.rowwise().sum(),
-        kBeltZeroShiftMm);
+        {kBeltZeroShiftMm, 0, checks.by_belt.rowwise().sum()});
   // What the frame fixes of an anchor cannot move: it shows as the others moving.
   const auto moved = [&](Belt belt, std::vector<Eigen::Index> columns) {
     weigh({.what = "anchor", .belt = belt, .verdict = again},
           (prior.motors + prior.pitch) / 3.0,
-          checks.by_anchor(Eigen::all, columns),
-          kAnchorShiftMm);
+          {kAnchorShiftMm, 0, checks.by_anchor(Eigen::all, columns)});
   };
   moved(Belt::tl, {0, 1});
   moved(Belt::tr, {2, 3});
   moved(Belt::br, {4});
   for (std::size_t k = 0; k < places; ++k) {
-    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(n, 2);
-    own.middleRows<2>(2 * static_cast<Eigen::Index>(k)).setIdentity();
     weigh({.what = "bad_point", .point = k, .verdict = again},
           prior.bad_point / static_cast<double>(places),
-          own,
-          kOutlierSigmaMm);
+          {kOutlierSigmaMm, 2 * static_cast<Eigen::Index>(k), Eigen::Matrix2d::Identity()});
   }
   weigh({.what = "unknown", .verdict = again},
         prior.unknown,
-        Eigen::MatrixXd::Identity(n, n),
-        kUnknownSigmaMm);
+        {.sigma_mm = kUnknownSigmaMm, .on_each = true});
   const double total = log_sum(logs);
   for (std::size_t i = 0; i < all.size(); ++i) all[i].probability = std::exp(logs[i] - total);
   return all;
@@ -240,13 +274,14 @@ tl::expected<AnchorsCheck, AnchorsCheckFailure> check_anchors(const BeltsFit& fi
   const auto readings = static_cast<double>(checks.residual_mm.size());
   if (!(checks.residual_mm.norm() < kAnotherFrameMm * std::sqrt(readings))) return nowhere();
   AnchorsCheck check;
-  check.hypotheses = weighed(fit, checks);
+  const Weighing weighing(fit, checks);
+  check.hypotheses = weighed(weighing, checks);
   decide_verdict(check);
-  const Eigen::VectorXd variance = Weighing(fit, checks).base().diagonal();
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     const auto row = 2 * static_cast<Eigen::Index>(k);
-    check.places.push_back({std::sqrt(0.5 * checks.residual_mm.segment<2>(row).squaredNorm()),
-                            std::sqrt(0.5 * variance.segment<2>(row).sum())});
+    check.places.push_back(
+        {std::sqrt(0.5 * checks.residual_mm.segment<2>(row).squaredNorm()),
+         std::sqrt(0.5 * (weighing.variance(row) + weighing.variance(row + 1)))});
   }
   tell(check);
   return check;

@@ -64,6 +64,8 @@ struct MeasuredBelts {
 
 /// 2 N - 5 checks of N places: fewer than these leave none to judge by.
 inline constexpr std::size_t kFewestBeltPoints = 5;
+/// A fit or a check of so many takes some seconds (docs/reliability.md).
+inline constexpr std::size_t kMostBeltPoints = 20000;
 
 /// Belts that the firmware pulls at a place: of an upright frame the lower two; of a flat one those
 /// behind the last move, at the first six places the lower two. `visit` counts from 0.

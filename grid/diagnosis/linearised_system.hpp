@@ -77,7 +77,7 @@ struct SystemUnit {
   Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();  ///< of a unit of two rows
   double sigma = 1.0;                                       ///< of a unit of one
   bool reads_chains = false;  ///< the rows are the chains at its only place
-  std::vector<SeenPlace> places;
+  std::vector<SeenPlace> places{};
 
   /// From the readings' units to those of noise, and back: the rows of this unit.
   [[nodiscard]] Eigen::Vector2d whitened(const Eigen::VectorXd& all) const;
@@ -92,7 +92,7 @@ struct LinearisedSystem {
   Eigen::MatrixXd by_setting;  ///< A, n x q
   RegressorColumns g;          ///< n x a column a regressor
   std::vector<Regressor> regressors;
-  std::vector<SystemPlace> places;
+  std::vector<SystemPlace> places{};
   std::vector<SystemUnit> units;    ///< of consecutive rows, the first ones
   std::vector<int> unit_of_row;     ///< n; -1: a reading that never slips
   Eigen::VectorXd reading_sigma;    ///< of the rows after the units, in the readings' units

@@ -43,7 +43,7 @@ struct ComparisonOptions {
   /// Kernels of the discrepancy to try (numbers in discrepancy_kernels()); empty: all.
   std::vector<std::size_t> kernels{};
   /// Nothing but this cause acts.
-  std::optional<CauseId> told;
+  std::optional<CauseId> told{};
 };
 
 /// Points already known not to count (held out) are `excluded`.

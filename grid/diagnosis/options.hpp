@@ -30,9 +30,9 @@ struct DiagnosisOptions {
   /// Chain or paper, which no points tell apart: the person has it that it is the chain.
   bool accept_class = false;
   /// Nothing but this cause is looked for: what somebody who knew it would find.
-  std::optional<CauseId> told;
+  std::optional<CauseId> told{};
   Steps steps;
-  Progress progress;
+  Progress progress{};
 };
 
 struct DiagnosisFailure {

@@ -108,7 +108,7 @@ struct EstimationInput {
   std::vector<UnitGroup> held_out_together;
   int most_passes = 0;  ///< 0: as many as such readings need
   /// Is told of `step` at each pass.
-  Progress progress;
+  Progress progress{};
   WorkStep step{"settings and correction"};
 };
 

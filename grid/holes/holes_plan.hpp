@@ -44,7 +44,7 @@ struct HolesPlanRequest {
   double margin_mm = 50.0;
   /// The tape's length.
   double longest_mm = 5000.0;
-  Progress progress;
+  Progress progress{};
 };
 [[nodiscard]] int distances_of(const HolesPlanRequest& request);
 /// As many as there are unknowns that they tell of: the machine's, and the sheet's place.

@@ -82,7 +82,7 @@ struct SimulatedPassesRequest {
   /// One sigma of each chain's elongation; motors and zeros are drawn from what is stated.
   double elongation_sigma = 0.001;
   std::uint64_t seed = 1;
-  Progress progress;
+  Progress progress{};
 };
 
 /// The whole loop on a machine that is drawn from what is stated. Each pass is cut through the map

@@ -27,7 +27,7 @@ struct FitOptions {
   interp::TensorEnds ends;
   /// What the map does beyond the points.
   OutsideRule outside;
-  Progress progress;
+  Progress progress{};
 };
 
 struct FitFailure {

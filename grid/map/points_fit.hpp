@@ -27,7 +27,7 @@ struct PointsFitInput {
   /// still.
   int bending_order = 2;
   /// Is told of `step` at each pass.
-  Progress progress;
+  Progress progress{};
   WorkStep step{"settings and correction"};
 };
 

@@ -24,9 +24,9 @@ struct HolesSpec {
   bool draw_settings = false;
   /// Draw each chain's elongation with this sigma.
   double scale_sigma = 0.0;
-  std::vector<model::AppliedEffect> hidden;
+  std::vector<model::AppliedEffect> hidden{};
   /// Where the sheet lies; edges alone tell.
-  model::SheetPlacement sheet;
+  model::SheetPlacement sheet{};
   /// Round readings to whole multiples of this; 0: all digits.
   double rounding_mm = 0.0;
   /// So many readings are wrong by bad_size_mm, one way or the other.

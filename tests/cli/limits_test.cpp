@@ -106,6 +106,36 @@ TEST_F(Limits, AFitOfTooManyPointsIsRefusedAtOnce) {
   EXPECT_FALSE(exists("m.json"));
 }
 
+TEST_F(Limits, BeltsOfTooManyPlacesAreRefusedAtOnce) {
+  const std::string belts = fixture("belts/thirty_one_places.json");
+  const std::string text = content_of(belts);
+  const std::size_t begin = text.find('{', text.find("\"points\""));
+  const std::size_t end = text.rfind('}', text.find(']', begin)) + 1;
+  std::string many = text.substr(0, begin);
+  for (int i = 0; i < 20001; ++i)
+    many += fmt::format("{}{{\"tl_mm\": {}, \"tr_mm\": 2000, \"bl_mm\": 2000, \"br_mm\": 2000}}",
+                        i == 0 ? "" : ",\n",
+                        1800.0 + 0.01 * i);
+  write("many.json", many + text.substr(end));
+  const Outcome fit = timed("fit many.json -o a.json", kBeforeWork);
+  EXPECT_EQ(fit.code, 3);
+  EXPECT_THAT(fit.err, HasSubstr("20001 places are more than a fit takes (20000)"));
+  ASSERT_EQ(run("fit " + belts + " -o a.json").code, 0);
+  const Outcome check = timed("check a.json many.json", kBeforeWork);
+  EXPECT_EQ(check.code, 3);
+  EXPECT_THAT(check.err, HasSubstr("20001 places are more than a check takes (20000)"));
+}
+
+// Each place may be a bad one: once the cube of their number for each of them.
+TEST_F(Limits, ACheckOfAnchorsTakesThousandsOfPlaces) {
+  const std::string belts = fixture("belts/thirty_one_places.json");
+  ASSERT_EQ(run("fit " + belts + " -o a.json").code, 0);
+  ASSERT_EQ(run("simulate --belts a.json --grid 60x50 --length-noise-mm 0.9 -o many.json").code, 0);
+  const Outcome outcome = timed("check a.json many.json", kNoWork);
+  EXPECT_LE(outcome.code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("point 2999"));
+}
+
 /// Holes on a lattice with so many distances between them, as commanded, repeats among them.
 std::string holes(int count, int distances) {
   std::string text = content_of(std::string(CHAINTRUE_FIXTURES) + "/machines/classic.json");

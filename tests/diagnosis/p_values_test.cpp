@@ -21,7 +21,7 @@ namespace {
 using testing_support::session_of;
 using testing_support::verdict_alone;
 
-constexpr int kSessions = 120;
+constexpr int kNullSessions = 120;
 
 /// Kolmogorov's distance from the uniform distribution, times the root of how many there are.
 double kolmogorov(std::vector<double> p) {
@@ -41,7 +41,7 @@ constexpr double kCritical = 1.95;
 /// Nothing hidden, settings stated as well as they are.
 TEST(Chances, AreUniformWhereNothingIsHidden) {
   std::vector<double> left_over_chance, normal_plot_chance, family_wise_chance;
-  for (std::uint64_t seed = 1; seed <= kSessions; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kNullSessions; ++seed) {
     DiagnosisOptions options = verdict_alone();
     options.seed = seed;
     const auto a = analyse(make_session(session_of({}, 5000 + seed, 6, 4)).value(), options);
@@ -49,7 +49,7 @@ TEST(Chances, AreUniformWhereNothingIsHidden) {
     normal_plot_chance.push_back(normal_plot(*a)->p_value);
     family_wise_chance.push_back(a->family_wise_p);
   }
-  SCOPED_TRACE(testing::Message() << "seeds 5001 to " << 5000 + kSessions);
+  SCOPED_TRACE(testing::Message() << "seeds 5001 to " << 5000 + kNullSessions);
   EXPECT_LT(kolmogorov(left_over_chance), kCritical) << "of what is left over";
   EXPECT_LT(kolmogorov(normal_plot_chance), kCritical) << "of the normal plot";
   EXPECT_LT(kolmogorov(family_wise_chance), kCritical) << "of the strongest effect";

@@ -132,7 +132,7 @@ TEST_F(RealScans, OneScanPredictsTheOther) {
 TEST_F(RealScans, APlantedEffectIsFound) {
   // No model of the noise: the scan's own residuals, and a left sprocket bored 0.4 mm off on top.
   constexpr double kAmplitudeMm = 0.4;
-  constexpr double kTurnMm = 63.5;
+  constexpr double kSprocketTurnMm = 63.5;
   MeasuredGrid grid = scan(kUpper);
   const auto lengths = length_points(grid);
   ASSERT_TRUE(lengths);
@@ -147,7 +147,7 @@ TEST_F(RealScans, APlantedEffectIsFound) {
     const double length = (*lengths)[i].lengths.left_mm;
     grid.points[i].lengths = (*lengths)[i].lengths;
     grid.points[i].lengths->left_mm +=
-        kAmplitudeMm * std::sin(2.0 * std::numbers::pi * length / kTurnMm + 1.0);
+        kAmplitudeMm * std::sin(2.0 * std::numbers::pi * length / kSprocketTurnMm + 1.0);
     grid.points[i].commanded.reset();
   }
   const Diagnosis after = diagnosed(grid);

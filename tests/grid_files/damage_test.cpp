@@ -12,7 +12,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-constexpr std::uint64_t kSeed = 20260102;
+constexpr std::uint64_t kDamageSeed = 20260102;
 
 /// Long files are damaged at every so many bytes, so that the test stays short.
 constexpr std::size_t kMostPlaces = 1500;
@@ -49,9 +49,9 @@ TEST_P(Damage, CutOffAnywhere) {
 }
 
 TEST_P(Damage, AnotherByteAnywhere) {
-  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
+  SCOPED_TRACE(::testing::Message() << "seed " << kDamageSeed);
   constexpr std::string_view kTelling = "0123456789-+.,;:eE\"'{}[]#\\/ \n\r\tnN\x00\x7F\xC3\xFF";
-  std::mt19937_64 bits(kSeed);
+  std::mt19937_64 bits(kDamageSeed);
   for (std::size_t place = 0; place < text_.size(); place += step_) {
     std::string damaged = text_;
     damaged[place] = kTelling[static_cast<std::size_t>(bits() % kTelling.size())];
@@ -60,7 +60,7 @@ TEST_P(Damage, AnotherByteAnywhere) {
 }
 
 TEST_P(Damage, WordsOfNoNumberAnywhere) {
-  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
+  SCOPED_TRACE(::testing::Message() << "seed " << kDamageSeed);
   const std::string words[] = {"NaN",
                                "1e999",
                                "-Infinity",
@@ -71,7 +71,7 @@ TEST_P(Damage, WordsOfNoNumberAnywhere) {
                                "\n",
                                "{}",
                                "\"\""};
-  std::mt19937_64 bits(kSeed);
+  std::mt19937_64 bits(kDamageSeed);
   for (std::size_t place = 0; place < text_.size(); place += step_) {
     std::string damaged = text_;
     const std::size_t length = std::min<std::size_t>(bits() % 8, text_.size() - place);

@@ -21,9 +21,9 @@ using ::testing::IsEmpty;
 
 Json parse(const std::string& text) {
   Problems problems("file");
-  Json json = parse_json(text, problems);
+  Json document = parse_json(text, problems);
   problems.throw_if_any();
-  return json;
+  return document;
 }
 
 std::vector<std::string> problems_of_text(const std::string& text) {
@@ -70,11 +70,11 @@ TEST(JsonText, AWriterIsNeverGivenWhatIsNoNumber) {
 TEST(JsonText, LayoutDependsOnTheValuesOnly) {
   Json numbers = Json::array();
   for (int i = 0; i < 40; ++i) numbers.push_back(i + 0.25);
-  const Json json = {{"short", {1, 2, 3}},
-                     {"numbers", numbers},
-                     {"points", {{{"x", 1}}, {{"x", 2}}}},
-                     {"none", Json::array()}};
-  const std::string text = print_json(json);
+  const Json document = {{"short", {1, 2, 3}},
+                         {"numbers", numbers},
+                         {"points", {{{"x", 1}}, {{"x", 2}}}},
+                         {"none", Json::array()}};
+  const std::string text = print_json(document);
   EXPECT_EQ(print_json(parse(text)), text);
   std::size_t begin = 0;
   while (begin < text.size()) {

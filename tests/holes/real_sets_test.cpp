@@ -85,7 +85,7 @@ double tape_sigma_mm(double step_mm) { return std::sqrt((step_mm * step_mm + 0.2
 
 /// How well it is known how the tape was held: 101 mm were taken off in sets a and b, 40 mm in the
 /// others; half a millimetre is a hook's play, or a hole's edge taken for its middle.
-constexpr double kHookSigmaMm = 0.5;
+constexpr double kRealHookSigmaMm = 0.5;
 /// A hole's own error, with which these readings predict each other best (below).
 constexpr double kHoleSigmaMm = 0.7;
 
@@ -96,7 +96,7 @@ MeasuredHoles set_of(const Line& line) {
   set.machine = machine_of(line);
   // Set a was read to whole millimetres, the others to halves.
   set.tape.sigma_mm = tape_sigma_mm(set.name == "a" ? 1.0 : 0.5);
-  set.tape.hook_sigma_mm = kHookSigmaMm;
+  set.tape.hook_sigma_mm = kRealHookSigmaMm;
   set.hole_sigma_mm = kHoleSigmaMm;
   const bool nine = !line.at("dH0H5").empty();
   for (std::size_t i = 0; i < (nine ? 9u : 5u); ++i)

@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 json peer_cases() {
-  std::ifstream file(std::string(CHAINTRUE_FIXTURES) + "/accuracy/peer_splines.json");
+  std::ifstream file(CHAINTRUE_FIXTURES "/accuracy/peer_splines.json");
   return json::parse(file).at("cases");
 }
 

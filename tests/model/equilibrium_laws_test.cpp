@@ -14,7 +14,7 @@
 namespace chaintrue::model {
 namespace {
 
-constexpr std::uint64_t kSeed = 4711;
+constexpr std::uint64_t kLawSeed = 4711;
 
 class Random {
  public:
@@ -57,13 +57,13 @@ Extent irvine(long double h, long double v, long double s, long double w, long d
 
 TEST(Catenary, IsIrvinesInAFormWithoutCancellation) {
   if (!kHasLongFunctions) GTEST_SKIP() << "this library computes asinh of long doubles in double";
-  Random random(kSeed);
+  Random random(kLawSeed);
   for (int n = 0; n < 2000; ++n) {
     const double h = random.logarithmic(0.3, 3000.0), s = random.uniform(100.0, 4000.0);
     const double v = random.uniform(-5.0, 200.0);
     const ChainMaterial chain{random.logarithmic(1e-5, 1e-2), random.logarithmic(1e-8, 1e-4)};
     SCOPED_TRACE(testing::Message()
-                 << "seed " << kSeed << ": H " << h << " V " << v << " S " << s << " w "
+                 << "seed " << kLawSeed << ": H " << h << " V " << v << " S " << s << " w "
                  << chain.weight_n_per_mm << " c " << chain.compliance_per_n);
     const CatenaryExtent e = catenary_extent({h, v, s}, chain);
     const Extent exact = irvine(h, v, s, chain.weight_n_per_mm, chain.compliance_per_n);
@@ -77,12 +77,12 @@ TEST(Catenary, IsIrvinesInAFormWithoutCancellation) {
 
 TEST(Catenary, ArcAndChordOfTheInextensibleChain) {
   // sqrt(S^2 - y^2) = 2 a sinh(u / 2 a), a = H / w: the chord's relation of the common catenary.
-  Random random(kSeed + 1);
+  Random random(kLawSeed + 1);
   for (int n = 0; n < 1000; ++n) {
     const double h = random.logarithmic(1.0, 300.0), s = random.uniform(500.0, 3500.0);
     const double w = random.logarithmic(3e-4, 1e-2), a = h / w;
     const CatenaryExtent e = catenary_extent({h, random.uniform(-10.0, 150.0), s}, {w, 0.0});
-    SCOPED_TRACE(testing::Message() << "seed " << kSeed + 1 << " draw " << n);
+    SCOPED_TRACE(testing::Message() << "seed " << kLawSeed + 1 << " draw " << n);
     // Relative rounding of a square root of a difference: s / u of an ulp.
     EXPECT_NEAR(std::sqrt((s - e.y_mm) * (s + e.y_mm)),
                 2.0 * a * std::sinh(e.u_mm / (2.0 * a)),
@@ -91,12 +91,12 @@ TEST(Catenary, ArcAndChordOfTheInextensibleChain) {
 }
 
 TEST(Catenary, FlexibilityIsSymmetricPositiveDefiniteAndTheDerivative) {
-  Random random(kSeed + 2);
+  Random random(kLawSeed + 2);
   for (int n = 0; n < 500; ++n) {
     const double h = random.logarithmic(0.5, 500.0), s = random.uniform(100.0, 4000.0);
     const double v = random.uniform(-4.0, 150.0);
     const ChainMaterial chain{random.logarithmic(1e-4, 1e-2), random.logarithmic(1e-7, 1e-4)};
-    SCOPED_TRACE(testing::Message() << "seed " << kSeed + 2 << " draw " << n);
+    SCOPED_TRACE(testing::Message() << "seed " << kLawSeed + 2 << " draw " << n);
     const CatenaryExtent e = catenary_extent({h, v, s}, chain);
     EXPECT_GT(e.u_by_h, 0.0);
     EXPECT_GT(e.y_by_v, 0.0);
@@ -146,11 +146,11 @@ TEST(Pose, BalancesInIrvinesForm) {
     const auto kinematics = make_kinematics(m);
     const double sg = feed == Feed::over_top ? 1.0 : -1.0,
                  rho = std::get<Ring>(m.attachment).radius_mm;
-    Random random(kSeed + 3);
+    Random random(kLawSeed + 3);
     for (int n = 0; n < 200; ++n) {
       const BedPoint p = random.bed();
       SCOPED_TRACE(testing::Message()
-                   << "seed " << kSeed + 3 << " (" << p.x_mm << ", " << p.y_mm << ")");
+                   << "seed " << kLawSeed + 3 << " (" << p.x_mm << ", " << p.y_mm << ")");
       const Pose pose = kinematics->inverse(p).value();
       for (const Side side : kSides) {
         const ChainState& c = pose.chains[side];
@@ -216,11 +216,11 @@ TEST(Pose, EnergyIdentity) {
       }
       return seen;
     };
-    Random random(kSeed + 4);
+    Random random(kLawSeed + 4);
     for (int n = 0; n < 40; ++n) {
       const BedPoint p = random.bed();
       SCOPED_TRACE(testing::Message()
-                   << "seed " << kSeed + 4 << " (" << p.x_mm << ", " << p.y_mm << ")");
+                   << "seed " << kLawSeed + 4 << " (" << p.x_mm << ", " << p.y_mm << ")");
       const Pose pose = kinematics->inverse(p).value();
       const double left = pose.lengths.left_mm, right = pose.lengths.right_mm;
       const auto derivative = [&](auto&& of) {
@@ -251,11 +251,11 @@ TEST(Pose, WeightlessLimitIsTheStraightTangent) {
       light.chain_weight_n_per_mm *= share;
       light.chain_compliance_per_n = 0.0;
       const auto kinematics = make_kinematics(light);
-      Random random(kSeed + 5);
+      Random random(kLawSeed + 5);
       for (int n = 0; n < 60; ++n) {
         const BedPoint p = random.bed();
         SCOPED_TRACE(testing::Message()
-                     << "seed " << kSeed + 5 << " (" << p.x_mm << ", " << p.y_mm << ")");
+                     << "seed " << kLawSeed + 5 << " (" << p.x_mm << ", " << p.y_mm << ")");
         const ChainLengths a = kinematics->inverse(p)->lengths, b = wrap->inverse(p)->lengths;
         // Sag goes with the square of the weight, 4.9 mm at most for the whole chain; 5e-12 is
         // rounding.
@@ -272,11 +272,11 @@ TEST(Pose, SprocketWithoutRadiusIsThePoint) {
   point.sprocket_radius_mm = 0.0;
   EquilibriumParameters tiny = point;
   tiny.sprocket_radius_mm = 1e-7;
-  Random random(kSeed + 6);
+  Random random(kLawSeed + 6);
   for (int n = 0; n < 60; ++n) {
     const BedPoint p = random.bed();
     SCOPED_TRACE(testing::Message()
-                 << "seed " << kSeed + 6 << " (" << p.x_mm << ", " << p.y_mm << ")");
+                 << "seed " << kLawSeed + 6 << " (" << p.x_mm << ", " << p.y_mm << ")");
     const ChainLengths straight = make_kinematics(classic(), Model::straight)->inverse(p)->lengths;
     const ChainLengths wrap = make_kinematics(point, Model::wrap)->inverse(p)->lengths;
     EXPECT_NEAR(straight.left_mm, wrap.left_mm, 1e-12);  // rounding of one length
@@ -293,11 +293,11 @@ TEST(Pose, InextensibleChainsKnowNeitherGravityNorTilt) {
   const auto upright = make_kinematics(equilibrium_parameters(machine), Model::inextensible);
   machine.frame.tilt_from_vertical_deg = 40.0;
   const auto leaning = make_kinematics(equilibrium_parameters(machine), Model::inextensible);
-  Random random(kSeed + 7);
+  Random random(kLawSeed + 7);
   for (int n = 0; n < 60; ++n) {
     const BedPoint p = random.bed();
     SCOPED_TRACE(testing::Message()
-                 << "seed " << kSeed + 7 << " (" << p.x_mm << ", " << p.y_mm << ")");
+                 << "seed " << kLawSeed + 7 << " (" << p.x_mm << ", " << p.y_mm << ")");
     EXPECT_NEAR(upright->inverse(p)->lengths.left_mm,
                 leaning->inverse(p)->lengths.left_mm,
                 5e-12);  // rounding
@@ -311,11 +311,11 @@ TEST(Pose, UprightFrameHasNoThirdDimension) {
     machine.attachment = attachment;
     const auto plane = make_kinematics(equilibrium_parameters(machine), Model::elastic);
     const auto space = make_kinematics(equilibrium_parameters(machine), Model::elastic_3d);
-    Random random(kSeed + 8);
+    Random random(kLawSeed + 8);
     for (int n = 0; n < 60; ++n) {
       const BedPoint p = random.bed();
       SCOPED_TRACE(testing::Message()
-                   << "seed " << kSeed + 8 << " (" << p.x_mm << ", " << p.y_mm << ")");
+                   << "seed " << kLawSeed + 8 << " (" << p.x_mm << ", " << p.y_mm << ")");
       EXPECT_NEAR(plane->inverse(p)->lengths.left_mm,
                   space->inverse(p)->lengths.left_mm,
                   5e-12);  // rounding
@@ -326,11 +326,11 @@ TEST(Pose, UprightFrameHasNoThirdDimension) {
 
 TEST(Pose, HeavierChainsAreLongerAndSofterOnesShorter) {
   const auto kinematics = make_kinematics(classic());
-  Random random(kSeed + 9);
+  Random random(kLawSeed + 9);
   for (int n = 0; n < 200; ++n) {
     const BedPoint p = random.bed();
     SCOPED_TRACE(testing::Message()
-                 << "seed " << kSeed + 9 << " (" << p.x_mm << ", " << p.y_mm << ")");
+                 << "seed " << kLawSeed + 9 << " (" << p.x_mm << ", " << p.y_mm << ")");
     const Pose pose = kinematics->inverse(p).value();
     EXPECT_LT(kinematics->sensitivity(pose, Parameter::chain_compliance_per_n).maxCoeff(), 0.0);
   }

@@ -12,12 +12,12 @@ namespace {
 
 using generator::BeltRecipe;
 
-constexpr int kSets = 12;
+constexpr int kBeltSets = 12;
 
 template <class Right>
 int right_of(const BeltRecipe& recipe, std::uint64_t first_seed, Right right) {
   int good = 0;
-  for (int k = 0; k < kSets; ++k) {
+  for (int k = 0; k < kBeltSets; ++k) {
     const BeltsTrial trial = run_belts_trial(recipe, first_seed + static_cast<std::uint64_t>(k));
     if (right(trial)) {
       ++good;
@@ -35,14 +35,14 @@ TEST(SealedBelts, AStrongCauseIsNamedAlone) {
   EXPECT_GE(right_of({.effect = "", .least_strength = 12.0, .most_strength = 40.0},
                      901,
                      [](const BeltsTrial& t) { return t.exact; }),
-            kSets - 1);
+            kBeltSets - 1);
 }
 
 TEST(SealedBelts, WhereNothingIsHiddenNothingIsNamed) {
   // A name where noise does as much once in a thousand sessions: one of twelve is wrong in 1 run of 80.
   EXPECT_GE(
       right_of({.effect = "", .nothing = true}, 951, [](const BeltsTrial& t) { return !t.named; }),
-      kSets);
+      kBeltSets);
 }
 
 TEST(SealedBelts, WhatIsProposedPartsCausesThatAreLeftOpen) {
@@ -77,7 +77,7 @@ TEST(SealedBelts, BadReadingsAreFoundByPointAndBelt) {
   EXPECT_GE(right_of({.effect = "", .nothing = true, .bad_readings = 3},
                      1001,
                      [](const BeltsTrial& t) { return t.bad_found; }),
-            kSets - 1);
+            kBeltSets - 1);
 }
 
 }  // namespace

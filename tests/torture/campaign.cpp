@@ -290,7 +290,14 @@ void Campaign::resume_a_damaged_sweep() {
   std::sort(parts.begin(), parts.end());
   const fs::path& part = mutate_.one_of(parts);
   std::ofstream(part, std::ios::binary) << mutate_.damaged(content_of(part));
-  judge(what);
+  const Ended ended = command_.run(what.arguments);
+  count(what.kind, ended);
+  if (const std::string wrong = wrong_with(ended); !wrong.empty()) {
+    fail(what, wrong, ended);
+  } else if (ended.code == 0 && content_of(at("out") / "results.csv") != sweep_results_) {
+    fail(what, "other results than without the damage", ended);
+  }
+  clean();
 }
 
 void Campaign::kill_while_writing() {

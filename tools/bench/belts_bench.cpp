@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Four belts: anchors and causes from 100 and 1,000 places.
+// Four belts: anchors, their check and causes against the number of places.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
+#include <cstdint>
+
+#include "grid/belts/anchors_check.hpp"
 #include "grid/belts/belts_fit.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
@@ -22,26 +26,47 @@ grid::MeasuredBelts belts(int columns, int rows) {
   return grid::synthetic::simulate_belts(machine, machine, spec).value();
 }
 
-void fit_belts(benchmark::State& state, int columns, int rows) {
-  const grid::MeasuredBelts measured = belts(columns, rows);
+/// So many as a lattice has that is nearly square.
+grid::MeasuredBelts belts(std::int64_t count) {
+  const int rows = static_cast<int>(std::sqrt(static_cast<double>(count)));
+  return belts(static_cast<int>(count) / rows, rows);
+}
+
+void fit_belts(benchmark::State& state) {
+  const grid::MeasuredBelts measured = belts(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(grid::fit_belts(measured));
 }
-BENCHMARK_CAPTURE(fit_belts, 100_places, 10, 10)
-    ->Name("fit/belts/100_places")
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(fit_belts, 1000_places, 40, 25)
-    ->Name("fit/belts/1000_places")
+BENCHMARK(fit_belts)
+    ->Name("size/fit/belts")
+    ->Arg(100)
+    ->Arg(1000)
+    ->Arg(5000)
+    ->Arg(20000)
     ->Unit(benchmark::kMillisecond);
 
-void diagnose_belts(benchmark::State& state, int columns, int rows) {
-  const grid::MeasuredBelts measured = belts(columns, rows);
+void check_belts(benchmark::State& state) {
+  const grid::BeltsFit fit = grid::fit_belts(belts(100)).value();
+  const grid::MeasuredBelts measured = belts(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(grid::check_anchors(fit, measured));
+}
+BENCHMARK(check_belts)
+    ->Name("size/check/belts")
+    ->Arg(100)
+    ->Arg(1000)
+    ->Arg(5000)
+    ->Arg(20000)
+    ->Unit(benchmark::kMillisecond);
+
+void diagnose_belts(benchmark::State& state) {
+  const grid::MeasuredBelts measured = belts(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(grid::diagnosis::diagnose(measured));
 }
-BENCHMARK_CAPTURE(diagnose_belts, 100_places, 10, 10)
-    ->Name("diagnose/belts/100_places")
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(diagnose_belts, 1000_places, 40, 25)
-    ->Name("diagnose/belts/1000_places")
+BENCHMARK(diagnose_belts)
+    ->Name("size/diagnose/belts")
+    ->Arg(100)
+    ->Arg(300)
+    ->Arg(1000)
+    ->Arg(2000)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

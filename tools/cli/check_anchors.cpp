@@ -10,11 +10,10 @@
 #include "grid/files/belts_file.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/anchors_input.hpp"
+#include "tools/cli/belts_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -55,8 +54,7 @@ int check_the_anchors(const AnchorsCheckCommand& command) {
           "\"chaintrue_belts\": anchors are checked by what the machine has measured since; holes "
           "and belts together are fitted (chaintrue fit BELTS --with HOLES)"}});
   }
-  const files::ReadBelts read = files::parse_belts(text, file);
-  print_warnings(read.warnings);
+  const files::ReadBelts read = parse_belts_input(text, file, "a check");
   const auto check = grid::check_anchors(anchors.fit, read.belts);
   if (!check) {
     fmt::print(stderr, "{}: {}\n", file, check.error().sentence);

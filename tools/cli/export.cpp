@@ -17,7 +17,7 @@
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/settings_to_type.hpp"
-#include "tools/cli/anchors_input.hpp"
+#include "tools/cli/belts_input.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"

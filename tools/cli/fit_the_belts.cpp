@@ -12,6 +12,7 @@
 #include "grid/files/belts_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/belts_input.hpp"
 #include "tools/cli/belts_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
@@ -38,9 +39,7 @@ void read_belts_file(const BeltsFitCommand::File& file, BeltFiles& all) {
                               "one file of belts and any number of chaintrue_holes: anchors of two "
                               "sessions are two fits"}});
   }
-  files::ReadBelts read = files::parse_belts(file.text, file.name);
-  print_warnings(read.warnings);
-  all.belts = std::move(read.belts);
+  all.belts = parse_belts_input(file.text, file.name, "a fit").belts;
 }
 
 void read_holes_file(const BeltsFitCommand::File& file, const TapeInput& tape, BeltFiles& all) {

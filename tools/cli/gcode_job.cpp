@@ -20,7 +20,7 @@
 #include "grid/files/parse_double.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/belts/belt_controller.hpp"
-#include "tools/cli/anchors_input.hpp"
+#include "tools/cli/belts_input.hpp"
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/progress.hpp"

@@ -8,7 +8,7 @@
 #include "grid/files/belts_file.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/anchors_input.hpp"
+#include "tools/cli/belts_input.hpp"
 #include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {

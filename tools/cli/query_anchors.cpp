@@ -10,7 +10,7 @@
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/anchors_input.hpp"
+#include "tools/cli/belts_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"

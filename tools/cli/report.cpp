@@ -14,7 +14,7 @@
 #include "grid/files/file_type.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/anchors_input.hpp"
+#include "tools/cli/belts_input.hpp"
 #include "tools/cli/anchors_page.hpp"
 #include "tools/cli/certificate.hpp"
 #include "tools/cli/diagnosis_page.hpp"

@@ -11,7 +11,7 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_readings.hpp"
-#include "tools/cli/anchors_input.hpp"
+#include "tools/cli/belts_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
