@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -108,15 +109,19 @@ TEST_F(Limits, AFitOfTooManyPointsIsRefusedAtOnce) {
 
 TEST_F(Limits, BeltsOfTooManyPlacesAreRefusedAtOnce) {
   const std::string belts = fixture("belts/thirty_one_places.json");
-  const std::string text = content_of(belts);
-  const std::size_t begin = text.find('{', text.find("\"points\""));
-  const std::size_t end = text.rfind('}', text.find(']', begin)) + 1;
-  std::string many = text.substr(0, begin);
-  for (int i = 0; i < 20001; ++i)
-    many += fmt::format("{}{{\"tl_mm\": {}, \"tr_mm\": 2000, \"bl_mm\": 2000, \"br_mm\": 2000}}",
-                        i == 0 ? "" : ",\n",
-                        1800.0 + 0.01 * i);
-  write("many.json", many + text.substr(end));
+  auto many = nlohmann::json::parse(content_of(belts));
+  auto points = nlohmann::json::array();
+  for (int i = 0; i < 20001; ++i) {
+    const double x = 700.0 + 0.07 * i;
+    const double y = 500.0 + (i * 263) % 1000;
+    points.push_back({{"order", i},
+                      {"tl_mm", std::hypot(x, y - 2060.0)},
+                      {"tr_mm", std::hypot(x - 2925.0, y - 2060.0)},
+                      {"bl_mm", std::hypot(x, y)},
+                      {"br_mm", std::hypot(x - 2950.0, y)}});
+  }
+  many["points"] = points;
+  write("many.json", many.dump());
   const Outcome fit = timed("fit many.json -o a.json", kBeforeWork);
   EXPECT_EQ(fit.code, 3);
   EXPECT_THAT(fit.err, HasSubstr("20001 places are more than a fit takes (20000)"));
