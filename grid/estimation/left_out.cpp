@@ -76,16 +76,20 @@ Eigen::VectorXd LeftOut::residual_of(std::size_t unit) const {
   return response_of(unit) - rows_of(unit) * fit_.coefficients;
 }
 
+std::optional<interp::PenalisedFit> LeftOut::fit_without(const UnitGroup& group) const {
+  Eigen::VectorXd without = weights_;
+  for (const std::size_t unit : group) without[static_cast<Eigen::Index>(unit)] = 0.0;
+  auto rest = interp::fit_with_smoothing(problem_.weighted(without), fit_.lambda, fit_.sigma2);
+  return rest ? std::optional(*std::move(rest)) : std::nullopt;
+}
+
 LeftOut::Seen LeftOut::seen(std::size_t unit) const {
   const auto at = static_cast<Eigen::Index>(unit);
   const bool by_formula =
       weights_[at] == 0.0 ||
       interp::held_out_residual(residual_of(unit), weights_[at] * spread_of(unit), fit_.sigma2);
   if (!by_formula) {
-    Eigen::VectorXd without = weights_;
-    without[at] = 0.0;
-    if (const auto rest =
-            interp::fit_with_smoothing(problem_.weighted(without), fit_.lambda, fit_.sigma2)) {
+    if (const auto rest = fit_without({unit})) {
       const Eigen::MatrixXd rows = rows_of(unit);
       Seen seen{response_of(unit) - rows * rest->coefficients,
                 rows * rest->covariance * rows.transpose()};
@@ -132,6 +136,13 @@ std::vector<Eigen::VectorXd> LeftOut::residuals(const UnitGroup& group) const {
   }
   const auto held = interp::held_out_residual_by_root(
       residual, root.asDiagonal() * by_root_(rows, Eigen::all), fit_.sigma2);
+  if (!held) {
+    if (const auto rest = fit_without(group)) {
+      for (const std::size_t unit : group)
+        residuals.push_back(response_of(unit) - rows_of(unit) * rest->coefficients);
+      return residuals;
+    }
+  }
   Eigen::Index at = 0;
   for (const std::size_t unit : group) {
     const double weight = weights_[static_cast<Eigen::Index>(unit)];

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "grid/estimation/joint_problem.hpp"
@@ -49,6 +50,8 @@ class LeftOut {
 
  private:
   [[nodiscard]] Eigen::MatrixXd rows_of(std::size_t unit) const;
+  /// The fit of the rest, at the smoothing of the whole; empty where there is none.
+  [[nodiscard]] std::optional<interp::PenalisedFit> fit_without(const UnitGroup& group) const;
   /// X C X'.
   [[nodiscard]] Eigen::MatrixXd spread_of(std::size_t unit) const;
   [[nodiscard]] Eigen::VectorXd residual_of(std::size_t unit) const;

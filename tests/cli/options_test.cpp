@@ -28,6 +28,15 @@ class Options : public testing_support::CommandFixture {
     EXPECT_THAT(outcome.err, HasSubstr(words));
     EXPECT_EQ(outcome.out, "");
   }
+  /// Whatever reads changed.json, and `check`.
+  void expect_changed_is_refused(const std::string& check) const {
+    write("b.nc", "G21 G90\nG0 X0 Y0\nM2\n");
+    expect_refused("query changed.json 0 0", kHashFound);
+    expect_refused("report changed.json -o r.html", kHashFound);
+    expect_refused("gcode compensate b.nc --map changed.json -o t.nc", kHashFound);
+    expect_refused(check, kHashFound);
+  }
+  static constexpr const char* kHashFound = "/content_hash: found";
   static std::string fixture(const std::string& name) {
     return std::string(CHAINTRUE_FIXTURES) + "/" + name;
   }
@@ -194,21 +203,19 @@ TEST_F(Options, TwoByteOrderMarksBeforeACommentAreNoReasonToFall) {
   EXPECT_THAT(run("fit one.csv -o m.json").err, HasSubstr("found a header line only"));
 }
 
+/// The same file with another digit, the first after `place`.
+std::string with_another_digit(std::string text, const std::string& place) {
+  const std::size_t digit = text.find_first_of("123456789", text.find(place));
+  EXPECT_NE(digit, std::string::npos) << place;
+  text.at(digit) = text.at(digit) == '1' ? '2' : '1';
+  return text;
+}
+
 TEST_F(Options, AMapThatWasChangedIsRefused) {
   ASSERT_EQ(run("fit " + grid_ + " -o m.json").code, 0);
-  std::string text = content_of(folder_ / "m.json");
-  const std::size_t key = text.find("\"coefficients_left_mm\"");
-  const std::size_t digit = text.find_first_of("123456789", key);
-  ASSERT_NE(digit, std::string::npos);
-  std::string changed = text;
-  changed[digit] = changed[digit] == '1' ? '2' : '1';
-  write("changed.json", changed);
-  write("b.nc", "G21 G90\nG0 X0 Y0\nM2\n");
-  const char* words = "/content_hash: found";
-  expect_refused("query changed.json 0 0", words);
-  expect_refused("report changed.json -o r.html", words);
-  expect_refused("gcode compensate b.nc --map changed.json -o t.nc", words);
-  expect_refused("check changed.json " + fixture("grids/five_new_points.json"), words);
+  const std::string text = content_of(folder_ / "m.json");
+  write("changed.json", with_another_digit(text, "\"coefficients_left_mm\""));
+  expect_changed_is_refused("check changed.json " + fixture("grids/five_new_points.json"));
   // A comment and another layout change nothing of what it says.
   std::string commented = text;
   commented.insert(commented.find("\"name\""), "\"comment\": \"the shop's\",\n");
@@ -219,19 +226,10 @@ TEST_F(Options, AMapThatWasChangedIsRefused) {
 TEST_F(Options, AnchorsThatWereChangedAreRefused) {
   const std::string belts = fixture("belts/thirty_one_places.json");
   ASSERT_EQ(run("fit " + belts + " -o a.json").code, 0);
-  std::string changed = content_of(folder_ / "a.json");
-  const std::size_t digit = changed.find_first_of("123456789", changed.find("\"tr\""));
-  ASSERT_NE(digit, std::string::npos);
-  changed[digit] = changed[digit] == '1' ? '2' : '1';
-  write("changed.json", changed);
-  write("b.nc", "G21 G90\nG0 X0 Y0\nM2\n");
-  const char* words = "/content_hash: found";
-  expect_refused("query changed.json 0 0", words);
-  expect_refused("report changed.json -o r.html", words);
-  expect_refused("gcode compensate b.nc --map changed.json -o t.nc", words);
-  expect_refused("check changed.json " + belts, words);
-  expect_refused("export maslow4 changed.json", words);
-  expect_refused("simulate --belts changed.json --grid 3x3 -o s.json", words);
+  write("changed.json", with_another_digit(content_of(folder_ / "a.json"), "\"tr\""));
+  expect_changed_is_refused("check changed.json " + belts);
+  expect_refused("export maslow4 changed.json", kHashFound);
+  expect_refused("simulate --belts changed.json --grid 3x3 -o s.json", kHashFound);
 }
 
 /// A map of before maps carried a hash of their content.
