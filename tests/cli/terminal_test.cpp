@@ -9,10 +9,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <functional>
+#include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "tests/cli/command_fixture.hpp"
@@ -35,14 +38,41 @@ struct Seen {
   double quiet_s = 0.0;
 };
 
+/// Lets a process run a fifth of the time while the clock goes on, as a slower machine would: what
+/// is shown after a second must not depend on how fast the machine is.
+class Slowed {
+ public:
+  explicit Slowed(pid_t process)
+      : thread_([this, process] {
+          while (!over_) {
+            ::kill(process, SIGSTOP);
+            std::this_thread::sleep_for(std::chrono::milliseconds(40));
+            ::kill(process, SIGCONT);
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+          }
+        }) {}
+  ~Slowed() {
+    over_ = true;
+    thread_.join();
+  }
+  Slowed(const Slowed&) = delete;
+  Slowed& operator=(const Slowed&) = delete;
+
+ private:
+  std::atomic<bool> over_{false};
+  std::thread thread_;  // last: it uses the other
+};
+
+enum class Speed { whole, a_fifth };
+
 class Terminal : public testing_support::CommandFixture {
  protected:
   /// Runs the command in the folder; whenever something new was shown `reply` says what is typed.
   [[nodiscard]] Seen shown(
       const std::string& arguments,
-      const std::function<std::string(const std::string&)>& reply = [](const auto&) {
-        return std::string();
-      }) const {
+      const std::function<std::string(const std::string&)>& reply =
+          [](const auto&) { return std::string(); },
+      Speed speed = Speed::whole) const {
     int terminal = -1;
     const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
     if (child == 0) {
@@ -57,6 +87,8 @@ class Terminal : public testing_support::CommandFixture {
       return seen;
     }
     const Clock::time_point start = Clock::now();
+    std::optional<Slowed> slowed;
+    if (speed == Speed::a_fifth) slowed.emplace(child);
     char buffer[4096];
     // Linux ends a terminal whose last process has gone with an error of reading.
     for (ssize_t count = 0; (count = ::read(terminal, buffer, sizeof buffer)) > 0;) {
@@ -69,6 +101,7 @@ class Terminal : public testing_support::CommandFixture {
                   static_cast<ssize_t>(typed.size()));
       }
     }
+    slowed.reset();
     ::waitpid(child, &seen.status, 0);
     ::close(terminal);
     return seen;
@@ -106,7 +139,8 @@ constexpr int kManyPoints = 300;
 
 TEST_F(Terminal, ShowsThatWorkGoesOnAndForHowLong) {
   simulate(3000);
-  const Seen seen = shown("fit g.json -o m.json");
+  const Seen seen = shown(
+      "fit g.json -o m.json", [](const auto&) { return std::string(); }, Speed::a_fifth);
   ASSERT_TRUE(WIFEXITED(seen.status));
   EXPECT_EQ(WEXITSTATUS(seen.status), 0) << seen.text;
   EXPECT_GE(seen.quiet_s, 1.0) << "short work is not worth a word";
@@ -170,7 +204,7 @@ TEST_F(Terminal, ShowsHowFarACheckIsAndHowLongItWillTake) {
   simulate(300);
   ASSERT_EQ(run("fit g.json -o m.json").code, 0);
   simulate(20000);
-  const Seen seen = shown("check m.json g.json", stop_after("s left"));
+  const Seen seen = shown("check m.json g.json", stop_after("s left"), Speed::a_fifth);
   EXPECT_THAT(seen.text,
               ContainsRegex("check: [0-9]+ s, step 1 of 2, the map at the new points, [0-9]+ % "
                             "done, about [0-9]+ s left"));
