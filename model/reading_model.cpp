@@ -284,6 +284,22 @@ tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
   return tl::unexpected(PoseFailure::not_converged);
 }
 
+ChainLengths ReadingModel::added_at_visit(int order, const PerSide<double>& direction) const {
+  ChainLengths added;
+  for (const Side side : kSides) {
+    for (const ActingEffect& one : state_->acting) {
+      if (!acts_on(one.side, side)) continue;
+      if (one.effect->add_by_direction != nullptr) {
+        added[side] += one.effect->add_by_direction(direction[side], one.values) /
+                       (1.0 + state_->elongation[side]);
+      }
+      if (one.effect->misread != nullptr)
+        added[side] += one.effect->misread({order, state_->machine.sprocket.pitch_mm}, one.values);
+    }
+  }
+  return added;
+}
+
 /// The part of a session that remembers: the direction in which each chain last moved.
 class Session {
  public:

@@ -73,6 +73,9 @@ class ReadingModel {
   /// mm).
   [[nodiscard]] tl::expected<PointReading, PoseFailure> find(ChainLengths lengths,
                                                              BedPoint start) const;
+  /// What a visit adds to the reading of each chain wherever the tool is: drift, skips and, by the
+  /// `direction` in which each chain reached its length (+1 paid out, -1 taken in), hysteresis.
+  [[nodiscard]] ChainLengths added_at_visit(int order, const PerSide<double>& direction) const;
   [[nodiscard]] const Machine& machine() const;
 
  private:

@@ -45,4 +45,12 @@ struct ResolvedBeltEffect {
     const BeltVisit& visit,
     FramePoint place);
 
+/// The same with d(print)/d(place). What an effect adds is differentiated by a central difference
+/// over 1 mm of belt: exact to rounding for the effects of the table, which are linear in L.
+[[nodiscard]] tl::expected<BeltReading, BeltFailure> read_belt_with_slope(
+    const BeltMachine& machine,
+    const std::vector<ResolvedBeltEffect>& effects,
+    const BeltVisit& visit,
+    FramePoint place);
+
 }  // namespace chaintrue::model::belts

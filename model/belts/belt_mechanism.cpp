@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/belts/belt_mechanism.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace chaintrue::model {
+namespace {
+
+/// A coordinate of an anchor that the choice of the frame leaves free.
+struct Coordinate {
+  std::string_view name;
+  Belt belt;
+  double Anchor::*member;
+  Eigen::Index axis;
+};
+
+constexpr std::array kCoordinates = {
+    Coordinate{"tl_x_mm", Belt::tl, &Anchor::x_mm, 0},
+    Coordinate{"tl_y_mm", Belt::tl, &Anchor::y_mm, 1},
+    Coordinate{"tr_x_mm", Belt::tr, &Anchor::x_mm, 0},
+    Coordinate{"tr_y_mm", Belt::tr, &Anchor::y_mm, 1},
+    Coordinate{"br_x_mm", Belt::br, &Anchor::x_mm, 0},
+};
+
+constexpr std::array<std::string_view, 4> kLengths = {"tl", "tr", "bl", "br"};
+
+constexpr MechanismFailure kAnchorsNotKnown{"anchors_not_known",
+                                            "nobody has said where the anchors are"};
+
+std::vector<MechanismParameter> stated_parameters(const BeltMachine& machine,
+                                                  std::optional<double> sigma_mm) {
+  std::vector<MechanismParameter> parameters;
+  for (const Coordinate& own : kCoordinates) {
+    MechanismParameter parameter{own.name, "mm", std::nullopt, std::nullopt};
+    if (machine.anchors_known) {
+      parameter.stated = machine.anchors[own.belt].*own.member;
+      parameter.prior_sigma = sigma_mm;
+    }
+    parameters.push_back(parameter);
+  }
+  return parameters;
+}
+
+void require_sound(const BeltMachine& machine) {
+  const std::vector<MachineProblem> problems = problems_of(machine);
+  if (problems.empty()) return;
+  throw std::invalid_argument(fmt::format("{}: found {}, expected {}",
+                                          problems.front().parameter,
+                                          problems.front().value,
+                                          problems.front().expected));
+}
+
+}  // namespace
+
+std::string_view name(BeltFailure failure) {
+  switch (failure) {
+    case BeltFailure::inside_the_arm:
+      return "inside_the_arm";
+    case BeltFailure::shorter_than_height:
+      return "shorter_than_height";
+    case BeltFailure::circles_do_not_meet:
+      break;
+  }
+  return "circles_do_not_meet";
+}
+
+MechanismFailure mechanism_failure(BeltFailure failure) {
+  return {name(failure), explain(failure)};
+}
+
+std::shared_ptr<const BeltMechanism> make_belt_mechanism(const BeltMachine& machine,
+                                                         std::optional<double> anchor_sigma_mm) {
+  return std::make_shared<const BeltMechanism>(machine, anchor_sigma_mm);
+}
+
+BeltMechanism::BeltMechanism(const BeltMachine& machine, std::optional<double> anchor_sigma_mm)
+    : BeltMechanism(machine, stated_parameters(machine, anchor_sigma_mm), {}) {
+  require_sound(machine);
+}
+
+BeltMechanism::BeltMechanism(BeltMachine machine,
+                             std::vector<MechanismParameter> parameters,
+                             std::vector<AppliedEffect> applied)
+    : machine_(std::move(machine)),
+      parameters_(std::move(parameters)),
+      values_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kCoordinates.size()))),
+      applied_(std::move(applied)),
+      resolved_(belts::resolve_belt_effects(applied_)) {
+  for (std::size_t i = 0; machine_.anchors_known && i < kCoordinates.size(); ++i) {
+    const Coordinate& own = kCoordinates[i];
+    values_[static_cast<Eigen::Index>(i)] = machine_.anchors[own.belt].*own.member;
+  }
+}
+
+std::span<const std::string_view> BeltMechanism::lengths() const { return kLengths; }
+
+MechanismExtent BeltMechanism::extent() const {
+  const PerBelt<Anchor>& a = machine_.anchors;
+  const double reach = reach_mm(machine_);
+  return {std::max(a.tl.x_mm, a.bl.x_mm) + reach,
+          std::min(a.tr.x_mm, a.br.x_mm) - reach,
+          std::max(a.bl.y_mm, a.br.y_mm) + reach,
+          std::min(a.tl.y_mm, a.tr.y_mm) - reach};
+}
+
+std::shared_ptr<const Mechanism> BeltMechanism::with_values(const Eigen::VectorXd& values) const {
+  if (values.size() != values_.size() || !values.allFinite()) {
+    throw std::invalid_argument(fmt::format(
+        "{} values of {} anchor coordinates, or not finite", values.size(), values_.size()));
+  }
+  BeltMachine changed = machine_;
+  for (std::size_t i = 0; i < kCoordinates.size(); ++i)
+    changed.anchors[kCoordinates[i].belt].*kCoordinates[i].member =
+        values[static_cast<Eigen::Index>(i)];
+  changed.anchors_known = true;
+  return std::shared_ptr<const Mechanism>(
+      new BeltMechanism(std::move(changed), parameters_, applied_));
+}
+
+std::span<const effects::Effect* const> BeltMechanism::effects() const {
+  static const std::vector<const effects::Effect*> all = [] {
+    std::vector<const effects::Effect*> made;
+    for (const belts::BeltEffect* effect : belts::belt_effects())
+      made.push_back(&belts::described(*effect));
+    return made;
+  }();
+  return all;
+}
+
+std::vector<MachineProblem> BeltMechanism::problems_of_effects(
+    const std::vector<AppliedEffect>& applied) const {
+  std::vector<MachineProblem> problems = belts::problems_of(applied);
+  for (MachineProblem& problem : problems) problem.parameter = "/effects" + problem.parameter;
+  return problems;
+}
+
+std::shared_ptr<const Mechanism> BeltMechanism::with_effects(
+    const std::vector<AppliedEffect>& applied) const {
+  if (const auto problems = problems_of_effects(applied); !problems.empty()) {
+    throw std::invalid_argument(fmt::format("{}: found {}, expected {}",
+                                            problems.front().parameter,
+                                            problems.front().value,
+                                            problems.front().expected));
+  }
+  std::vector<AppliedEffect> all = applied_;
+  all.insert(all.end(), applied.begin(), applied.end());
+  return std::shared_ptr<const Mechanism>(new BeltMechanism(machine_, parameters_, std::move(all)));
+}
+
+tl::expected<LengthsPrediction, MechanismFailure> BeltMechanism::predict(
+    const ToolPosition& position, const MechanismVisit& visit, Derivatives wanted) const {
+  if (!machine_.anchors_known) return tl::unexpected(kAnchorsNotKnown);
+  LengthsPrediction result;
+  result.lengths_mm.resize(4);
+  result.by_position.resize(4, 2);
+  for (const Belt belt : kBelts) {
+    const auto row = static_cast<Eigen::Index>(belt);
+    const bool pulled = !visit.pulled.empty() && visit.pulled.at(static_cast<std::size_t>(row));
+    const auto reading = belts::read_belt_with_slope(
+        machine_, resolved_, {belt, pulled, visit.order}, {position.x_mm, position.y_mm});
+    if (!reading) return tl::unexpected(mechanism_failure(reading.error()));
+    result.lengths_mm[row] = reading->length_mm;
+    result.by_position.row(row) = reading->by_place;
+  }
+  const bool all = wanted == Derivatives::by_position_and_parameter;
+  result.by_parameter = Eigen::MatrixXd::Zero(4, all ? values_.size() : 0);
+  for (std::size_t i = 0; all && i < kCoordinates.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(kCoordinates[i].belt);
+    result.by_parameter(row, static_cast<Eigen::Index>(i)) =
+        -result.by_position(row, kCoordinates[i].axis);  // (1)
+  }
+  return result;
+}
+
+tl::expected<ToolPosition, MechanismFailure> BeltMechanism::locate(
+    const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const {
+  if (lengths_mm.size() != 4)
+    throw std::invalid_argument(fmt::format("{} lengths of four belts", lengths_mm.size()));
+  if (!machine_.anchors_known) return tl::unexpected(kAnchorsNotKnown);
+  const auto start = place_of_upper(machine_, lengths_mm[0], lengths_mm[1]);
+  if (!start) return tl::unexpected(mechanism_failure(start.error()));
+  return locate_by_newton(*this, lengths_mm, visit, {start->x_mm, start->y_mm});
+}
+
+}  // namespace chaintrue::model

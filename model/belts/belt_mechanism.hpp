@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Four belts as a Mechanism: belt_readings.hpp with the anchors' coordinates as parameters and the
+/// belts' effects. Positions are in the anchors' frame; lengths are tl, tr, bl, br.
+///
+/// A print depends on the place less the anchor, so that
+///
+///   d(length)/d(anchor) = -d(length)/d(place)                                               (1)
+///
+/// Without effects a print is that of belt_kinematics.hpp to rounding, 1e-12 mm.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "model/belts/belt_readings.hpp"
+#include "model/mechanism.hpp"
+
+namespace chaintrue::model {
+
+class BeltMechanism final : public Mechanism {
+ public:
+  /// `anchor_sigma_mm` is how well the stated anchors are known; absent, or with anchors that nobody
+  /// knows: nothing is known beforehand. \throws std::invalid_argument for a machine with problems.
+  explicit BeltMechanism(const BeltMachine& machine,
+                         std::optional<double> anchor_sigma_mm = std::nullopt);
+
+  [[nodiscard]] std::string_view kind() const override { return "belts"; }
+  [[nodiscard]] std::span<const std::string_view> lengths() const override;
+  [[nodiscard]] std::span<const MechanismParameter> parameters() const override {
+    return parameters_;
+  }
+  [[nodiscard]] const Eigen::VectorXd& values() const override { return values_; }
+  /// What is farther inside the anchors' rectangle than arm and extension are long.
+  [[nodiscard]] MechanismExtent extent() const override;
+  [[nodiscard]] std::shared_ptr<const Mechanism> with_values(
+      const Eigen::VectorXd& values) const override;
+  [[nodiscard]] std::span<const effects::Effect* const> effects() const override;
+  [[nodiscard]] std::vector<MachineProblem> problems_of_effects(
+      const std::vector<AppliedEffect>& applied) const override;
+  [[nodiscard]] std::shared_ptr<const Mechanism> with_effects(
+      const std::vector<AppliedEffect>& applied) const override;
+  /// Fails with anchors_not_known, and as belt_kinematics.hpp names it.
+  [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
+      const ToolPosition& position,
+      const MechanismVisit& visit,
+      Derivatives wanted = Derivatives::by_position_and_parameter) const override;
+  [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate(
+      const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const override;
+
+  /// The machine with its values.
+  [[nodiscard]] const BeltMachine& machine() const { return machine_; }
+  [[nodiscard]] const std::vector<belts::ResolvedBeltEffect>& resolved_effects() const {
+    return resolved_;
+  }
+
+ private:
+  BeltMechanism(BeltMachine machine,
+                std::vector<MechanismParameter> parameters,
+                std::vector<AppliedEffect> applied);
+
+  BeltMachine machine_;
+  std::vector<MechanismParameter> parameters_;
+  Eigen::VectorXd values_;
+  std::vector<AppliedEffect> applied_;
+  std::vector<belts::ResolvedBeltEffect> resolved_;
+};
+
+[[nodiscard]] std::shared_ptr<const BeltMechanism> make_belt_mechanism(
+    const BeltMachine& machine, std::optional<double> anchor_sigma_mm = std::nullopt);
+
+[[nodiscard]] std::string_view name(BeltFailure failure);
+[[nodiscard]] MechanismFailure mechanism_failure(BeltFailure failure);
+
+}  // namespace chaintrue::model

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Two chains as a Mechanism: ReadingModel (reading_model.hpp) with its settings as parameters and
+/// the catalogue's effects. Positions are in the bed's frame; lengths are left, right.
+///
+/// Derivatives are ReadingModel's: exact for the equilibrium, to 1e-9 of their size where an effect
+/// depends on a chain's angle or free length.
+#pragma once
+
+#include <memory>
+
+#include "model/mechanism.hpp"
+#include "model/reading_model.hpp"
+
+namespace chaintrue::model {
+
+class ChainMechanism final : public Mechanism {
+ public:
+  /// \throws std::invalid_argument as ReadingModel.
+  explicit ChainMechanism(const Machine& machine, Model model = Model::elastic);
+
+  [[nodiscard]] std::string_view kind() const override { return "chains"; }
+  [[nodiscard]] std::span<const std::string_view> lengths() const override;
+  [[nodiscard]] std::span<const MechanismParameter> parameters() const override {
+    return parameters_;
+  }
+  [[nodiscard]] const Eigen::VectorXd& values() const override { return values_; }
+  [[nodiscard]] MechanismExtent extent() const override;
+  [[nodiscard]] std::shared_ptr<const Mechanism> with_values(
+      const Eigen::VectorXd& values) const override;
+  [[nodiscard]] std::span<const effects::Effect* const> effects() const override;
+  [[nodiscard]] std::vector<MachineProblem> problems_of_effects(
+      const std::vector<AppliedEffect>& applied) const override;
+  [[nodiscard]] std::shared_ptr<const Mechanism> with_effects(
+      const std::vector<AppliedEffect>& applied) const override;
+  [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
+      const ToolPosition& position,
+      const MechanismVisit& visit,
+      Derivatives wanted = Derivatives::by_position_and_parameter) const override;
+  [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate(
+      const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const override;
+  [[nodiscard]] ToolPosition place_of_mark(const ToolPosition& written) const override;
+
+  /// The machine with its values and effects.
+  [[nodiscard]] const Machine& machine() const { return readings_.machine(); }
+  [[nodiscard]] const ReadingModel& readings() const { return readings_; }
+
+ private:
+  ChainMechanism(const Machine& machine, Model model, std::vector<MechanismParameter> parameters);
+
+  ReadingModel readings_;
+  Model model_;
+  MarkFrame frame_;
+  std::vector<MechanismParameter> parameters_;
+  Eigen::VectorXd values_;
+};
+
+[[nodiscard]] std::shared_ptr<const ChainMechanism> make_chain_mechanism(const Machine& machine);
+
+/// Named as a pose's failure is.
+[[nodiscard]] MechanismFailure mechanism_failure(PoseFailure failure);
+
+}  // namespace chaintrue::model

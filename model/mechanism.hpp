@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What hangs, as an interface: parameters with what is known of them beforehand, effects that may
+/// act, lengths for a position of the tool and the position for lengths.
+///
+/// Notation
+///   q       position of the tool in the mechanism's own frame                       2, mm
+///   v       visit: its number, how each length was reached, which were pulled
+///   theta   parameters                                                              p of them
+///   f       lengths as they are read                                                n of them, mm
+///
+///   f = f(q, v; theta, effects)                                                     (1)
+///
+/// A Mechanism has its values of theta and its effects; with_values() and with_effects() give
+/// another one. Every implementation is immutable and thread safe. What no mechanism may break is
+/// in tests/contracts/mechanism_contract_test.cpp.
+///
+/// \code
+///   const auto mechanism = make_chain_mechanism(machine);     // or make_belt_mechanism(belts)
+///   const auto at = mechanism->predict({100.0, -200.0}, {});
+///   if (!at) say(at.error().sentence);
+///   else use(at->lengths_mm, at->by_position, at->by_parameter);
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "model/effects/effect.hpp"
+#include "model/machine.hpp"
+
+namespace chaintrue::model {
+
+/// In the mechanism's own frame: the bed's for two chains, the anchors' for four belts.
+struct ToolPosition {
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+};
+
+/// A parameter that can be calibrated.
+struct MechanismParameter {
+  std::string_view name;         ///< ends in its unit; the word of files and messages
+  std::string_view unit;         ///< "mm"; empty for a number without a unit
+  std::optional<double> stated;  ///< empty: nobody has stated it
+  /// One sigma of what was stated; empty: nothing is known beforehand.
+  std::optional<double> prior_sigma;
+};
+
+/// How the tool came to a position. Vectors have an entry for each length, or none.
+struct MechanismVisit {
+  int order = 0;  ///< the visit's number
+  /// +1 where the length was paid out to get there, -1 where it was taken in; empty: paid out.
+  std::vector<double> direction = {};
+  /// Its motor pulled at the reading while others held; empty: none did.
+  std::vector<bool> pulled = {};
+};
+
+/// (1) and its derivatives. n lengths, p parameters.
+struct LengthsPrediction {
+  Eigen::VectorXd lengths_mm;
+  Eigen::MatrixX2d by_position;  ///< n x 2, mm per mm
+  /// n x p, mm per unit of the parameter; n x 0 where it was not asked for.
+  Eigen::MatrixXd by_parameter;
+};
+
+/// Why there are no lengths at a position, or no position for lengths. Both live as long as the
+/// program.
+struct MechanismFailure {
+  std::string_view name;      ///< stable, for programs: "outside_verticals"
+  std::string_view sentence;  ///< for a person
+};
+
+/// Positions that may be sampled: the bed, or the inside of a frame.
+struct MechanismExtent {
+  double x_min_mm = 0.0;
+  double x_max_mm = 0.0;
+  double y_min_mm = 0.0;
+  double y_max_mm = 0.0;
+  [[nodiscard]] ToolPosition centre() const {
+    return {0.5 * (x_min_mm + x_max_mm), 0.5 * (y_min_mm + y_max_mm)};
+  }
+};
+
+enum class Derivatives { by_position, by_position_and_parameter };
+
+class Mechanism {
+ public:
+  virtual ~Mechanism() = default;
+
+  /// One word for it: "chains", "belts".
+  [[nodiscard]] virtual std::string_view kind() const = 0;
+  /// Words for its lengths, in the order of every vector of lengths: left, right.
+  [[nodiscard]] virtual std::span<const std::string_view> lengths() const = 0;
+  [[nodiscard]] virtual std::span<const MechanismParameter> parameters() const = 0;
+  /// theta, in the order of parameters(); 0 where nothing is stated yet.
+  [[nodiscard]] virtual const Eigen::VectorXd& values() const = 0;
+  /// Positions at which predict() answers for a mechanism in order.
+  [[nodiscard]] virtual MechanismExtent extent() const = 0;
+
+  /// The same mechanism with other values of its parameters. What was stated of them stays.
+  /// \throws std::invalid_argument for values that are no machine, with the first reason.
+  [[nodiscard]] virtual std::shared_ptr<const Mechanism> with_values(
+      const Eigen::VectorXd& values) const = 0;
+
+  /// What may be wrong with it, in the order in which effects act.
+  [[nodiscard]] virtual std::span<const effects::Effect* const> effects() const = 0;
+  /// Why it cannot have these effects, each with its place ("/effects/0/side"); empty: it can.
+  [[nodiscard]] virtual std::vector<MachineProblem> problems_of_effects(
+      const std::vector<AppliedEffect>& applied) const = 0;
+  /// With these effects besides those that it has. \throws std::invalid_argument for effects with
+  /// problems.
+  [[nodiscard]] virtual std::shared_ptr<const Mechanism> with_effects(
+      const std::vector<AppliedEffect>& applied) const = 0;
+
+  /// (1). Derivatives are those of f at this visit.
+  [[nodiscard]] virtual tl::expected<LengthsPrediction, MechanismFailure> predict(
+      const ToolPosition& position,
+      const MechanismVisit& visit,
+      Derivatives wanted = Derivatives::by_position_and_parameter) const = 0;
+  /// Where the tool is when these lengths are read at a visit: the inverse of predict(), 1e-9 mm.
+  /// Of more than two lengths the position with the least sum of squares of what they miss.
+  [[nodiscard]] virtual tl::expected<ToolPosition, MechanismFailure> locate(
+      const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const = 0;
+  /// Where a mark truly is that bears these numbers: its effects of the paper taken out.
+  [[nodiscard]] virtual ToolPosition place_of_mark(const ToolPosition& written) const {
+    return written;
+  }
+};
+
+/// (1) at other values of the parameters.
+[[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(
+    const Mechanism& mechanism,
+    const ToolPosition& position,
+    const MechanismVisit& visit,
+    const Eigen::VectorXd& values);
+
+/// What an effect adds to the lengths at the mark with these numbers, mm: lengths with it less
+/// lengths without it.
+[[nodiscard]] tl::expected<Eigen::VectorXd, MechanismFailure> added_by(const Mechanism& mechanism,
+                                                                       const AppliedEffect& effect,
+                                                                       const ToolPosition& mark,
+                                                                       const MechanismVisit& visit);
+
+/// locate() of a mechanism that has no closed form: Gauss and Newton from `start`, halving steps
+/// that leave the domain. Fails with "not_converged" after 50 steps.
+[[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate_by_newton(
+    const Mechanism& mechanism,
+    const Eigen::VectorXd& lengths_mm,
+    const MechanismVisit& visit,
+    const ToolPosition& start);
+
+}  // namespace chaintrue::model
