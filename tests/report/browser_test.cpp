@@ -21,7 +21,7 @@ class InBrowser : public ::testing::Test {
   void SetUp() override {
     if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
   }
-  const std::string html_ = render(page_of(sample_report()));
+  const std::string html_ = render_html(page_of(sample_report()));
 };
 
 std::string with(std::string text, std::string_view from, std::string_view to) {
@@ -135,7 +135,7 @@ TEST_F(InBrowser, AnEmptyChartIsFound) {
   MapReport report = sample_report();
   report.error_map->cells.clear();
   report.points.clear();
-  EXPECT_THAT(problems_of(visit(render(page_of(report)))),
+  EXPECT_THAT(problems_of(visit(render_html(page_of(report)))),
               Contains(HasSubstr("error_map is empty: ")));
 }
 

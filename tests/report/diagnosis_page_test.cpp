@@ -74,12 +74,13 @@ TEST_F(DiagnosisPage, BeginsWithTheAnswer) {
 
 TEST_F(DiagnosisPage, HoldsTheNumbersOfTheFile) {
   const std::string html = page_of(sample_diagnosis());
-  for (const char* text : {"chain pitch error, left (order assumed)",
-                           "or tape scale, both",
+  for (const char* text : {" error, left: ",
+                           ", the visiting order being assumed)",
+                           "can tell it from tape scale, both: ",
                            "as delivered, sheet placed",
                            "3.42 to 4.38",
-                           "7 of 8 named the same",
-                           "On other points: a day later (60)",
+                           "named in 7 of 8 folds",
+                           "Error of the tool on &quot;a day later&quot;, 60 points that had no part in this, mm",
                            "the points bear no order",
                            "point 10",
                            "(63.5 mm)",
@@ -166,7 +167,7 @@ TEST_F(DiagnosisPage, OfHolesDrawsDistances) {
   for (const char* text : {"What it does to the distances",
                            "What these distances can tell apart",
                            "Bad distances",
-                           "9 of 9 named the same",
+                           "named in 9 of 9 folds",
                            "A new hole at (0, -500), measured to A, C."})
     EXPECT_THAT(html, HasSubstr(text));
   EXPECT_THAT(html, Not(HasSubstr("Folded at one sprocket turn")));

@@ -2,7 +2,7 @@
 /// \file
 /// What a page promises without a browser: same input same bytes, no network, escaped text, sound
 /// numbers only.
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,14 +24,14 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-Page page_with_table(std::vector<std::string> cells) {
-  Page page{.title = "t"};
+Document page_with_table(std::vector<Cell> cells) {
+  Document page{.title = "t"};
   page.sections.push_back({"s", {Table{{{"a"}, {"b", true}}, {{std::move(cells), false}}, ""}}});
   return page;
 }
 
-Page page_with_value(double value) {
-  Page page{.title = "t"};
+Document page_with_value(double value) {
+  Document page{.title = "t"};
   page.sections.push_back(
       {"s", {Chart{.specification = "error_steps", .data = {{"steps", {"rms_mm"}, {{value}}}}}}});
   return page;
@@ -48,11 +48,11 @@ std::string message_of(Call call) {
 }
 
 TEST(Page, SameInputGivesTheSameBytes) {
-  EXPECT_EQ(render(page_of(sample_report())), render(page_of(sample_report())));
+  EXPECT_EQ(render_html(page_of(sample_report())), render_html(page_of(sample_report())));
 }
 
 TEST(Page, AsksForNothingFromTheNetwork) {
-  std::string html = render(page_of(sample_report()));
+  std::string html = render_html(page_of(sample_report()));
   // The embedded programs are looked at in the browser test, which has no network.
   html.resize(html.find("<script"));
   for (const char* const loader :
@@ -65,7 +65,7 @@ TEST(Page, TextCannotBecomeMarkup) {
   MapReport report = sample_report();
   report.name = "<b>&\"grid\"";
   report.points[0].name = "</script><script>alert(1)</script>";
-  const std::string html = render(page_of(report));
+  const std::string html = render_html(page_of(report));
   EXPECT_THAT(html, HasSubstr("&lt;b&gt;&amp;&quot;grid&quot;"));
   EXPECT_THAT(html, Not(HasSubstr("<script>alert(1)")));
   EXPECT_THAT(html, HasSubstr("\\u003c/script>"));
@@ -78,14 +78,14 @@ TEST(Page, BytesThatAreNoTextAreReplaced) {
   for (const std::string& bytes : bad) {
     MapReport report = sample_report();
     report.name = "a" + bytes + "b";
-    const std::string html = render(page_of(report));
+    const std::string html = render_html(page_of(report));
     EXPECT_EQ(html.find(bytes + "b"), std::string::npos);
     EXPECT_THAT(html, HasSubstr("\xEF\xBF\xBD"));
     EXPECT_NO_THROW((void)nlohmann::json(html).dump()) << "strict UTF-8";
   }
   MapReport report = sample_report();
   report.name = "Säge \xE2\x82\xAC \xF0\x9F\x94\xA9";
-  EXPECT_THAT(render(page_of(report)), HasSubstr(report.name));
+  EXPECT_THAT(render_html(page_of(report)), HasSubstr(report.name));
 }
 
 TEST(Page, EmbeddedScriptsCannotEndTheirElement) {
@@ -136,7 +136,7 @@ std::set<std::string> missing_fields(const nlohmann::json& spec, const Chart& ch
   return fields;
 }
 
-std::vector<Chart> charts_of(const Page& page) {
+std::vector<Chart> charts_of(const Document& page) {
   std::vector<Chart> charts;
   for (const Section& section : page.sections) {
     for (const Block& block : section.blocks) {
@@ -164,14 +164,14 @@ TEST(Page, EveryFieldThatAChartReadsIsGiven) {
 }
 
 TEST(Page, CarriesTheNoticesOfWhatItEmbeds) {
-  const std::string html = render(page_of(sample_report()));
+  const std::string html = render_html(page_of(sample_report()));
   EXPECT_THAT(html, HasSubstr("UW Interactive Data Lab"));
   EXPECT_THAT(html,
               HasSubstr("THIS SOFTWARE IS PROVIDED BY THE COPYRIGHT HOLDERS AND CONTRIBUTORS"));
 }
 
 TEST(Page, AFlaggedSettingStandsOut) {
-  const std::string html = render(page_of(sample_report()));
+  const std::string html = render_html(page_of(sample_report()));
   EXPECT_THAT(html,
               HasSubstr("<tr class=\"flagged\"><td data-heading=\"setting\">right motor, y</td>"));
   EXPECT_THAT(html,
@@ -180,30 +180,30 @@ TEST(Page, AFlaggedSettingStandsOut) {
 }
 
 TEST(Page, WithoutChartsThereIsNoScript) {
-  const std::string html = render(page_with_table({"1", "2"}));
+  const std::string html = render_html(page_with_table({"1", "2"}));
   EXPECT_THAT(html, Not(HasSubstr("<script")));
 }
 
 TEST(Page, RefusesNumbersThatAreNone) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THAT(message_of([bad] { (void)render(page_with_value(bad)); }), HasSubstr("rms_mm is"));
+    EXPECT_THAT(message_of([bad] { (void)render_html(page_with_value(bad)); }), HasSubstr("rms_mm is"));
   }
 }
 
 TEST(Page, RefusesRowsOfTheWrongLength) {
-  EXPECT_EQ(message_of([] { (void)render(page_with_table({"1"})); }),
-            "a table row has 1 cells for 2 columns");
-  Page page = page_with_value(1.0);
+  EXPECT_EQ(message_of([] { (void)render_html(page_with_table({"1", "2", "3"})); }),
+            "a table row has 3 cells for 2 columns");
+  Document page = page_with_value(1.0);
   std::get<Chart>(page.sections[0].blocks[0]).data[0].rows[0].clear();
-  EXPECT_EQ(message_of([&page] { (void)render(page); }),
+  EXPECT_EQ(message_of([&page] { (void)render_html(page); }),
             "data table \"steps\": a row has 0 values for 1 fields");
 }
 
 TEST(Page, RefusesAChartThatDoesNotExist) {
-  Page page = page_with_value(1.0);
+  Document page = page_with_value(1.0);
   std::get<Chart>(page.sections[0].blocks[0]).specification = "pie";
-  EXPECT_EQ(message_of([&page] { (void)render(page); }),
+  EXPECT_EQ(message_of([&page] { (void)render_html(page); }),
             "no chart named \"pie\" is embedded in the report library");
 }
 

@@ -7,7 +7,6 @@
 
 #include "tools/cli/belts_frame_chart.hpp"
 #include "tools/cli/diagnosis_words.hpp"
-#include "tools/report/glossary.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -97,12 +96,12 @@ Section foretold_section(const grid::BeltsFit& fit) {
 }
 
 /// Verdict, figures, lights and advice.
-void say(const grid::BeltsFit& fit, report::Page& page) {
+void say(const grid::BeltsFit& fit, report::Document& page) {
   double worst = 0.0;
   for (const auto& c : fit.coordinates) worst = std::max(worst, c.sigma_mm);
-  page.verdict = fmt::format("The anchors are known to {:.2g} mm at worst.", worst);
+  page.verdict.text = fmt::format("The anchors are known to {:.2g} mm at worst.", worst);
   if (!fit.places.empty()) {
-    page.verdict += fmt::format(" One belt's reading is off by {:.2f} mm.", fit.spread_mm);
+    page.verdict.text += fmt::format(" One belt's reading is off by {:.2f} mm.", fit.spread_mm);
     page.figures = {{fmt::format("{:.2f} mm", fit.spread_mm), "one belt is off by"},
                     {fmt::format("{:.2f} mm", fit.rms_mm), "rms as the machine counts"}};
   }
@@ -115,24 +114,24 @@ void say(const grid::BeltsFit& fit, report::Page& page) {
         {fmt::format("{:.5f} \u00b1 {:.5f}", fit.scale->factor, fit.scale->sigma),
          "scale: true over what belts say"});
   } else {
-    page.advice.emplace_back(
+    page.advice.push_back({
         "Tape one long distance: no belt knows how large the frame is. "
-        "chaintrue fit says which tells most.");
+        "chaintrue fit says which tells most."});
   }
 }
 
 }  // namespace
 
-report::Page anchors_page(const grid::BeltsFit& fit,
+report::Document anchors_page(const grid::BeltsFit& fit,
                           const grid::HolesBesideBelts* holes,
                           std::string_view name,
                           std::string_view source) {
-  report::Page page;
+  report::Document page;
   page.title = fmt::format("Anchors: {}", name.empty() ? source : name);
   page.subtitle = fmt::format("{}, {} places", fit.machine.name, fit.places.size());
   say(fit, page);
   if (!fit.places.empty()) {
-    page.advice.emplace_back("Ask why what is left is left: chaintrue diagnose of the same belts.");
+    page.advice.push_back({"Ask why what is left is left: chaintrue diagnose of the same belts."});
     Chart chart = frame_chart(findings_of(fit), "Anchors as fitted", &BeltPlacePicture::before_mm);
     chart.caption = kFrameCaption;
     page.sections.push_back({"The frame, and what its belts disagree about", {std::move(chart)}});
@@ -140,7 +139,7 @@ report::Page anchors_page(const grid::BeltsFit& fit,
   page.sections.push_back(fitted_anchors_section(fit));
   if (fit.one_left_out.readings > 0) page.sections.push_back(foretold_section(fit));
   if (holes != nullptr) page.sections.push_back(taped_section(*holes));
-  page.sections.push_back(report::glossary());
+  page.has_glossary = true;
   page.provenance = fmt::format("Made from {} by chaintrue {}.", source, CHAINTRUE_VERSION);
   return page;
 }

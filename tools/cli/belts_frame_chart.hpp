@@ -7,13 +7,21 @@
 #include <string>
 
 #include "grid/diagnosis/belts_findings.hpp"
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 inline constexpr const char* kFrameCaption =
     "A stroke lies along its belt, in that anchor's colour: towards the anchor where the belt reads "
     "long, away from it where it reads short. Circled: set aside.";
+
+inline constexpr const char* kAnchorsCaption =
+    "From the bottom left anchor, x to the bottom right one: tl is the top left anchor. Sigma: one "
+    "standard deviation.";
+/// "tl x" of tl_x_mm
+[[nodiscard]] inline std::string coordinate_title(const std::string& name) {
+  return name.substr(0, 2) + " " + name.substr(3, 1);
+}
 
 /// Strokes of one and the same findings have one scale, whichever is drawn.
 [[nodiscard]] report::Chart frame_chart(

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A fit of four belts, and what a diagnosis makes of them, in words and numbers.
+/// A fit of four belts in words and numbers.
 #pragma once
 
 #include <string>
 
 #include "grid/belts/belts_fit.hpp"
 #include "grid/belts/belts_and_holes.hpp"
-#include "grid/diagnosis/diagnosis.hpp"
 
 namespace chaintrue::cli {
 
@@ -20,10 +19,5 @@ namespace chaintrue::cli {
 [[nodiscard]] std::string taped_in_a_table(const grid::HolesBesideBelts& holes);
 /// Each place with what its belts are off by.
 [[nodiscard]] std::string places_in_a_table(const grid::BeltsFit& fit);
-
-/// Anchors before and with the causes, what the lower belts were foretold to be, and the tool.
-[[nodiscard]] std::string diagnosed_belts_in_words(const grid::diagnosis::BeltsFindings& found);
-/// "the top left belt at point 17: read 80.2 mm too long (31.0 sigmas)"
-[[nodiscard]] std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad);
 
 }  // namespace chaintrue::cli

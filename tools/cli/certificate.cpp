@@ -12,6 +12,7 @@
 #include "model/calibration/setting.hpp"
 #include "tools/cli/map_report.hpp"
 #include "tools/cli/map_words.hpp"
+#include "tools/cli/settings_table.hpp"
 #include "tools/report/map_report.hpp"
 
 namespace chaintrue::cli {
@@ -116,17 +117,17 @@ report::Section remaining_section(const MapContents& contents) {
 
 }  // namespace
 
-report::Page certificate(const grid::CompensationMap& map, std::string_view source) {
+report::Document certificate(const grid::CompensationMap& map, std::string_view source) {
   const MapContents& contents = map.contents();
   const report::MapReport full = map_report(map, source);
   const grid::ErrorSummary& expected = contents.accuracy.expected_tool;
-  report::Page page;
+  report::Document page;
   page.title = "Certificate: " + (contents.name.empty() ? std::string("map") : contents.name);
   page.subtitle = map.machine() != nullptr ? map.machine()->name : "no machine model";
-  page.verdict = fmt::format(
+  page.verdict = {fmt::format(
       "Expect the tool within {:.2f} mm of where it should be, 95 times in 100, over the measured "
       "part of the bed.",
-      k95PerCent * expected.rms_mm);
+      k95PerCent * expected.rms_mm)};
   page.tone = full.tone;
   page.is_one_sheet = true;
   page.figures = {
@@ -136,9 +137,9 @@ report::Page certificate(const grid::CompensationMap& map, std::string_view sour
        fmt::format("at the weakest place, ({:.0f}, {:.0f})",
                    contents.accuracy.expected_worst_at.x_mm,
                    contents.accuracy.expected_worst_at.y_mm)}};
-  page.not_proved =
+  page.not_proved = {
       "These figures hold for the machine as it was when it was measured, and end when a motor, a "
-      "chain or the sheet is moved.";
+      "chain or the sheet is moved."};
   report::Chart chart = report::error_map_chart(full);
   chart.caption = "One sigma at the tool.";
   report::Section error_section{"Where to expect which error", {}};

@@ -22,7 +22,7 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/map/corrected_data.hpp"
 #include "tools/cli/assumed_order.hpp"
-#include "tools/cli/diagnosis_page.hpp"
+#include "tools/cli/diagnosis_document.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
@@ -313,7 +313,8 @@ int run_diagnose(DiagnoseCommand command) {
     if (!path.empty()) outputs.push_back({path, text()});
   };
   add(command.output, [&] { return file; });
-  add(command.report, [&] { return report::render(diagnosis_page(*found, source)); });
+  const report::Document document = diagnosis_document(*found, source);
+  add(command.report, [&] { return report::render_html(document); });
   add(command.extended_machine, [&] { return extended_machine_text(*found, source); });
   add(command.corrected_grid, [&] {
     return corrected_grid_text(*found, *input.first_grid(), !command.assume_order.empty());
@@ -324,7 +325,7 @@ int run_diagnose(DiagnoseCommand command) {
   if (command.json && !is_stdout_taken) {
     fmt::print("{}", file);
   } else {
-    fmt::print(is_stdout_taken ? stderr : stdout, "{}", diagnosis_in_words(*found));
+    fmt::print(is_stdout_taken ? stderr : stdout, "{}", report::render_text(document));
   }
   if (!command.report.empty() && command.report != "-")
     fmt::print(stderr, "The report is {}: open it in any browser.\n", command.report);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/diagnosis_gain.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/report/bed_chart.hpp"
 

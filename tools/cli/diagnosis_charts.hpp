@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 

@@ -3,21 +3,71 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "grid/diagnosis/trend.hpp"
+#include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
-#include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {
 namespace {
 
+using grid::diagnosis::BudgetLine;
 using grid::diagnosis::Cause;
 using grid::diagnosis::Diagnosis;
 using grid::diagnosis::Verdict;
+using report::Column;
+using report::Item;
+using report::List;
 using report::Paragraph;
 using report::Section;
 using report::Table;
 
-std::string cause_and_remedy(const model::effects::Effect& effect) {
-  return typeset(fmt::format("{}. What to do: {}.", effect.cause, effect.remedy));
+/// Hypotheses that are hardly possible fill no line.
+constexpr double kWorthALine = 0.001;
+
+std::string what_words(const BudgetLine& line) {
+  switch (line.what) {
+    case BudgetLine::What::settings:
+      return "settings, and where the sheet lay";
+    case BudgetLine::What::cause:
+      return cause_title(*line.cause);
+    case BudgetLine::What::unexplained:
+      return "a pattern that no listed cause makes";
+    case BudgetLine::What::noise:
+      return "noise of the readings";
+    case BudgetLine::What::inseparable:
+      break;
+  }
+  return "in common, cannot be split";
+}
+
+std::string changes_words(const BudgetLine& line) {
+  switch (line.changes_with) {
+    case BudgetLine::ChangesWith::place:
+      return "the place";
+    case BudgetLine::ChangesWith::order:
+      return "the order of the visits";
+    case BudgetLine::ChangesWith::direction:
+      return "the direction of the move";
+    case BudgetLine::ChangesWith::nothing:
+      break;
+  }
+  return "";
+}
+
+std::string budget_words(const Diagnosis& found) {
+  const bool of_distances = is_of_distances(found);
+  return fmt::format(
+      "As delivered the {} {:.2f} mm rms at these {}. The shares are of its square and add up; what "
+      "two parts have in common at these {} belongs to neither.{}",
+      of_distances ? "distances erred by" : "tool erred by",
+      found.budget->as_delivered_mm,
+      name(found.observations),
+      name(found.observations),
+      of_distances ? ""
+                   : " The last column is how much a part of 100 mm comes out wrong in the worst "
+                     "corner.");
 }
 
 /// What became of a term, in one word.
@@ -32,73 +82,88 @@ std::string fate_of(const Diagnosis& found, const grid::diagnosis::Term& term) {
   return "not named";
 }
 
-std::string_view where_it_goes(const Diagnosis& found) {
-  switch (found.observations) {
-    case grid::diagnosis::Observations::points:
-      return "Points go into the grid's file, readings into its \"readings\"";
-    case grid::diagnosis::Observations::distances:
-      return "Holes and distances go into the holes' file, readings into its \"readings\"";
-    case grid::diagnosis::Observations::belts:
-      return "Points and distances go into the belts' file";
-    case grid::diagnosis::Observations::both:
-      break;
-  }
-  return "Points go into the grid's file, holes and distances into the holes' file, readings into "
-         "the \"readings\" of either";
-}
-
 }  // namespace
 
-Section next_in_a_table(const Diagnosis& found) {
-  Section section{"What to measure next", {}};
-  Table table{
-      {{"no.", true}, {"what"}, {fmt::format("{} then", what_stands_alone(found)), true}}, {}, ""};
-  const std::vector<std::string> sentences = follow_ups_in_words(found);
-  for (std::size_t i = 0; i < found.next_measurements.size(); ++i) {
-    table.rows.push_back({{fmt::format("{}", i + 1),
-                           sentences[i],
-                           chance_in_a_cell(found, i)},
-                          false});
+Section budget_section(const Diagnosis& found) {
+  Table table{.columns = {{.page_heading = "part", .width = 38},
+                          {.heading = "rms, mm", .is_number = true, .width = 8},
+                          {.heading = "share", .is_number = true, .width = 7},
+                          {.heading = "part of 100 mm",
+                           .is_number = true,
+                           .page_heading = "a part of 100 mm, mm",
+                           .width = 16},
+                          {.heading = "changes with", .gap = 3}}};
+  for (const BudgetLine& line : found.budget->lines) {
+    const bool is_a_part = line.what != BudgetLine::What::inseparable;
+    table.rows.push_back(
+        {{what_words(line),
+          is_a_part ? std::optional(std::sqrt(line.mean_square_mm2)) : std::nullopt,
+          fmt::format("{:.0f} %", 100.0 * line.share + 0.0),
+          line.part_mm,
+          changes_words(line)}});
   }
-  table.caption = fmt::format(
-      "In this order; the probability is that of all up to this one done. {}; chaintrue plan {} "
-      "--after prints the lines.",
-      where_it_goes(found),
-      files_in_words(found));
-  section.blocks.emplace_back(std::move(table));
+  return {"What the error is made of", {std::move(table), Paragraph{budget_words(found)}}};
+}
+
+Section trend_section(const Diagnosis& found) {
+  Section section{fmt::format("What changed since {}", found.trend->since), {}};
+  const auto say = [&section](std::string text) {
+    section.blocks.emplace_back(Paragraph{std::move(text)});
+  };
+  for (const auto& change : found.trend->changes) {
+    say(capitalised(grid::diagnosis::change_in_words(change)) + ".");
+  }
+  if (found.trend->changes.empty()) say("Neither diagnosis names a cause that both could test.");
+  if (found.trend->as_delivered_before_mm && found.trend->as_delivered_mm) {
+    say(fmt::format("The error as delivered is {:.2f} mm rms, before {:.2f} mm.",
+                    *found.trend->as_delivered_mm,
+                    *found.trend->as_delivered_before_mm));
+  }
   return section;
 }
 
 Section causes_section(const Diagnosis& found) {
-  Table table{{{"cause"}, {"size"}, {"probability", true}, {"what it is"}}, {}, ""};
+  List list;
   for (const Cause& cause : found.causes) {
-    table.rows.push_back(
-        {{cause_title(cause.cause) + (cause.order_assumed ? " (order assumed)" : ""),
-          typeset(sizes_in_words(cause.cause, cause.parameters)),
-          percent(cause.probability),
-          cause_and_remedy(*cause.cause.effect)},
-         false});
+    Item& item = list.items.emplace_back(
+        Item{fmt::format("{}: {}  (probability {}{})",
+                         cause_title(cause.cause),
+                         sizes_in_words(cause.cause, cause.parameters),
+                         percent(cause.probability),
+                         cause.order_assumed ? ", the visiting order being assumed" : "")});
+    item.items = {{std::string(cause.cause.effect->cause)},
+                  {fmt::format("remedy: {}", cause.cause.effect->remedy)}};
     for (const auto& same : cause.same_as) {
-      table.rows.push_back({{"or " + cause_title(same.cause),
-                             typeset(sizes_in_words(same.cause, same.parameters)),
-                             "the same",
-                             cause_and_remedy(*same.cause.effect)},
-                            false});
-      table.caption =
-          fmt::format("No {} of this kind tell the causes marked \"or\" from the one above them.",
-                      name(found.observations));
+      item.items.push_back({fmt::format("no {} can tell it from {}: {}",
+                                        name(found.observations),
+                                        cause_title(same.cause),
+                                        sizes_in_words(same.cause, same.parameters)),
+                            {{fmt::format("remedy: {}", same.cause.effect->remedy)}}});
     }
   }
-  return {found.verdict == Verdict::named_set ? "One of these"
-          : found.causes.size() > 1           ? "The causes"
-                                              : "The cause",
-          {std::move(table)}};
+  return {found.verdict == Verdict::named_set ? "One of these causes"
+          : found.causes.size() > 1           ? "Causes"
+                                              : "Cause",
+          {std::move(list)}};
+}
+
+Section probabilities_section(const Diagnosis& found) {
+  Table table{.columns = {{.is_number = true, .width = 13}, {.gap = 2}}};
+  for (const auto& hypothesis : found.hypotheses) {
+    if (hypothesis.probability < kWorthALine) continue;
+    table.rows.push_back({{percent(hypothesis.probability), hypothesis_title(hypothesis)}});
+  }
+  report::Chart chart = probability_chart(found);
+  chart.alternative = std::move(table);
+  Section section{"Probabilities, each for itself: causes can act together", {std::move(chart)}};
+  if (!found.belts) section.blocks.emplace_back(Paragraph{left_over_sentence(found.left_over)});
+  return section;
 }
 
 Section terms_section(const Diagnosis& found) {
   Table table{{{"cause"},
                {"size, were it alone"},
-               {"strength", true},
+               {"strength", true, 1},
                {"share left", true},
                {"chance of noise", true},
                {"probability", true},
@@ -109,8 +174,8 @@ Section terms_section(const Diagnosis& found) {
   for (const auto& term : found.terms) {
     const std::string fate = fate_of(found, term);
     table.rows.push_back({{cause_title(term.cause),
-                           typeset(size_in_words(term.cause, term.parameter, term.value, term.sigma)),
-                           fixed(term.signal_to_noise, 1),
+                           size_in_words(term.cause, term.parameter, term.value, term.sigma),
+                           term.signal_to_noise,
                            share_percent(term.share_left),
                            share_percent(term.p_value),
                            percent(term.probability),
@@ -120,129 +185,22 @@ Section terms_section(const Diagnosis& found) {
   return {"Every cause that was tested", {std::move(table)}};
 }
 
-Section bounds_section(const Diagnosis& found) {
-  Section section{"Looked for and absent, and not testable", {}};
-  if (!found.bounds.empty()) {
-    Table table{{{"absent"}, {"larger than this it would have shown"}}, {}, "95 % bounds."};
-    for (const auto& bound : found.bounds)
-      table.rows.push_back({{cause_title(bound.cause), bound_in_words(bound)}, false});
-    section.blocks.emplace_back(std::move(table));
+Section separation_section(const Diagnosis& found) {
+  Table table{
+      {{"cause"}, {"and"}, {"alike to", true, 3}, {"told apart from a strength of", true, 1}},
+      {},
+      "Strength in units of noise; at that strength 95 of 100 such machines are named right. The "
+      "strengths found here are in the table of every cause."};
+  for (const auto& pair : found.separations) {
+    const double needed = pair.signal_to_noise_needed;
+    table.rows.push_back({{cause_title(pair.first),
+                           cause_title(pair.second),
+                           pair.collinearity,
+                           std::isfinite(needed) ? report::Cell(needed) : report::Cell("never")}});
   }
-  if (!found.not_testable.empty()) {
-    Table table{{{"not testable"}, {"because"}}, {}, "Nothing is said about these."};
-    for (const auto& missing : found.not_testable)
-      table.rows.push_back({{cause_title(missing.cause), missing.reason}, false});
-    section.blocks.emplace_back(std::move(table));
-  }
-  return section;
-}
-
-namespace {
-
-Table bad_distances(const Diagnosis& found) {
-  Table table{{{"distance"}, {"read less predicted, mm", true}, {"in sigmas", true}},
-              {},
-              fmt::format("Against what all the other {} make of it. They were set aside; measure "
-                          "them again.",
-                          name(found.observations))};
-  for (const auto& bad : found.outliers) {
-    if (!is_distance(found, bad)) continue;
-    table.rows.push_back(
-        {{distance_name(found, bad.index), fixed(bad.off_mm, 2), fixed(bad.distance, 1)}, true});
-  }
-  return table;
-}
-
-Table bad_points(const Diagnosis& found) {
-  Table table{{{"point"}, {"right of its mark, mm", true}, {"up, mm", true}, {"in sigmas", true}},
-              {},
-              "Where the tool would have to have been for the reading to be right. They were set "
-              "aside; measure them again."};
-  for (const auto& bad : found.outliers) {
-    if (is_distance(found, bad)) continue;
-    table.rows.push_back({{point_name(bad.index),
-                           fixed(bad.shift_mm.x(), 2),
-                           fixed(bad.shift_mm.y(), 2),
-                           fixed(bad.distance, 1)},
-                          true});
-  }
-  return table;
-}
-
-}  // namespace
-
-Section outliers_section(const Diagnosis& found) {
-  Section section{.title = fmt::format("Bad {}", name(found.observations))};
-  for (const Table& table : {bad_points(found), bad_distances(found)}) {
-    if (!table.rows.empty()) section.blocks.emplace_back(table);
-  }
-  return section;
-}
-
-Section settings_section(const Diagnosis& found) {
-  Table table{{{"setting"},
-               {"stated", true},
-               {"\u00b1", true},
-               {"calibrated", true},
-               {"\u00b1", true},
-               {"unit"},
-               {"remark"}},
-              {},
-              "\u00b1: one sigma."};
-  for (const auto& result : found.settings) {
-    const int digits = unit_of(result.setting) == "mm" ? 2 : 3;
-    const auto cell = [&](double value) { return fixed(in_unit(result.setting, value), digits); };
-    table.rows.push_back(
-        {{std::string(setting_in_words(result.setting)),
-          cell(result.stated),
-          cell(result.stated_sigma),
-          cell(result.calibrated),
-          cell(result.sigma),
-          std::string(unit_of(result.setting)),
-          result.off ? "off: further from what was stated than its uncertainty allows; check it"
-                     : ""},
-         result.off});
-  }
-  return {"The machine's settings", {std::move(table)}};
-}
-
-namespace {
-
-std::string noise_in_words(const Diagnosis& found) {
-  std::vector<std::string> stated;
-  if (found.stated_noise) {
-    stated.push_back(
-        fmt::format("{:g} mm a chain and {:g} mm a mark (one sigma, {:g} degrees of freedom); ",
-                    found.stated_noise->length_mm,
-                    found.stated_noise->position_mm,
-                    found.stated_noise->dof));
-  }
-  if (found.stated_tape) {
-    stated.push_back(fmt::format(
-        "{:g} mm a reading of the tape and {:g} mm a hole on either axis (one sigma, {:g} degrees "
-        "of freedom); ",
-        found.stated_tape->tape_sigma_mm,
-        found.stated_tape->hole_sigma_mm,
-        found.stated_tape->dof));
-  }
-  if (stated.empty()) return "The noise was not stated; ";
-  return fmt::format("Noise as stated: {}", fmt::join(stated, ""));
-}
-
-}  // namespace
-
-Section method_section(const Diagnosis& found) {
-  Section section{"What this rests on", {}};
-  for (const std::string& note : found.notes) section.blocks.emplace_back(Paragraph{typeset(note)});
-  std::string noise = noise_in_words(found);
-  noise += fmt::format("what was found is {:.2f} times that.", found.noise_factor);
-  section.blocks.emplace_back(Paragraph{std::move(noise)});
-  for (const auto& correction : found.data_corrections) {
-    section.blocks.emplace_back(
-        Paragraph{fmt::format("The data are corrected by {}; it does not go into the machine.",
-                              cause_title(correction))});
-  }
-  return section;
+  return {fmt::format("What these {} can tell apart", name(found.observations)),
+          {separation_chart(found), std::move(table)},
+          found.belts.has_value()};
 }
 
 }  // namespace chaintrue::cli

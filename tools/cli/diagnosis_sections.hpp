@@ -1,24 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The sections of a diagnosis' page that are words and tables alone.
+/// The sections of a diagnosis that are words and tables, of chains and of belts.
 #pragma once
 
 #include "grid/diagnosis/diagnosis.hpp"
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
+/// What the error is made of. Precondition: the diagnosis has a budget.
+[[nodiscard]] report::Section budget_section(const grid::diagnosis::Diagnosis& found);
+/// What changed. Precondition: an earlier diagnosis was given.
+[[nodiscard]] report::Section trend_section(const grid::diagnosis::Diagnosis& found);
 /// What is named, with its size, probability and remedy. Precondition: a cause is named.
 [[nodiscard]] report::Section causes_section(const grid::diagnosis::Diagnosis& found);
 /// The next measurements, numbered. Precondition: there are some.
-[[nodiscard]] report::Section next_in_a_table(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] report::Section next_section(const grid::diagnosis::Diagnosis& found);
+/// Every hypothesis that is worth a line, and what is left over.
+[[nodiscard]] report::Section probabilities_section(const grid::diagnosis::Diagnosis& found);
 /// Every cause that was tested, and what became of it.
 [[nodiscard]] report::Section terms_section(const grid::diagnosis::Diagnosis& found);
-/// What was looked for and is absent, and what these points cannot show.
-[[nodiscard]] report::Section bounds_section(const grid::diagnosis::Diagnosis& found);
-[[nodiscard]] report::Section outliers_section(const grid::diagnosis::Diagnosis& found);
+/// Which causes these readings can tell apart.
+[[nodiscard]] report::Section separation_section(const grid::diagnosis::Diagnosis& found);
 [[nodiscard]] report::Section settings_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] report::Section outliers_section(const grid::diagnosis::Diagnosis& found);
+/// What was looked for and is absent.
+[[nodiscard]] report::Section bounds_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] report::Section not_testable_section(const grid::diagnosis::Diagnosis& found);
 /// Assumptions, noise and corrections of the data.
-[[nodiscard]] report::Section method_section(const grid::diagnosis::Diagnosis& found);
+[[nodiscard]] report::Section remarks_section(const grid::diagnosis::Diagnosis& found);
 
 }  // namespace chaintrue::cli

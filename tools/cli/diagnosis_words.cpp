@@ -140,19 +140,6 @@ bool is_distance(const grid::diagnosis::Diagnosis& found, const grid::diagnosis:
   return is_of_distances(found) || bad.of == grid::diagnosis::Observations::distances;
 }
 
-bool is_gain_of_distances(const grid::diagnosis::Gain& gain) {
-  return gain.scheme.find("distances") != std::string::npos;
-}
-
-std::string border_sentence(const grid::diagnosis::Gain& gain) {
-  const char* outermost = is_gain_of_distances(gain) ? "the distances that end at an outermost hole"
-                                                     : "the outermost points";
-  return gain.border.calibrated_mm > 0.0
-             ? fmt::format("At the border {} were held out.", outermost)
-             : fmt::format("No error at the border is given: without {} too few would be left.",
-                           outermost);
-}
-
 std::string distance_name(const grid::diagnosis::Diagnosis& found, std::size_t index) {
   for (const auto& distance : found.distances) {
     if (distance.index == index) return "distance " + words_of_ends(distance);
@@ -265,56 +252,20 @@ std::string share_percent(double share) {
   return fmt::format("{:.{}f} %", in_percent, in_percent < 9.95 ? 1 : 0);
 }
 
-std::string capitalised(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
-    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad) {
+  if (!bad.belt)
+    return fmt::format("point {} as a whole: more than one of its belts disagrees", bad.index);
+  std::string text = fmt::format("the {} belt at point {}: read {:.1f} mm too {} ({:.1f} sigmas)",
+                                 model::words(*bad.belt),
+                                 bad.index,
+                                 std::abs(bad.off_mm),
+                                 bad.off_mm > 0.0 ? "long" : "short",
+                                 bad.distance);
+  if (bad.or_belt) {
+    text += fmt::format("; or the {} one, which looks the same at this place",
+                        model::words(*bad.or_belt));
+  }
   return text;
-}
-
-std::string typeset(std::string text) {
-  constexpr std::string_view kTyped = " +- ", kSet = "\u00a0\u00b1\u00a0";
-  for (std::size_t at = text.find(kTyped); at != std::string::npos; at = text.find(kTyped, at))
-    text.replace(at, kTyped.size(), kSet);
-  return capitalised(std::move(text));
-}
-
-std::string fixed(double value, int digits) {
-  const std::string text = fmt::format("{:.{}f}", value, digits);
-  if (text.front() != '-') return text;
-  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
-  return is_zero ? text.substr(1) : "\u2212" + text.substr(1);
-}
-
-std::vector<GainRow> gain_rows(const grid::diagnosis::Diagnosis& diagnosis) {
-  const grid::diagnosis::Gain& gain = *diagnosis.gain;
-  std::vector<GainRow> rows = {{"as delivered", &gain.as_delivered, {}}};
-  if (gain.placed) rows.push_back({"as delivered, sheet placed", &*gain.placed, {}});
-  // Nothing was held out there where too few would have been left.
-  const auto border = [&](double mm) {
-    return gain.border.calibrated_mm > 0.0 ? std::optional(mm) : std::nullopt;
-  };
-  rows.push_back({"calibrated", &gain.calibrated, border(gain.border.calibrated_mm)});
-  if (!diagnosis.causes.empty()) {
-    rows.push_back({"with the cause", &gain.extended, border(gain.border.extended_mm)});
-    rows.push_back({"with the cause and a surface",
-                    &gain.extended_and_surface,
-                    border(gain.border.extended_and_surface_mm)});
-  }
-  rows.push_back({"a surface only", &gain.surface_only, border(gain.border.surface_only_mm)});
-  return rows;
-}
-
-std::vector<GainRow> transfer_rows(const grid::diagnosis::Diagnosis& diagnosis) {
-  const grid::diagnosis::Transfer& transfer = *diagnosis.transferred;
-  std::vector<GainRow> rows = {{"as delivered", &transfer.as_delivered, {}},
-                               {"calibrated", &transfer.calibrated, {}}};
-  if (!diagnosis.causes.empty()) {
-    rows.push_back({"with the cause", &transfer.extended, {}});
-    rows.push_back({"with the cause and a surface", &transfer.extended_and_surface, {}});
-  } else {
-    rows.push_back({"with a surface", &transfer.extended_and_surface, {}});
-  }
-  return rows;
 }
 
 }  // namespace chaintrue::cli

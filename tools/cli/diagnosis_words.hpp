@@ -3,7 +3,6 @@
 /// A diagnosis in the words and units of a workshop, for the terminal and for the report's page.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
 #include "model/coordinates.hpp"
+#include "tools/report/typeset.hpp"
 
 namespace chaintrue::cli {
 
@@ -54,11 +54,6 @@ namespace chaintrue::cli {
 /// A bad one is a distance, and no point.
 [[nodiscard]] bool is_distance(const grid::diagnosis::Diagnosis& found,
                                const grid::diagnosis::Outlier& bad);
-/// What was held out are distances: no points were read, or too few.
-[[nodiscard]] bool is_gain_of_distances(const grid::diagnosis::Gain& gain);
-/// What was held out at the border, or why no error is given there.
-[[nodiscard]] std::string border_sentence(const grid::diagnosis::Gain& gain);
-
 /// Of what the next measurements raise the probability: "A single right name", or "One explanation
 /// alone" where none is named.
 [[nodiscard]] std::string_view what_stands_alone(const grid::diagnosis::Diagnosis& diagnosis);
@@ -87,27 +82,10 @@ struct FollowUpPlace {
 using grid::diagnosis::percent;
 /// A share or a chance: 100 % and 0 % are possible, "below 0.1 %" where it is neither.
 [[nodiscard]] std::string share_percent(double share);
-[[nodiscard]] std::string capitalised(std::string text);
-/// For the page: the first letter large, +- as one sign that no line is broken at.
-[[nodiscard]] std::string typeset(std::string text);
-/// Fixed digits with a true minus sign, never "-0.00".
-[[nodiscard]] std::string fixed(double value, int digits);
-
-/// A line of the gain table.
-struct GainRow {
-  std::string_view what;
-  const grid::diagnosis::HeldOut* held_out = nullptr;
-  std::optional<double> border_mm;
-};
-/// Rows point into the diagnosis. Precondition: it has a gain. Rows of an extension are left out
-/// where nothing was named.
-[[nodiscard]] std::vector<GainRow> gain_rows(const grid::diagnosis::Diagnosis& diagnosis);
-/// The same on the other grid. Precondition: there is one.
-[[nodiscard]] std::vector<GainRow> transfer_rows(const grid::diagnosis::Diagnosis& diagnosis);
-
-/// Everything for the terminal: verdict, advice, causes, gain, follow-up, settings, what is absent
-/// and what could not be tested.
-[[nodiscard]] std::string diagnosis_in_words(const grid::diagnosis::Diagnosis& diagnosis);
+/// "the top left belt at point 17: read 80.2 mm too long (31.0 sigmas)"
+[[nodiscard]] std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad);
+using report::capitalised;
+using report::fixed;
 
 /// "left" or "right".
 [[nodiscard]] inline const char* chain_name(model::Side side) {

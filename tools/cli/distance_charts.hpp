@@ -5,7 +5,7 @@
 #pragma once
 
 #include "grid/diagnosis/diagnosis.hpp"
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 

@@ -132,7 +132,7 @@ int run_gcode_compensate(const GcodeOptions& options) {
           picture.figures.begin(),
           {fmt::format("{:.3f} mm", proof.largest_mm), "largest distance from the path"});
     }
-    page = report::render(report::page_of(picture));
+    page = report::render_html(report::page_of(picture));
   }
   if (holds) {
     take_place(output, options.output, {{options.report, page}});

@@ -14,34 +14,6 @@
 namespace chaintrue::cli {
 namespace {
 
-using model::Setting;
-
-struct SettingWords {
-  Setting setting;
-  std::string_view words;
-  std::string_view unit;
-  double factor;
-};
-
-constexpr SettingWords kSettingWords[] = {
-    {Setting::motor_left_x_mm, "left motor, x", "mm", 1.0},
-    {Setting::motor_left_y_mm, "left motor, y", "mm", 1.0},
-    {Setting::motor_right_x_mm, "right motor, x", "mm", 1.0},
-    {Setting::motor_right_y_mm, "right motor, y", "mm", 1.0},
-    {Setting::chain_zero_left_mm, "left chain's zero", "mm", 1.0},
-    {Setting::chain_zero_right_mm, "right chain's zero", "mm", 1.0},
-    {Setting::sheet_x_mm, "sheet laid right by", "mm", 1.0},
-    {Setting::sheet_y_mm, "sheet laid up by", "mm", 1.0},
-    {Setting::sheet_rotation_rad, "sheet turned left by", "mrad", 1000.0},
-};
-
-const SettingWords& words_of(Setting setting) {
-  for (const SettingWords& words : kSettingWords) {
-    if (words.setting == setting) return words;
-  }
-  throw grid::precondition("setting {} has no words", static_cast<int>(setting));
-}
-
 double rms(const grid::CompensationMap& map, Eigen::Vector2d grid::MapPoint::*residual) {
   double squares = 0.0;
   std::size_t count = 0;
@@ -63,26 +35,20 @@ void print_held_out(std::string& text, std::string_view name, const grid::HeldOu
                  error.tool.maximum_mm);
 }
 
-void print_settings(std::string& text, const grid::MapContents& map) {
-  if (map.settings.empty()) return;
-  text += "\nSettings                           stated  calibrated   +- sigma\n";
-  for (const grid::SettingResult& result : map.settings) {
-    fmt::format_to(std::back_inserter(text),
-                   "  {:<26}{:>14.2f}{:>12.2f}{:>11.2f} {}{}\n",
-                   setting_in_words(result.setting),
-                   in_unit(result.setting, result.stated),
-                   in_unit(result.setting, result.calibrated),
-                   in_unit(result.setting, result.sigma),
-                   unit_of(result.setting),
-                   result.off ? "  off: further than its stated uncertainty allows" : "");
-  }
-}
-
 }  // namespace
 
-std::string_view setting_in_words(Setting setting) { return words_of(setting).words; }
-std::string_view unit_of(Setting setting) { return words_of(setting).unit; }
-double in_unit(Setting setting, double value) { return words_of(setting).factor * value; }
+std::vector<SettingRow> settings_rows(const grid::CompensationMap& map) {
+  std::vector<SettingRow> rows;
+  for (const grid::SettingResult& result : map.contents().settings) {
+    SettingRow row{
+        result.setting, result.stated, {}, result.calibrated, result.sigma, result.off};
+    const auto& of_machine = model::kMachineSettings;
+    if (std::find(of_machine.begin(), of_machine.end(), result.setting) != of_machine.end())
+      row.stated_sigma = stated_sigma(*map.machine(), result.setting);
+    rows.push_back(row);
+  }
+  return rows;
+}
 
 std::string fit_sentence(const grid::CompensationMap& map) {
   const grid::MapContents& contents = map.contents();
@@ -145,7 +111,11 @@ std::string fit_in_words(const grid::CompensationMap& map) {
 std::string fit_in_tables(const grid::CompensationMap& map) {
   const grid::MapContents& contents = map.contents();
   std::string text;
-  print_settings(text, contents);
+  if (!contents.settings.empty()) {
+    report::Document settings;
+    settings.sections.push_back({"", {settings_table(settings_rows(map))}});
+    text += report::render_text(settings);
+  }
   const bool direct = map.machine() == nullptr;
   if (contents.distances) {
     const grid::DistancesUsed& used = *contents.distances;

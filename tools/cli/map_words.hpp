@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "grid/map/compensation_map.hpp"
+#include "tools/cli/settings_table.hpp"
 
 namespace chaintrue::cli {
 
@@ -16,10 +17,7 @@ namespace chaintrue::cli {
 [[nodiscard]] std::string fit_in_words(const grid::CompensationMap& map);
 /// The rest of the story: settings, errors of points left out, the mirror claim.
 [[nodiscard]] std::string fit_in_tables(const grid::CompensationMap& map);
-/// "left motor, x" for motor_left_x_mm, and its unit.
-[[nodiscard]] std::string_view setting_in_words(model::Setting setting);
-[[nodiscard]] std::string_view unit_of(model::Setting setting);
-/// A setting's value in that unit: rotations in mrad.
-[[nodiscard]] double in_unit(model::Setting setting, double value);
+/// Of the machine and of the sheet.
+[[nodiscard]] std::vector<SettingRow> settings_rows(const grid::CompensationMap& map);
 
 }  // namespace chaintrue::cli

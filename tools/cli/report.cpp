@@ -17,7 +17,7 @@
 #include "tools/cli/belts_input.hpp"
 #include "tools/cli/anchors_page.hpp"
 #include "tools/cli/certificate.hpp"
-#include "tools/cli/diagnosis_page.hpp"
+#include "tools/cli/diagnosis_document.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/map_report.hpp"
 #include "tools/cli/places.hpp"
@@ -42,9 +42,9 @@ struct ReportCommand {
 struct Reportable {
   std::string_view file_type;
   std::string_view called;
-  report::Page (*page)(const std::string& text, const std::string& file, std::string_view source);
+  report::Document (*page)(const std::string& text, const std::string& file, std::string_view source);
   /// Null where there is none.
-  report::Page (*certificate)(const std::string& text,
+  report::Document (*certificate)(const std::string& text,
                               const std::string& file,
                               std::string_view source);
   std::vector<std::string> (*next)(const std::string& text,
@@ -52,28 +52,28 @@ struct Reportable {
                                    const std::string& path);
 };
 
-report::Page page_of_map(const std::string& text,
+report::Document page_of_map(const std::string& text,
                          const std::string& file,
                          std::string_view source) {
   return report::page_of(map_report(parse_map_input(text, file), source));
 }
 
-report::Page certificate_of_map(const std::string& text,
+report::Document certificate_of_map(const std::string& text,
                                 const std::string& file,
                                 std::string_view source) {
   return certificate(parse_map_input(text, file), source);
 }
 
-report::Page page_of_diagnosis(const std::string& text,
+report::Document page_of_diagnosis(const std::string& text,
                                const std::string& file,
                                std::string_view source) {
   std::vector<files::Warning> warnings;
   const grid::diagnosis::Diagnosis found = files::parse_diagnosis(text, file, &warnings);
   print_warnings(warnings);
-  return diagnosis_page(found, source);
+  return diagnosis_document(found, source);
 }
 
-report::Page page_of_anchors(const std::string& text,
+report::Document page_of_anchors(const std::string& text,
                              const std::string& file,
                              std::string_view source) {
   const files::FittedAnchors found = parse_anchors_input(text, file);
@@ -132,11 +132,11 @@ int run_report(const ReportCommand& command) {
                               "\"chaintrue_map\": only a map has a certificate"}});
   }
   const auto page = command.certificate ? kind.certificate : kind.page;
-  report::Page made = page(text, file, source);
+  report::Document made = page(text, file, source);
   // The clock is not asked: the same map gives the same page.
   if (!command.date.empty())
     made.subtitle += fmt::format("{}{}", made.subtitle.empty() ? "" : ", ", command.date);
-  write_output(command.output, report::render(made));
+  write_output(command.output, report::render_html(made));
   if (command.output != "-")
     fmt::print(stderr, "The report is {}: open it in any browser.\n", command.output);
   if (command.output != "-") say_next(kind.next(text, file, command.input));

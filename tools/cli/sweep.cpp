@@ -105,7 +105,7 @@ int assemble(Verb verb,
   const auto errors = write_results(spec, store, options.directory);
   files::write_whole_file(
       fs::path(options.directory) / "report.html",
-      files::signed_text(report::render(sweep_page(spec, errors)), Origin::page));
+      files::signed_text(report::render_html(sweep_page(spec, errors)), Origin::page));
   fmt::print(stderr,
              "{} cells: {}/results.csv, summary.json, report.html (open it in any browser)\n",
              store.cells(),

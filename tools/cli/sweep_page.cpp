@@ -136,9 +136,9 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
 
 }  // namespace
 
-report::Page sweep_page(const sweep::SweepSpec& spec,
+report::Document sweep_page(const sweep::SweepSpec& spec,
                         const std::vector<sweep::LevelError>& errors) {
-  report::Page page;
+  report::Document page;
   page.title = spec.name;
   page.subtitle = spec.question;
   const auto counts = sweep::level_counts(spec);
@@ -148,12 +148,12 @@ report::Page sweep_page(const sweep::SweepSpec& spec,
     if (varies) panels.blocks.emplace_back(panel(spec, errors, factor));
   }
   if (panels.blocks.empty()) panels.blocks.emplace_back(panel(spec, errors, sweep::kFactors - 1));
-  page.verdict = fmt::format("{} cells: {} combinations, {} repetitions of each.",
-                             sweep::cells(spec),
-                             sweep::combinations(spec),
-                             spec.repetitions);
-  page.advice = answers(spec, errors);
-  page.not_proved = "Made with the simulator; a real machine has errors that it does not know.";
+  page.verdict = {fmt::format("{} cells: {} combinations, {} repetitions of each.",
+                              sweep::cells(spec),
+                              sweep::combinations(spec),
+                              spec.repetitions)};
+  for (std::string& line : answers(spec, errors)) page.advice.push_back({std::move(line)});
+  page.not_proved = {"Made with the simulator; a real machine has errors that it does not know."};
   page.sections.push_back(std::move(panels));
   page.sections.push_back({"Numbers", {table(spec, errors)}});
   return page;

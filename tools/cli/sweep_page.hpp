@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "grid/sweep/result_store.hpp"
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
-[[nodiscard]] report::Page sweep_page(const grid::sweep::SweepSpec& spec,
+[[nodiscard]] report::Document sweep_page(const grid::sweep::SweepSpec& spec,
                                       const std::vector<grid::sweep::LevelError>& errors);
 
 }  // namespace chaintrue::cli

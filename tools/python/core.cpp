@@ -24,10 +24,10 @@
 #include "grid/holes/holes_fit.hpp"
 #include "grid/map/fit.hpp"
 #include "tools/cli/certificate.hpp"
-#include "tools/cli/diagnosis_page.hpp"
+#include "tools/cli/diagnosis_document.hpp"
 #include "tools/cli/map_report.hpp"
 #include "tools/report/map_report.hpp"
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::python {
 namespace {
@@ -251,7 +251,7 @@ void add_types(py::module_& module) {
       .def("text", [](const grid::CompensationMap& map) { return files::write_map(map); })
       .def("page",
            [](const grid::CompensationMap& map, const std::string& source, bool certificate) {
-             return report::render(certificate ? cli::certificate(map, source)
+             return report::render_html(certificate ? cli::certificate(map, source)
                                                : report::page_of(cli::map_report(map, source)));
            });
   using grid::diagnosis::Diagnosis;
@@ -259,7 +259,7 @@ void add_types(py::module_& module) {
       .def_readonly("sentence", &Diagnosis::sentence)
       .def("text", [](const Diagnosis& found) { return files::write_diagnosis(found); })
       .def("page", [](const Diagnosis& found, const std::string& source) {
-        return report::render(cli::diagnosis_page(found, source));
+        return report::render_html(cli::diagnosis_document(found, source));
       });
 }
 

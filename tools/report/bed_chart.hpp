@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::report {
 

@@ -32,7 +32,7 @@ std::span<const Term> terms() { return kTerms; }
 Section glossary() {
   Table table{.columns = {{"Word"}, {"What it means here"}}, .rows = {}, .caption = {}};
   for (const Term& term : kTerms)
-    table.rows.push_back({{std::string(term.word), std::string(term.meaning)}, false});
+    table.rows.push_back({{term.word, term.meaning}, false});
   Section section{"Words", {}};
   section.is_folded = true;
   section.blocks.emplace_back(std::move(table));

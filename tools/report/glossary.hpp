@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::report {
 

@@ -254,16 +254,16 @@ Chart error_map_chart(const MapReport& report) {
   return chart;
 }
 
-Page page_of(const MapReport& report) {
-  Page page{.title = report.name.empty() ? "Compensation map"
+Document page_of(const MapReport& report) {
+  Document page{.title = report.name.empty() ? "Compensation map"
                                          : fmt::format("Compensation map: {}", report.name),
             .subtitle = report.machine_name,
-            .verdict = report.verdict,
+            .verdict = {report.verdict},
             .tone = report.tone,
-            .advice = report.advice,
+            .not_proved = {report.not_proved},
             .figures = report.figures,
-            .not_proved = report.not_proved,
             .provenance = report.provenance};
+  for (const std::string& line : report.advice) page.advice.push_back({line});
   if (has_any(report, &ReportPoint::before) && has_any(report, &ReportPoint::after))
     page.sections.push_back(before_after_section(report));
   if (!report.steps.empty()) page.sections.push_back(steps_section(report));
@@ -280,7 +280,7 @@ Page page_of(const MapReport& report) {
     for (const std::string& finding : report.findings) section.blocks.push_back(Paragraph{finding});
     page.sections.push_back(std::move(section));
   }
-  if (!page.sections.empty()) page.sections.push_back(glossary());
+  page.has_glossary = !page.sections.empty();
   return page;
 }
 

@@ -10,7 +10,7 @@
 ///   MapReport report{.name = "workshop grid", .verdict = "Expect 0.21 mm at the tool."};
 ///   report.points.push_back({.name = "point 1", .x_mm = -1200, .y_mm = -600, .before = {1.9, 0.4},
 ///                            .after = {0.1, 0.0}, .held_out = {{0.2, 0.1}}});
-///   write_file("report.html", render(page_of(report)));
+///   write_file("report.html", render_html(page_of(report)));
 /// \endcode
 #pragma once
 
@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "tools/report/bed_chart.hpp"
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::report {
 
@@ -115,6 +115,6 @@ struct MapReport {
 
 /// Lays the report out as a page; sections without data are left out.
 /// \throws std::invalid_argument where the sheet has no extent, or a number is not finite.
-[[nodiscard]] Page page_of(const MapReport& report);
+[[nodiscard]] Document page_of(const MapReport& report);
 
 }  // namespace chaintrue::report

@@ -163,7 +163,7 @@ void PathReport::add(const PathPiece& piece) {
   stride_ *= 2;
 }
 
-Page page_of(const PathReport& report) {
+Document page_of(const PathReport& report) {
   const double magnification = magnification_of(report);
   const Outline view = view_of(report, magnification);
   const Colours colours = colours_of(report, false);
@@ -209,8 +209,8 @@ Page page_of(const PathReport& report) {
                    {"magnification", magnification},
                    {"least_mm", colours.least_mm},
                    {"largest_mm", colours.largest_mm}};
-  Page page{.title = fmt::format("{}, compensated", report.name)};
-  page.verdict = report.verdict;
+  Document page{.title = fmt::format("{}, compensated", report.name)};
+  page.verdict = {report.verdict};
   page.sections.push_back({"The part", {chart}});
   page.sections.push_back({"In numbers", {Figures{report.figures}}});
   return page;

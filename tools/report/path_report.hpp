@@ -6,7 +6,7 @@
 /// \code
 ///   PathReport report{.name = "part.nc", .verdict = "192 commands; corrections up to 4.5 mm."};
 ///   report.add({.line = 14, .x0_mm = -120, .y0_mm = -160, ...});
-///   write_file("part.html", render(page_of(report)));
+///   write_file("part.html", render_html(page_of(report)));
 /// \endcode
 #pragma once
 
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "tools/report/map_report.hpp"
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::report {
 
@@ -55,6 +55,6 @@ struct PathReport {
 };
 
 /// \throws std::invalid_argument for a sheet without an extent.
-[[nodiscard]] Page page_of(const PathReport& report);
+[[nodiscard]] Document page_of(const PathReport& report);
 
 }  // namespace chaintrue::report

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Writes a Page as HTML. Order of the file: verdict, sections, footer, then data, specifications,
-/// Vega and the script.
+/// Writes a Document as HTML. Order of the file: verdict, sections, footer, then data,
+/// specifications, Vega and the script.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,73 +17,13 @@
 #include "grid/precondition.hpp"
 #include "tools/report/embedded.hpp"
 #include "tools/report/glossary.hpp"
-#include "tools/report/page.hpp"
+#include "tools/report/document.hpp"
+#include "tools/report/typeset.hpp"
 
 namespace chaintrue::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class... Handlers>
-struct Overloaded : Handlers... {
-  using Handlers::operator()...;
-};
-template <class... Handlers>
-Overloaded(Handlers...) -> Overloaded<Handlers...>;
-
-/// How many bytes the UTF-8 character at the text's beginning has; 0 where they are none (RFC
-/// 3629).
-std::size_t character_length(std::string_view text) {
-  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned first = byte(0);
-  if (first < 0x80U) return 1;
-  const std::size_t length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
-  if (first < 0xC2U || first > 0xF4U || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return 0;
-  }
-  const unsigned second = byte(1);
-  const bool is_overlong = (first == 0xE0U && second < 0xA0U) || (first == 0xF0U && second < 0x90U);
-  const bool is_no_character =
-      (first == 0xEDU && second > 0x9FU) || (first == 0xF4U && second > 0x8FU);
-  return is_overlong || is_no_character ? 0 : length;
-}
-
-/// File names are bytes: those that are no UTF-8 become the replacement character.
-std::string as_utf8(std::string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    const std::size_t length = character_length(text);
-    out += length == 0 ? std::string_view("\xEF\xBF\xBD") : text.substr(0, length);
-    text.remove_prefix(std::max<std::size_t>(length, 1));
-  }
-  return out;
-}
-
-std::string escaped(std::string_view bytes) {
-  const std::string text = as_utf8(bytes);
-  std::string out;
-  out.reserve(text.size());
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 /// Inside a script element no text may look like its end or like a comment.
 std::string script_json(const Json& json) {
@@ -131,11 +71,13 @@ Json rows_of(const DataTable& table) {
 
 class Writer {
  public:
-  std::string write(const Page& page) {
+  std::string write(const Document& page) {
     head(page);
     verdict(page);
     if (!page.figures.empty()) write_figures(Figures{page.figures});
     for (const Section& section : page.sections) write_section(section);
+    if (!page.remarks.blocks.empty()) write_section(page.remarks);
+    if (page.has_glossary) write_section(glossary());
     if (!page.provenance.empty()) add("<footer><p>{}</p></footer>\n", escaped(page.provenance));
     add("</main>\n<div id=\"tip\" role=\"tooltip\"></div>\n");
     scripts();
@@ -148,7 +90,7 @@ class Writer {
     fmt::format_to(std::back_inserter(html_), format, std::forward<Args>(args)...);
   }
 
-  void head(const Page& page) {
+  void head(const Document& page) {
     add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n",
@@ -179,23 +121,24 @@ class Writer {
     add("</ul>\n");
   }
 
-  void verdict(const Page& page) {
+  void verdict(const Document& page) {
     add("<div class=\"verdict {}\">\n<p class=\"sentence\">{}</p>\n",
         tone_class(page.tone),
-        escaped(page.verdict));
+        set(page.verdict.text));
     if (!page.lights.empty()) write_lights(page.lights);
     if (!page.advice.empty()) {
       add("<ul class=\"advice\">\n");
-      for (const std::string& line : page.advice) add("<li>{}</li>\n", escaped(line));
+      for (const Paragraph& line : page.advice) add("<li>{}</li>\n", set(line.text));
       add("</ul>\n");
     }
-    if (!page.not_proved.empty()) add("<p class=\"not-proved\">{}</p>\n", escaped(page.not_proved));
+    if (!page.not_proved.text.empty())
+      add("<p class=\"not-proved\">{}</p>\n", set(page.not_proved.text));
     add("</div>\n<noscript><p>The charts need JavaScript; sentences and tables do "
         "not.</p></noscript>\n");
   }
 
   void write_section(const Section& section) {
-    const std::string heading = fmt::format("<h2>{}</h2>", escaped(section.title));
+    const std::string heading = fmt::format("<h2>{}</h2>", set(section.title));
     if (section.is_folded) {
       add("<section>\n<details>\n<summary>{}</summary>\n", heading);
     } else {
@@ -203,7 +146,10 @@ class Writer {
     }
     for (const Block& block : section.blocks) {
       std::visit(Overloaded{
-                     [&](const Paragraph& text) { add("<p>{}</p>\n", explained(text.text)); },
+                     [&](const Paragraph& text) {
+                       add("<p>{}</p>\n", explained(text.is_note ? capitalised(text.text) : text.text));
+                     },
+                     [&](const List& list) { write_list(list.items, list.mark); },
                      [&](const Figures& figures) { write_figures(figures); },
                      [&](const Table& table) { write_table(table); },
                      [&](const Chart& chart) { write_chart(chart); },
@@ -226,30 +172,61 @@ class Writer {
     add("</div>\n");
   }
 
+  void write_list(const std::vector<Item>& items, List::Mark mark) {
+    const std::string_view tag = mark == List::Mark::number ? "ol" : "ul";
+    add("<{}{}>\n", tag, mark == List::Mark::none ? " class=\"plain\"" : "");
+    for (const Item& item : items) {
+      add("<li>{}", explained(capitalised(item.text)));
+      if (!item.items.empty()) write_list(item.items, List::Mark::none);
+      add("</li>\n");
+    }
+    add("</{}>\n", tag);
+  }
+
   void write_table(const Table& table) {
     add("<div class=\"table-box\"><table>\n");
-    if (!table.caption.empty()) add("<caption>{}</caption>\n", escaped(table.caption));
-    add("<thead><tr>");
-    for (const Column& column : table.columns) {
-      add("<th{}>{}</th>", column.is_number ? " class=\"number\"" : "", escaped(column.heading));
+    if (!table.caption.empty()) add("<caption>{}</caption>\n", set(table.caption));
+    const bool has_headings = std::any_of(table.columns.begin(),
+                                          table.columns.end(),
+                                          [](const Column& one) { return !heading(one).empty(); });
+    if (has_headings) {
+      add("<thead><tr>");
+      for (const Column& column : table.columns)
+        add("<th{}>{}</th>", number_class(column), heading(column));
+      add("</tr></thead>\n");
     }
-    add("</tr></thead>\n<tbody>\n");
+    add("<tbody>\n");
     for (const Row& row : table.rows) {
-      if (row.cells.size() != table.columns.size()) {
-        throw grid::precondition(
-            "a table row has {} cells for {} columns", row.cells.size(), table.columns.size());
-      }
+      check_row(table, row);
       add("<tr{}>", row.is_flagged ? " class=\"flagged\"" : "");
-      for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        const Column& column = table.columns[i];
         add("<td{} data-heading=\"{}\">{}</td>",
-            table.columns[i].is_number ? " class=\"number\"" : "",
-            escaped(table.columns[i].heading),
-            escaped(row.cells[i]));
+            number_class(column),
+            heading(column),
+            set(i < row.cells.size() ? text_of(row.cells[i], column) : ""));
       }
       add("</tr>\n");
     }
     add("</tbody>\n</table></div>\n");
   }
+
+  static std::string_view number_class(const Column& column) {
+    return column.is_number ? " class=\"number\"" : "";
+  }
+  static std::string heading(const Column& column) {
+    return set(column.page_heading.empty() ? column.heading : column.page_heading);
+  }
+  static std::string text_of(const Cell& cell, const Column& column) {
+    return std::visit(Overloaded{[](std::monostate) { return std::string("\u2013"); },
+                                 [](const std::string& text) { return text; },
+                                 [&](double value) {
+                                   std::string text = number_of(value, column);
+                                   return text.front() == '-' ? "\u2212" + text.substr(1) : text;
+                                 }},
+                      cell.value);
+  }
+  static std::string set(std::string_view text) { return escaped(typeset(std::string(text))); }
 
   void write_chart(const Chart& chart) {
     const std::string id = fmt::format("chart-{}", charts_.size() + 1);
@@ -266,9 +243,14 @@ class Writer {
     add("<figure class=\"chart\" data-spec=\"{}\">\n<h3>{}</h3>\n<div class=\"canvas\" "
         "id=\"{}\"></div>\n",
         escaped(chart.specification),
-        escaped(chart.title),
+        set(chart.title),
         id);
-    if (!chart.caption.empty()) add("<figcaption>{}</figcaption>\n", escaped(chart.caption));
+    if (chart.alternative) {
+      add("<noscript>\n");
+      write_table(*chart.alternative);
+      add("</noscript>\n");
+    }
+    if (!chart.caption.empty()) add("<figcaption>{}</figcaption>\n", set(chart.caption));
     add("</figure>\n");
   }
 
@@ -298,7 +280,7 @@ class Writer {
 
   /// A paragraph with the meaning of each word of the glossary where it first stands on the page.
   std::string explained(std::string_view text) {
-    std::string html = escaped(text);
+    std::string html = set(text);
     const auto is_letter = [&html](std::size_t at) {
       return at < html.size() && std::isalnum(static_cast<unsigned char>(html[at])) != 0;
     };
@@ -330,6 +312,6 @@ class Writer {
 
 }  // namespace
 
-std::string render(const Page& page) { return Writer().write(page); }
+std::string render_html(const Document& document) { return Writer().write(document); }
 
 }  // namespace chaintrue::report

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sections of a diagnosis that say what to do, and what the answer does not cover.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/distance_charts.hpp"
+#include "tools/cli/follow_up.hpp"
+#include "tools/cli/settings_table.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::diagnosis::Diagnosis;
+using report::Detail;
+using report::List;
+using report::Paragraph;
+using report::Section;
+using report::Table;
+
+std::string_view where_it_goes(const Diagnosis& found) {
+  switch (found.observations) {
+    case grid::diagnosis::Observations::points:
+      return "Points go into the grid's file, readings into its \"readings\"";
+    case grid::diagnosis::Observations::distances:
+      return "Holes and distances go into the holes' file, readings into its \"readings\"";
+    case grid::diagnosis::Observations::belts:
+      return "Points and distances go into the belts' file";
+    case grid::diagnosis::Observations::both:
+      break;
+  }
+  return "Points go into the grid's file, holes and distances into the holes' file, readings into "
+         "the \"readings\" of either";
+}
+
+std::string noise_in_words(const Diagnosis& found) {
+  std::vector<std::string> stated;
+  if (found.stated_noise) {
+    stated.push_back(
+        fmt::format("{:g} mm a chain and {:g} mm a mark (one sigma, {:g} degrees of freedom); ",
+                    found.stated_noise->length_mm,
+                    found.stated_noise->position_mm,
+                    found.stated_noise->dof));
+  }
+  if (found.stated_tape) {
+    stated.push_back(fmt::format(
+        "{:g} mm a reading of the tape and {:g} mm a hole on either axis (one sigma, {:g} degrees "
+        "of freedom); ",
+        found.stated_tape->tape_sigma_mm,
+        found.stated_tape->hole_sigma_mm,
+        found.stated_tape->dof));
+  }
+  if (stated.empty()) return "The noise was not stated; ";
+  return fmt::format("Noise as stated: {}", fmt::join(stated, ""));
+}
+
+std::string outlier_in_words(const Diagnosis& found, const grid::diagnosis::Outlier& bad) {
+  if (bad.of == grid::diagnosis::Observations::belts) return capitalised(bad_belt_in_words(bad));
+  if (is_distance(found, bad)) {
+    return fmt::format("{}: read {} ({:.1f} sigmas)",
+                       distance_name(found, bad.index),
+                       off_in_words(bad.off_mm),
+                       bad.distance);
+  }
+  return fmt::format(
+      "{}: the tool would have to have been {} mm right and {} mm up of its mark ({:.1f} sigmas)",
+      point_name(bad.index),
+      fixed(bad.shift_mm.x(), 2),
+      fixed(bad.shift_mm.y(), 2),
+      bad.distance);
+}
+
+}  // namespace
+
+Section next_section(const Diagnosis& found) {
+  const std::vector<std::string> sentences = follow_ups_in_words(found);
+  List list{List::Mark::number, {}};
+  for (std::size_t i = 0; i < sentences.size(); ++i)
+    list.items.push_back({sentences[i] + chance_then(found, i)});
+  Section section{fmt::format("What to measure next (chaintrue plan {} --after diagnosis.json)",
+                              files_in_words(found)),
+                  {std::move(list)}};
+  section.blocks.emplace_back(
+      Paragraph{fmt::format("In this order; the probability is that of all up to this one done. "
+                            "{}; the command prints the lines.",
+                            where_it_goes(found)),
+                Detail::page});
+  const bool has_places = std::any_of(found.next_measurements.begin(),
+                                      found.next_measurements.end(),
+                                      [](const auto& next) { return next.mark.has_value(); });
+  if (found.belts) return section;
+  if (has_places && !is_of_distances(found)) section.blocks.emplace_back(next_points_chart(found));
+  if (proposes(found, grid::diagnosis::MeasurementKind::distance))
+    section.blocks.emplace_back(next_distances_chart(found));
+  return section;
+}
+
+Section settings_section(const Diagnosis& found) {
+  std::vector<SettingRow> rows;
+  for (const auto& one : found.settings)
+    rows.push_back(
+        {one.setting, one.stated, one.stated_sigma, one.calibrated, one.sigma, one.off});
+  return {"The machine's settings", {settings_table(rows)}};
+}
+
+Section outliers_section(const Diagnosis& found) {
+  List list;
+  for (const auto& bad : found.outliers) list.items.push_back({outlier_in_words(found, bad)});
+  return {fmt::format("Bad {}, to be measured again",
+                      found.belts ? "readings" : name(found.observations)),
+          {std::move(list), Paragraph{"They were set aside.", Detail::page}}};
+}
+
+Section bounds_section(const Diagnosis& found) {
+  Table table{{{.width = 34}, {}}, {}, "95 % bounds."};
+  for (const auto& bound : found.bounds)
+    table.rows.push_back({{cause_title(bound.cause), bound_in_words(bound)}});
+  return {"Looked for and absent: larger than this it would have shown", {std::move(table)}};
+}
+
+Section not_testable_section(const Diagnosis& found) {
+  Table table{{{.width = 34}, {}}, {}, "Nothing is said about these."};
+  for (const auto& missing : found.not_testable)
+    table.rows.push_back({{cause_title(missing.cause), missing.reason}});
+  return {"Not testable with these data", {std::move(table)}};
+}
+
+Section remarks_section(const Diagnosis& found) {
+  Section section{"What this rests on", {}};
+  for (const std::string& note : found.notes)
+    section.blocks.emplace_back(Paragraph{note, Detail::always, true});
+  if (found.belts) return section;
+  section.blocks.emplace_back(
+      Paragraph{noise_in_words(found) +
+                    fmt::format("what was found is {:.2f} times that.", found.noise_factor),
+                Detail::page});
+  for (const auto& correction : found.data_corrections) {
+    section.blocks.emplace_back(
+        Paragraph{fmt::format("The data are corrected by {}; it does not go into the machine.",
+                              cause_title(correction)),
+                  Detail::page});
+  }
+  return section;
+}
+
+}  // namespace chaintrue::cli

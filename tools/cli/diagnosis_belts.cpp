@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/diagnosis_belts.hpp"
+
+#include <fmt/format.h>
+
+#include "tools/cli/belts_frame_chart.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+
+namespace chaintrue::cli {
+
+using grid::diagnosis::BeltPlacePicture;
+using grid::diagnosis::BeltsFindings;
+using grid::diagnosis::Diagnosis;
+using report::Chart;
+using report::Section;
+using report::Table;
+using report::Tone;
+
+Section frame_section(const Diagnosis& found) {
+  const BeltsFindings& belts = *found.belts;
+  Chart before = frame_chart(belts, "Anchors alone", &BeltPlacePicture::before_mm);
+  before.caption = kFrameCaption;
+  Section section{"The frame, and what its belts disagree about", {}};
+  if (found.causes.empty()) {
+    section.blocks.emplace_back(std::move(before));
+    return section;
+  }
+  Chart after = frame_chart(belts,
+                            found.causes.size() > 1 ? "With the causes" : "With the cause",
+                            &BeltPlacePicture::after_mm);
+  after.caption = "The same scale. Strokes that point all ways are noise.";
+  section.blocks.emplace_back(std::move(before));
+  section.blocks.emplace_back(std::move(after));
+  return section;
+}
+
+Section anchors_section(const Diagnosis& found) {
+  Table table{
+      .columns = {{.heading = "Anchor", .width = 6},
+                  {.heading = "alone", .is_number = true, .width = 12},
+                  {.heading = "with the causes", .is_number = true, .width = 17},
+                  {.heading = "sigma", .is_number = true, .width = 8},
+                  {.heading = "stated", .is_number = true, .digits = 1, .width = 10}},
+      .caption = kAnchorsCaption,
+      .is_headed = true};
+  for (const auto& c : found.belts->coordinates) {
+    table.rows.push_back({{coordinate_title(c.name), c.before_mm, c.fitted_mm, c.sigma_mm}});
+    if (c.stated_mm) table.rows.back().cells.emplace_back(*c.stated_mm);
+  }
+  return {"The anchors, mm", {std::move(table)}};
+}
+
+Section belts_gain_section(const Diagnosis& found) {
+  const BeltsFindings& belts = *found.belts;
+  Table table{.columns = {{.heading = "mm", .width = 39},
+                          {.heading = "anchors alone", .is_number = true, .width = 13},
+                          {.heading = "with the causes", .is_number = true, .width = 18}},
+              .is_headed = true};
+  const auto row = [&table](const char* what, double before, double after) {
+    table.rows.push_back({{what, before, after}});
+  };
+  row("one belt's reading is off by", belts.spread_before_mm, belts.spread_mm);
+  row("rms over all readings", belts.rms_before_mm, belts.rms_mm);
+  if (belts.foretold && belts.foretold_before) {
+    row("lower belts foretold at places left out",
+        belts.foretold_before->rms_mm,
+        belts.foretold->rms_mm);
+  }
+  row("the tool, over the measured places", belts.tool.before_mm, belts.tool.after_mm);
+  std::string text =
+      "The tool's error is against the causes named, the frame's place and turn left free";
+  text += belts.tool.scale_mm_per_m
+              ? fmt::format("; what the tape leaves of the scale is {:.2f} mm in a metre.",
+                            *belts.tool.scale_mm_per_m)
+              : ", in the belts' own millimetres: how long these are no belt knows.";
+  return {"What naming it gains", {std::move(table), report::Paragraph{std::move(text)}}};
+}
+
+report::Light scale_light(const Diagnosis& found) {
+  const bool known = found.belts->scale.has_value();
+  return {known ? Tone::good : Tone::caution,
+          "Scale known?",
+          known ? "yes, by the tape" : "not without a tape"};
+}
+
+std::vector<report::Figure> figures_of_belts(const Diagnosis& found) {
+  const BeltsFindings& belts = *found.belts;
+  return {{fmt::format("{:.2f} mm", belts.spread_before_mm), "one belt is off by, anchors alone"},
+          {fmt::format("{:.2f} mm", belts.spread_mm), "with what is named"}};
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/diagnosis_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/cli/diagnosis_belts.hpp"
+#include "tools/cli/diagnosis_checks.hpp"
+#include "tools/cli/diagnosis_gain.hpp"
+#include "tools/cli/diagnosis_pictures.hpp"
+#include "tools/cli/diagnosis_sections.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::diagnosis::Diagnosis;
+using grid::diagnosis::Verdict;
+using report::Detail;
+using report::Light;
+using report::Section;
+using report::Tone;
+
+/// What a verdict looks like at a glance.
+struct VerdictLights {
+  Verdict verdict;
+  Tone tone;
+  Tone found_tone;
+  std::string_view found;
+  Tone named_tone;
+  std::string_view named;
+};
+
+constexpr VerdictLights kVerdicts[] = {
+    {Verdict::named, Tone::good, Tone::good, "yes", Tone::good, "yes, one cause"},
+    {Verdict::named_set, Tone::caution, Tone::good, "yes", Tone::caution, "one of a few"},
+    {Verdict::several_causes, Tone::good, Tone::good, "yes", Tone::good, "yes, several together"},
+    {Verdict::model_discrepancy,
+     Tone::bad,
+     Tone::good,
+     "yes, a pattern",
+     Tone::bad,
+     "no known cause"},
+    {Verdict::noise_larger_than_stated,
+     Tone::caution,
+     Tone::caution,
+     "noise, larger than stated",
+     Tone::caution,
+     "no cause"},
+    {Verdict::outliers, Tone::caution, Tone::caution, "bad points", Tone::caution, "no cause"},
+    {Verdict::nothing_found,
+     Tone::good,
+     Tone::good,
+     "nothing hidden",
+     Tone::good,
+     "nothing to name"},
+};
+
+const VerdictLights& lights_of(Verdict verdict) {
+  return *std::find_if(std::begin(kVerdicts), std::end(kVerdicts), [verdict](const auto& lights) {
+    return lights.verdict == verdict;
+  });
+}
+
+/// Besides the causes.
+bool is_something_left(const Diagnosis& found) {
+  if (found.belts) return found.unexplained && found.unexplained->probability > 0.5;
+  return is_surprising(found.left_over);
+}
+
+Light data_light(const Diagnosis& found) {
+  if (found.verdict == Verdict::named_set) {
+    return {Tone::caution,
+            "Enough data?",
+            fmt::format("not to tell {} causes apart", found.causes.size())};
+  }
+  if (!found.not_testable.empty()) {
+    return {Tone::caution,
+            "Enough data?",
+            found.not_testable.size() == 1
+                ? "one cause could not be tested"
+                : fmt::format("{} causes could not be tested", found.not_testable.size())};
+  }
+  return {Tone::good, "Enough data?", "yes"};
+}
+
+void put_the_verdict(const Diagnosis& found, report::Document& document) {
+  const VerdictLights& lights = lights_of(found.verdict);
+  const bool left = is_something_left(found);
+  document.verdict = {found.sentence};
+  // The bar tells how the machine is, not how sure the name: a worn chain is no good news.
+  const bool errs = left || !found.causes.empty() || !found.outliers.empty();
+  document.tone = errs ? std::max(lights.tone, Tone::caution) : lights.tone;
+  document.lights = {
+      {lights.found_tone, "Found?", std::string(lights.found)},
+      {left ? std::max(lights.named_tone, Tone::caution) : lights.named_tone,
+       "Named?",
+       fmt::format("{}{}", lights.named, left && !found.causes.empty() ? "; not all of it" : "")},
+      data_light(found),
+      found.belts ? scale_light(found) : corrected_light(found)};
+  document.figures = found.belts ? figures_of_belts(found) : figures_of_gain(found);
+  for (const std::string& line : found.what_to_do) document.advice.push_back({capitalised(line)});
+  if (!found.not_proved.empty())
+    document.not_proved = {"What this does not prove: " + found.not_proved};
+}
+
+/// Those without anything to show are left out; `detail` page: on the page alone.
+class Sections {
+ public:
+  explicit Sections(std::vector<Section>& sections) : sections_(sections) {}
+  void add(bool has_any, Section (*section)(const Diagnosis&), const Diagnosis& found) {
+    if (has_any) sections_.push_back(section(found));
+  }
+  void add_to_page(bool has_any, Section (*section)(const Diagnosis&), const Diagnosis& found) {
+    add(has_any, section, found);
+    if (has_any) sections_.back().detail = Detail::page;
+  }
+
+ private:
+  std::vector<Section>& sections_;
+};
+
+void add_sections(const Diagnosis& found, std::vector<Section>& all) {
+  const bool has_readings = !found.points.empty() || !found.distances.empty();
+  const bool named = !found.causes.empty();
+  Sections sections(all);
+  sections.add(found.budget && !found.budget->lines.empty(), budget_section, found);
+  sections.add(found.trend.has_value(), trend_section, found);
+  sections.add(named, causes_section, found);
+  sections.add_to_page(found.belts.has_value(), frame_section, found);
+  sections.add(found.belts.has_value(), anchors_section, found);
+  sections.add(found.belts.has_value(), belts_gain_section, found);
+  sections.add_to_page(has_readings, arrows_section, found);
+  sections.add_to_page(has_readings && named, signature_section, found);
+  sections.add(found.gain.has_value(), gain_section, found);
+  sections.add(found.transferred.has_value(), transfer_section, found);
+  sections.add(!found.next_measurements.empty(), next_section, found);
+  sections.add_to_page(has_readings, residuals_section, found);
+  sections.add(!found.hypotheses.empty(), probabilities_section, found);
+  sections.add_to_page(found.stability.has_value(), stability_section, found);
+  sections.add_to_page(waves_can_be_sought(found), waves_section, found);
+  sections.add_to_page(found.normal_plot.has_value(), normal_section, found);
+  sections.add_to_page(!found.terms.empty(), terms_section, found);
+  sections.add_to_page(!found.separations.empty(), separation_section, found);
+  sections.add(!found.settings.empty(), settings_section, found);
+  sections.add(!found.outliers.empty(), outliers_section, found);
+  sections.add(!found.bounds.empty(), bounds_section, found);
+  sections.add(!found.not_testable.empty(), not_testable_section, found);
+}
+
+}  // namespace
+
+report::Document diagnosis_document(const Diagnosis& found, std::string_view source) {
+  report::Document document;
+  document.title = fmt::format("Diagnosis: {}", found.grid_name);
+  document.subtitle =
+      fmt::format("{}, {}",
+                  found.belts ? found.belts->machine.name : found.extended_machine.name,
+                  readings_counted(found));
+  put_the_verdict(found, document);
+  add_sections(found, document.sections);
+  document.remarks = remarks_section(found);
+  document.has_glossary = true;
+  document.provenance =
+      fmt::format("Made from {} by chaintrue {}; seed {}.", source, CHAINTRUE_VERSION, found.seed);
+  return document;
+}
+
+}  // namespace chaintrue::cli

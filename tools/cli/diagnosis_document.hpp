@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A diagnosis as a document for the terminal and for a browser: the answer first, then what it
+/// rests on.
+#pragma once
+
+#include <string_view>
+
+#include "grid/diagnosis/diagnosis.hpp"
+#include "tools/report/document.hpp"
+
+namespace chaintrue::cli {
+
+/// `source` is the name of the file that the diagnosis was made from, for the page's last line.
+[[nodiscard]] report::Document diagnosis_document(const grid::diagnosis::Diagnosis& diagnosis,
+                                                  std::string_view source);
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/diagnosis_pictures.hpp"
+
+#include "tools/cli/diagnosis_charts.hpp"
+#include "tools/cli/diagnosis_words.hpp"
+#include "tools/cli/distance_charts.hpp"
+
+namespace chaintrue::cli {
+
+using grid::diagnosis::Diagnosis;
+using report::Paragraph;
+using report::Section;
+
+Section arrows_section(const Diagnosis& found) {
+  if (is_of_distances(found)) return {"What it does to the distances", {distance_chart(found)}};
+  Section section{"What it does to the tool", {}};
+  for (report::ChartRow& row : arrow_charts(found)) section.blocks.emplace_back(std::move(row));
+  if (!found.distances.empty()) section.blocks.emplace_back(distance_chart(found));
+  return section;
+}
+
+Section signature_section(const Diagnosis& found) {
+  Section section{"Why this cause", {}};
+  section.blocks.emplace_back(Paragraph{
+      "What was measured beside what the cause makes of it, once the settings have taken what they "
+      "can. A cause is right where its picture is the measured one and only noise is left."});
+  for (report::Chart& chart : strip_charts(found)) section.blocks.emplace_back(std::move(chart));
+  if (!found.distances.empty()) section.blocks.emplace_back(distance_strip_chart(found));
+  return section;
+}
+
+Section residuals_section(const Diagnosis& found) {
+  Section section{"What the error follows", {}};
+  if (is_of_distances(found)) {
+    section.blocks.emplace_back(distance_scatter_charts(found));
+    section.blocks.emplace_back(Paragraph{
+        "Distances know neither the chain's length at a hole nor in which order the holes were "
+        "cut, so drift, skipped links and friction cannot be looked for."});
+    return section;
+  }
+  for (report::ChartRow& row : length_charts(found)) section.blocks.emplace_back(std::move(row));
+  section.blocks.emplace_back(angle_charts(found));
+  if (has_order(found)) {
+    section.blocks.emplace_back(order_charts(found));
+  } else {
+    section.blocks.emplace_back(Paragraph{
+        "The points do not say in which order they were visited, so drift, skipped links and "
+        "friction cannot be looked for."});
+  }
+  if (!found.distances.empty()) section.blocks.emplace_back(distance_scatter_charts(found));
+  return section;
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a verb says, built once: a verdict, then sections of text, lists, tables and charts. It is
+/// rendered to the terminal and to one self-contained HTML page (style, data, chart specifications
+/// and Vega, which draws them, are inside it). Same document, same bytes.
+///
+/// Texts are plain: escaping, and the signs for "+-" and minus, are the renderers' work. Whatever
+/// the terminal shows is on the page too; Detail says what only the page shows.
+///
+/// A chart is the name of a Vega specification in charts/ plus the data tables and signals that it
+/// declares without values; hovering or tapping a mark shows the object of its `tooltip`.
+///
+/// \code
+///   Document document{.title = "Compensation map", .verdict = {"True to 0.21 mm."}};
+///   document.sections.push_back(
+///       {"Settings", {Table{.columns = {{"setting"}, {.heading = "stated", .is_number = true}},
+///                           .rows = {{{"motor x", 1489.2}}}}}});
+///   std::string html = render_html(document), text = render_text(document);
+/// \endcode
+///
+/// Pure functions of their arguments: safe from any thread.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace chaintrue::report {
+
+/// Where something is shown: on the terminal and the page; on the terminal only when all is asked
+/// for; on the page alone.
+enum class Detail { always, verbose, page };
+
+/// How the verdict reads at a glance; said in words too, so colour alone carries nothing.
+enum class Tone { good, caution, bad };
+
+/// A question that the page answers at a glance: "Named?" "yes, one cause" in the tone's colour and
+/// with its sign. Page only.
+struct Light {
+  Tone tone = Tone::good;
+  std::string question{};
+  std::string answer{};
+};
+
+struct Paragraph {
+  std::string text{};
+  Detail detail = Detail::always;
+  /// An assumption or a warning, which the terminal marks as "Note:".
+  bool is_note = false;
+};
+
+/// Lines, each with lines that belong to it.
+struct Item {
+  std::string text{};
+  std::vector<Item> items{};
+};
+struct List {
+  enum class Mark { none, dash, number };
+  Mark mark = Mark::none;
+  std::vector<Item> items{};
+};
+
+/// A few numbers that matter most, set large: "0.21 mm" over "expected at the tool". Page only.
+struct Figure {
+  std::string value{};
+  std::string label{};
+};
+struct Figures {
+  std::vector<Figure> figures{};
+};
+
+/// A text, a number with its column's digits, or nothing known.
+struct Cell {
+  std::variant<std::monostate, std::string, double> value{};
+  Cell() = default;
+  Cell(std::string text) : value(std::move(text)) {}  // NOLINT: a row reads as a list of values
+  Cell(std::string_view text) : value(std::string(text)) {}    // NOLINT
+  Cell(const char* text) : value(std::string(text)) {}         // NOLINT
+  Cell(double number) : value(number) {}                       // NOLINT
+  Cell(std::optional<double> number) {                         // NOLINT
+    if (number) value = *number;
+  }
+};
+struct Column {
+  std::string heading{};
+  bool is_number = false;  ///< set flush right
+  int digits = 2;          ///< after the point, of cells that hold a number
+  bool has_sign = false;   ///< also of positive numbers
+  /// What the page says in place of the heading, with the unit; empty: the same.
+  std::string page_heading{};
+  /// On the terminal: as many characters at least, with the space on its left; 0: as each cell needs.
+  int width = 0;
+  /// On the terminal: blanks on the left of a text.
+  int gap = 0;
+  Detail detail = Detail::always;
+};
+struct Row {
+  /// Those of the last columns may be left out.
+  std::vector<Cell> cells{};
+  /// A flagged row stands out; its last cell should say why.
+  bool is_flagged = false;
+};
+struct Table {
+  std::vector<Column> columns{};
+  std::vector<Row> rows{};
+  /// Below the table, on the page.
+  std::string caption{};
+  /// On the terminal the first column's heading is that of the section.
+  bool is_headed = false;
+  /// On the terminal: of the first heading; 0: as wide as its column.
+  int head_width = 0;
+};
+
+using Value = std::variant<double, bool, std::string>;
+
+/// Rows of named fields, as a chart's specification declares them.
+struct DataTable {
+  std::string name{};
+  std::vector<std::string> fields{};
+  std::vector<std::vector<Value>> rows{};
+};
+struct Signal {
+  std::string name{};
+  Value value;
+};
+struct Chart {
+  std::string specification{};  ///< charts/<specification>.vg.json
+  std::string title{};
+  std::string caption{};
+  std::vector<DataTable> data{};
+  std::vector<Signal> signals{};
+  /// The same in numbers: on the terminal, and on a page whose scripts do not run.
+  std::optional<Table> alternative{};
+};
+/// Charts side by side, one below the other where the screen is narrow.
+struct ChartRow {
+  std::vector<Chart> charts{};
+};
+
+using Block = std::variant<Paragraph, List, Figures, Table, Chart, ChartRow>;
+
+struct Section {
+  std::string title{};
+  std::vector<Block> blocks{};
+  /// Shows its title alone until somebody opens it; on paper it is open.
+  bool is_folded = false;
+  Detail detail = Detail::always;
+  /// Whether the terminal shows the title, with the blocks set in below it.
+  bool is_titled = true;
+};
+
+struct Document {
+  std::string title{};
+  std::string subtitle{};
+  Paragraph verdict{};
+  Tone tone = Tone::good;
+  /// Below the verdict, in one line.
+  std::vector<Light> lights{};
+  /// What to do now, at most three lines.
+  std::vector<Paragraph> advice{};
+  /// What the verdict does not prove; empty: no such line.
+  Paragraph not_proved{};
+  /// Set large below the verdict.
+  std::vector<Figure> figures{};
+  /// What the verdict rests on: on the terminal directly below it and without the title, on the page
+  /// after the sections.
+  Section remarks{};
+  std::vector<Section> sections{};
+  /// The page ends with the glossary's words.
+  bool has_glossary = false;
+  /// Set closely, so that it prints on one sheet of A4.
+  bool is_one_sheet = false;
+  /// Where the page came from: inputs, program and version.
+  std::string provenance{};
+};
+
+/// The document as a page.
+/// \throws std::invalid_argument where a number is not finite, a row has more cells than its table
+/// has columns, or no chart specification has the name asked for.
+[[nodiscard]] std::string render_html(const Document& document);
+
+/// The document as lines for a terminal: what `detail` (always or verbose) includes.
+/// \throws std::invalid_argument where a number is not finite or a row has too many cells.
+[[nodiscard]] std::string render_text(const Document& document, Detail detail = Detail::always);
+
+}  // namespace chaintrue::report
