@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "grid/belts/frame_solver.hpp"
-#include "grid/holes/check_decision.hpp"
+#include "grid/map/check_decision.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid {

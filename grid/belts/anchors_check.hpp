@@ -27,7 +27,7 @@
 #include <vector>
 
 #include "grid/belts/belts_fit.hpp"
-#include "grid/holes/map_check.hpp"
+#include "grid/map/map_check.hpp"
 
 namespace chaintrue::grid {
 

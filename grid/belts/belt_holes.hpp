@@ -30,7 +30,7 @@
 #include <vector>
 
 #include "grid/belts/frame_solver.hpp"
-#include "grid/holes/measured_holes.hpp"
+#include "grid/observation/measured_holes.hpp"
 
 namespace chaintrue::grid {
 

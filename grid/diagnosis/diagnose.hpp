@@ -18,7 +18,7 @@
 
 #include "grid/diagnosis/diagnosis.hpp"
 #include "grid/diagnosis/options.hpp"
-#include "grid/measured.hpp"
+#include "grid/observation/measured.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

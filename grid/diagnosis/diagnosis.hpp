@@ -25,7 +25,7 @@
 #include "grid/diagnosis/belts_findings.hpp"
 #include "grid/diagnosis/cause_id.hpp"
 #include "grid/diagnosis/pictures.hpp"
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::diagnosis {

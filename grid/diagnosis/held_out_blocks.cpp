@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "grid/map/spatial_blocks.hpp"
+#include "grid/estimation/spatial_blocks.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

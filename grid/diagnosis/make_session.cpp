@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "grid/map/length_points.hpp"
+#include "grid/observation/length_points.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "grid/diagnosis/options.hpp"
-#include "grid/measured.hpp"
 #include "grid/observation/chain_lengths.hpp"
+#include "grid/observation/measured.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/observation/tape_distances.hpp"
 

@@ -7,7 +7,7 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/diagnosis/gain.hpp"
 #include "grid/diagnosis/leading.hpp"
-#include "grid/map/spatial_blocks.hpp"
+#include "grid/estimation/spatial_blocks.hpp"
 #include "grid/statistics.hpp"
 
 namespace chaintrue::grid::diagnosis {

@@ -9,7 +9,7 @@
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/stability.hpp"
 #include "grid/diagnosis/workshop_units.hpp"
-#include "grid/holes/measured_holes.hpp"
+#include "grid/observation/measured_holes.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {

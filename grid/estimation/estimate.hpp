@@ -44,7 +44,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/map/residual_surface.hpp"
+#include "grid/estimation/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
 #include "grid/progress.hpp"
 #include "interp/reml.hpp"

@@ -11,7 +11,7 @@
 #include "grid/chain_rows.hpp"
 #include "grid/estimation/surface_correction.hpp"
 #include "grid/estimation/unknowns.hpp"
-#include "grid/map/measured_area.hpp"
+#include "interp/measured_region.hpp"
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -29,6 +29,13 @@ std::vector<MarkPoint> stated_marks(const observation::Observations& observation
   return marks;
 }
 
+/// The side of the square that each point has to itself.
+double spacing_mm_of(const std::vector<MarkPoint>& points) {
+  std::vector<interp::PlanePoint> in_plane;
+  for (const MarkPoint point : points) in_plane.push_back({point.x_mm, point.y_mm});
+  return std::sqrt(interp::ConvexHull(in_plane).area() / static_cast<double>(points.size()));
+}
+
 /// Intervals a little wider than the square that each place has to itself: three more coefficients
 /// than intervals on each axis still let noise-free points be met; the penalty makes what is too
 /// many of them harmless, and beyond some 200 a surface more would only cost time. The smoother
@@ -39,7 +46,7 @@ interp::BsplineBasis basis_for(const EstimationInput& input, bool has_surface) {
     return {input.domain, input.intervals_x, input.intervals_y};
   const double widening = input.bending_order == 2 ? 1.2 : 0.8;
   const double spacing_mm =
-      widening * 2.0 * MeasuredArea(stated_marks(input.observations), input.domain).edge_mm();
+      widening * spacing_mm_of(stated_marks(input.observations));
   const auto intervals = [spacing_mm](double length_mm, int most) {
     return std::clamp(static_cast<int>(std::ceil(length_mm / spacing_mm)), 3, most);
   };

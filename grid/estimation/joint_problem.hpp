@@ -12,9 +12,9 @@
 #include "grid/estimation/free_sheet.hpp"
 #include "grid/estimation/linearised_system.hpp"
 #include "grid/estimation/local_design.hpp"
+#include "grid/estimation/observed_subspace.hpp"
 #include "grid/estimation/surface_correction.hpp"
 #include "grid/estimation/unknowns.hpp"
-#include "grid/map/observed_subspace.hpp"
 
 namespace chaintrue::grid::estimation {
 

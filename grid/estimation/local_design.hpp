@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "grid/estimation/linearised_system.hpp"
+#include "grid/estimation/observed_subspace.hpp"
 #include "grid/estimation/unknowns.hpp"
-#include "grid/map/observed_subspace.hpp"
 #include "interp/reml.hpp"
 
 namespace chaintrue::grid::estimation {

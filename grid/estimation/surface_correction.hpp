@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "grid/map/residual_surface.hpp"
+#include "grid/estimation/residual_surface.hpp"
 #include "grid/observation/observation.hpp"
 #include "model/calibration/sheet_placement.hpp"
 

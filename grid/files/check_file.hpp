@@ -6,7 +6,7 @@
 #include <string>
 
 #include "grid/belts/anchors_check.hpp"
-#include "grid/holes/map_check.hpp"
+#include "grid/map/map_check.hpp"
 
 namespace chaintrue::grid::files {
 

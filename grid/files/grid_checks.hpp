@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "grid/files/problems.hpp"
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 
 namespace chaintrue::grid::files {
 

@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "grid/files/input_error.hpp"
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 
 namespace chaintrue::grid::files {
 

@@ -39,7 +39,7 @@
 #include <vector>
 
 #include "grid/files/input_error.hpp"
-#include "grid/holes/measured_holes.hpp"
+#include "grid/observation/measured_holes.hpp"
 #include "model/belts/belt_machine.hpp"
 
 namespace chaintrue::grid::files {

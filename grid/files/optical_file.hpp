@@ -19,7 +19,7 @@
 #include <string>
 
 #include "grid/files/input_error.hpp"
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 
 namespace chaintrue::grid::files {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "grid/files/json_reader.hpp"
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 
 namespace chaintrue::grid::files {
 

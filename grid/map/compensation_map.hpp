@@ -23,10 +23,10 @@
 #include <variant>
 #include <vector>
 
+#include "grid/estimation/residual_surface.hpp"
 #include "grid/map/lattice_residual.hpp"
 #include "grid/map/measured_area.hpp"
-#include "grid/map/residual_surface.hpp"
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 #include "interp/tensor_spline.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
@@ -105,7 +105,7 @@ struct MirrorTest {
   std::string sentence;
 };
 
-/// What a map made from holes and a tape stands on (grid/holes): its points are the holes, where
+/// What a map made from holes and a tape stands on: its points are the holes, where
 /// the distances say they are, and its held-out errors those of distances, along the tape.
 struct DistancesUsed {
   int used = 0;

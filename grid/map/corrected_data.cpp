@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "grid/map/length_points.hpp"
+#include "grid/observation/length_points.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
 
@@ -58,7 +58,8 @@ tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid,
                                                 const Machine& with_visits,
                                                 const Machine& without) {
   const auto points = length_points(grid);
-  if (!points) return tl::unexpected(points.error());
+  if (!points)
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence});
   std::vector<model::Visit> visits;
   for (const MeasuredPoint& point : grid.points)
     visits.push_back({model::laid_as_bed(point.mark), *point.order});

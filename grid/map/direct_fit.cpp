@@ -7,9 +7,9 @@
 #include <functional>
 
 #include "grid/map/lattice_lines.hpp"
-#include "grid/map/length_points.hpp"
 #include "grid/map/map_accuracy.hpp"
 #include "grid/map/residual_fit.hpp"
+#include "grid/observation/length_points.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -135,7 +135,8 @@ tl::expected<void, FitFailure> check_full(const Lattice& lattice) {
 tl::expected<CompensationMap, FitFailure> fit_direct(const MeasuredGrid& grid,
                                                      const FitOptions& options) {
   const auto points = length_points(grid);
-  if (!points) return tl::unexpected(points.error());
+  if (!points)
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence});
   Lattice lattice = lattice_of(*points);
   if (auto full = check_full(lattice); !full) return tl::unexpected(full.error());
 

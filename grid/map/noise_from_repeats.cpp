@@ -4,7 +4,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "grid/map/length_points.hpp"
+#include "grid/observation/length_points.hpp"
 
 namespace chaintrue::grid {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "grid/map/spatial_blocks.hpp"
+#include "grid/estimation/spatial_blocks.hpp"
 #include "grid/observation/single_readings.hpp"
 
 namespace chaintrue::grid {

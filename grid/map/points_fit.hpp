@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "grid/estimation/estimate.hpp"
-#include "grid/map/length_points.hpp"
-#include "grid/measured_grid.hpp"
 #include "grid/observation/chain_lengths.hpp"
+#include "grid/observation/length_points.hpp"
+#include "grid/observation/measured_grid.hpp"
 
 namespace chaintrue::grid {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "grid/map/lattice_residual.hpp"
-#include "grid/map/length_points.hpp"
 #include "grid/map/noise_from_repeats.hpp"
 #include "grid/map/points_map.hpp"
+#include "grid/observation/length_points.hpp"
 #include "model/effects/catalogue.hpp"
 
 namespace chaintrue::grid {
@@ -175,7 +175,8 @@ tl::expected<FittedGrid, FitFailure> fit_grid(const MeasuredGrid& grid, const Pr
         "ask for --surface direct"});
   }
   const auto points = length_points(grid);
-  if (!points) return tl::unexpected(points.error());
+  if (!points)
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence});
   if (auto possible = check_machine_read(grid); !possible) return tl::unexpected(possible.error());
   const bool stated = states_noise(grid);
   PointsFitInput input = points_input(grid, *points);

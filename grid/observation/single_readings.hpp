@@ -7,7 +7,7 @@
 /// They are linear in the settings.
 #pragma once
 
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 #include "grid/observation/observation.hpp"
 
 namespace chaintrue::grid::observation {

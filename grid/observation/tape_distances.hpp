@@ -29,7 +29,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/holes/measured_holes.hpp"
+#include "grid/observation/measured_holes.hpp"
 #include "grid/observation/observation.hpp"
 
 namespace chaintrue::grid::observation {

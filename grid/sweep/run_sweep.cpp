@@ -15,12 +15,6 @@
 namespace chaintrue::grid::sweep {
 namespace {
 
-std::string part_name(const Share& share) {
-  std::string name = fmt::format("shard-{}-of-{}", share.index + 1, share.count);
-  if (share.ranks > 1) name += fmt::format("-rank-{}-of-{}", share.rank + 1, share.ranks);
-  return name;
-}
-
 // The k-th cell of a share.
 std::uint64_t cell_of(const Share& share, std::uint64_t k) {
   return share.index + share.count * (share.rank + share.ranks * k);
@@ -53,13 +47,18 @@ void for_all(std::uint64_t count, int /*threads*/, const std::function<void(std:
 
 }  // namespace
 
-std::uint64_t run_sweep(const SweepSpec& spec, std::uint64_t spec_hash, const SweepRun& run) {
-  const ResultStore store(run.directory, spec_hash, cells(spec));
-  const std::uint64_t total = cells_of(run.share, store.cells());
+std::string part_name(const Share& share) {
+  std::string name = fmt::format("shard-{}-of-{}", share.index + 1, share.count);
+  if (share.ranks > 1) name += fmt::format("-rank-{}-of-{}", share.rank + 1, share.ranks);
+  return name;
+}
+
+std::uint64_t run_sweep(const SweepSpec& spec, const CellStore& store, const SweepRun& run) {
+  const std::uint64_t total = cells_of(run.share, cells(spec));
   std::uint64_t pending = 0;
   for (std::uint64_t k = 0; k < total; ++k) pending += store.has(cell_of(run.share, k)) ? 0 : 1;
   if (pending == 0) return 0;
-  PartWriter writer(run.directory, part_name(run.share), spec_hash);
+  const KeepCell keep = store.open();
   std::mutex writing;
   std::uint64_t finished = 0;
   for_all(total, run.threads, [&](std::uint64_t k) {
@@ -67,7 +66,7 @@ std::uint64_t run_sweep(const SweepSpec& spec, std::uint64_t spec_hash, const Sw
     if (store.has(cell)) return;
     const CellResult result = run_cell(spec, cell);
     const std::scoped_lock lock(writing);
-    writer.append(cell, result);
+    keep(cell, result);
     ++finished;
     if (run.progress) run.progress(finished, pending);
   });

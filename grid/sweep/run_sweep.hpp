@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Runs the cells of a sweep on all cores (oneTBB), keeping each as soon as it is finished.
+/// Runs the cells of a sweep on all cores (oneTBB), handing each over as soon as it is finished.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
+#include <string>
 
-#include "grid/sweep/result_store.hpp"
+#include "grid/sweep/sweep_spec.hpp"
 
 namespace chaintrue::grid::sweep {
 
@@ -20,8 +20,19 @@ struct Share {
   std::uint64_t ranks = 1;
 };
 
+/// "shard-3-of-16", and the process where there are several.
+[[nodiscard]] std::string part_name(const Share& share);
+
+using KeepCell = std::function<void(std::uint64_t, const CellResult&)>;
+
+/// Where finished cells are kept (grid/files/sweep_store.hpp).
+struct CellStore {
+  std::function<bool(std::uint64_t)> has;
+  /// Called once, where a cell is to be computed; what it returns is called one cell at a time.
+  std::function<KeepCell()> open;
+};
+
 struct SweepRun {
-  std::filesystem::path directory;
   Share share;
   int threads = 0;  ///< 0: all cores
   /// Called after each cell with how many of this run's cells are finished and how many there are;
@@ -30,8 +41,7 @@ struct SweepRun {
 };
 
 /// Runs what the share still lacks. \returns how many cells were computed.
-/// \throws files::InputError where the folder cannot be written or holds cells of another
-/// specification.
-std::uint64_t run_sweep(const SweepSpec& spec, std::uint64_t spec_hash, const SweepRun& run);
+/// \throws whatever the store throws.
+std::uint64_t run_sweep(const SweepSpec& spec, const CellStore& store, const SweepRun& run);
 
 }  // namespace chaintrue::grid::sweep

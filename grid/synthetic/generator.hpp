@@ -25,7 +25,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 #include "grid/progress.hpp"
 #include "grid/synthetic/design.hpp"
 #include "model/calibration/sheet_placement.hpp"

@@ -14,7 +14,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/holes/measured_holes.hpp"
+#include "grid/observation/measured_holes.hpp"
 #include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid::synthetic {

@@ -32,7 +32,7 @@
 #include <string>
 #include <vector>
 
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
 

@@ -13,7 +13,7 @@
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/optical_file.hpp"
 #include "grid/map/fit.hpp"
-#include "grid/map/length_points.hpp"
+#include "grid/observation/length_points.hpp"
 
 namespace chaintrue {
 namespace {

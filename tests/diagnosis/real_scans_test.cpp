@@ -17,7 +17,7 @@
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/optical_file.hpp"
-#include "grid/map/length_points.hpp"
+#include "grid/observation/length_points.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
 

@@ -8,9 +8,9 @@
 
 #include <cmath>
 
-#include "grid/holes/fit_together.hpp"
-#include "grid/holes/passes.hpp"
+#include "grid/map/fit_together.hpp"
 #include "grid/map/points_map.hpp"
+#include "grid/planning/passes.hpp"
 #include "tests/holes/hole_sets.hpp"
 
 namespace chaintrue::grid {

@@ -12,9 +12,9 @@
 
 #include "grid/diagnosis/periodogram.hpp"
 #include "grid/files/json_text.hpp"
-#include "grid/holes/holes_plan.hpp"
-#include "grid/map/measurement_plan.hpp"
 #include "grid/observation/single_readings.hpp"
+#include "grid/planning/holes_plan.hpp"
+#include "grid/planning/measurement_plan.hpp"
 #include "grid/synthetic/random.hpp"
 #include "grid/synthetic/strength.hpp"
 

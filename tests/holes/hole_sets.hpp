@@ -7,7 +7,7 @@
 #include <string>
 
 #include "grid/files/machine_file.hpp"
-#include "grid/holes/holes_plan.hpp"
+#include "grid/planning/holes_plan.hpp"
 #include "grid/synthetic/holes.hpp"
 #include "tests/map/synthetic_grid.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "grid/files/map_file.hpp"
-#include "grid/holes/holes_fit.hpp"
+#include "grid/map/holes_fit.hpp"
 #include "model/calibration/setting.hpp"
 #include "tests/holes/hole_sets.hpp"
 

@@ -9,9 +9,9 @@
 #include <set>
 #include <tuple>
 
-#include "grid/holes/passes.hpp"
-#include "grid/holes/seen_effects.hpp"
 #include "grid/estimation/estimate.hpp"
+#include "grid/planning/passes.hpp"
+#include "grid/planning/seen_effects.hpp"
 #include "grid/synthetic/random.hpp"
 #include "tests/holes/hole_sets.hpp"
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "grid/files/check_file.hpp"
-#include "grid/holes/check_plan.hpp"
-#include "grid/holes/map_check.hpp"
 #include "grid/map/fit.hpp"
+#include "grid/map/map_check.hpp"
+#include "grid/planning/check_plan.hpp"
 #include "grid/synthetic/random.hpp"
 #include "tests/holes/hole_sets.hpp"
 #include "tests/map/synthetic_grid.hpp"

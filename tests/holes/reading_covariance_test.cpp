@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The factored covariance of new readings against the same matrix written out.
-#include "grid/holes/reading_covariance.hpp"
+#include "grid/map/reading_covariance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "grid/diagnosis/diagnose.hpp"
-#include "grid/holes/holes_fit.hpp"
+#include "grid/map/holes_fit.hpp"
 #include "tests/holes/sets_together.hpp"
 
 namespace chaintrue::grid {

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "grid/measured.hpp"
+#include "grid/observation/measured.hpp"
 #include "model/controllers/payout.hpp"
 
 namespace chaintrue::grid {

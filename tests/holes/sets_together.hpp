@@ -17,7 +17,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/holes/measured_holes.hpp"
+#include "grid/observation/measured_holes.hpp"
 
 namespace chaintrue::grid {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a plan promises: as many marks as asked for, on the bed, apart from each other, in a short
 // walk; an expected error that falls with more points and is told by the fit itself.
-#include "grid/map/measurement_plan.hpp"
+#include "grid/planning/measurement_plan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "grid/map/length_points.hpp"
+#include "grid/observation/length_points.hpp"
 #include "interp/planner_nodes.hpp"
 
 namespace chaintrue {

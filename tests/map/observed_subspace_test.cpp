@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The part of a spline surface that points observe, against the penalty's own algebra.
-#include "grid/map/observed_subspace.hpp"
+#include "grid/estimation/observed_subspace.hpp"
 
 #include <gtest/gtest.h>
 

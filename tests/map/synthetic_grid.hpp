@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "model/reading_model.hpp"
 

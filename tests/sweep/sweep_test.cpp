@@ -10,6 +10,7 @@
 
 #include "grid/files/input_error.hpp"
 #include "grid/files/sweep_file.hpp"
+#include "grid/files/sweep_store.hpp"
 #include "grid/sweep/run_sweep.hpp"
 
 namespace chaintrue::grid::sweep {
@@ -33,16 +34,20 @@ fs::path fresh_folder(const std::string& name) {
 }
 
 std::string results_of(const files::ReadSweep& read, const fs::path& folder) {
-  write_results(read.spec, ResultStore(folder, read.hash, cells(read.spec)), folder);
+  write_results(read.spec, files::ResultStore(folder, read.hash, cells(read.spec)), folder);
   return text_of(folder / "results.csv") + text_of(folder / "summary.json");
+}
+
+std::uint64_t run_in(const fs::path& folder, const files::ReadSweep& read, const SweepRun& run) {
+  return run_sweep(
+      read.spec, files::cells_kept_in(folder, read.spec, read.hash, run.share), run);
 }
 
 std::string whole_run(const files::ReadSweep& read, const std::string& name, int threads) {
   const fs::path folder = fresh_folder(name);
   SweepRun run;
-  run.directory = folder;
   run.threads = threads;
-  EXPECT_EQ(run_sweep(read.spec, read.hash, run), cells(read.spec));
+  EXPECT_EQ(run_in(folder, read, run), cells(read.spec));
   return results_of(read, folder);
 }
 
@@ -126,10 +131,9 @@ TEST(Sweep, ShardsMergeToTheBytesOfOneRun) {
   const fs::path folder = fresh_folder("shards");
   for (std::uint64_t shard : {2U, 0U, 1U}) {
     SweepRun run;
-    run.directory = folder;
-    run.share = {shard, 3, 0, 1};
-    EXPECT_FALSE(ResultStore(folder, read.hash, cells(read.spec)).complete());
-    run_sweep(read.spec, read.hash, run);
+      run.share = {shard, 3, 0, 1};
+    EXPECT_FALSE(files::ResultStore(folder, read.hash, cells(read.spec)).complete());
+    run_in(folder, read, run);
   }
   EXPECT_EQ(results_of(read, folder), whole);
 }
@@ -148,8 +152,7 @@ TEST(Sweep, GoesOnFromAPartTornAnywhere) {
     fs::create_directories(folder / "parts");
     std::ofstream(folder / part, std::ios::binary) << complete.substr(0, length);
     SweepRun run;
-    run.directory = folder;
-    const std::uint64_t computed = run_sweep(read.spec, read.hash, run);
+      const std::uint64_t computed = run_in(folder, read, run);
     EXPECT_EQ(computed, 8U - (length < 64U ? 0U : length / 64U - 1U));
     EXPECT_EQ(results_of(read, folder), whole);
   }
@@ -163,17 +166,16 @@ TEST(Sweep, IgnoresARecordWhoseChecksumIsWrong) {
   std::string bytes = text_of(part);
   bytes[64 * 3 + 20] = static_cast<char>(bytes[64 * 3 + 20] ^ 1);
   std::ofstream(part, std::ios::binary) << bytes;
-  EXPECT_EQ(ResultStore(folder, read.hash, cells(read.spec)).finished(), 7U);
+  EXPECT_EQ(files::ResultStore(folder, read.hash, cells(read.spec)).finished(), 7U);
   SweepRun run;
-  run.directory = folder;
-  EXPECT_EQ(run_sweep(read.spec, read.hash, run), 1U);
+  EXPECT_EQ(run_in(folder, read, run), 1U);
   EXPECT_EQ(results_of(read, folder), whole);
 }
 
 TEST(Sweep, RefusesThePartsOfAnotherSpecification) {
   const files::ReadSweep read = files::read_sweep(kSpecs + "quick.json");
   whole_run(read, "other", 2);
-  EXPECT_THROW(ResultStore(fs::path(::testing::TempDir()) / "chaintrue_sweep_other",
+  EXPECT_THROW(files::ResultStore(fs::path(::testing::TempDir()) / "chaintrue_sweep_other",
                            read.hash + 1,
                            cells(read.spec)),
                files::InputError);

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnose.hpp"
-#include "grid/holes/holes_fit.hpp"
-#include "grid/holes/map_check.hpp"
 #include "grid/map/fit.hpp"
+#include "grid/map/holes_fit.hpp"
+#include "grid/map/map_check.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "grid/synthetic/random.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grid/files/optical_file.hpp"
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 
 namespace chaintrue::cli {
 

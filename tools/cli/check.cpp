@@ -12,7 +12,7 @@
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/holes/map_check.hpp"
+#include "grid/map/map_check.hpp"
 #include "tools/cli/check_anchors.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"

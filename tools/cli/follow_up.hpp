@@ -7,7 +7,7 @@
 #include <string>
 
 #include "grid/diagnosis/diagnosis.hpp"
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 
 namespace chaintrue::cli {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
-#include "grid/holes/measured_holes.hpp"
+#include "grid/observation/measured_holes.hpp"
 
 namespace chaintrue::cli {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "grid/files/holes_file.hpp"
-#include "grid/measured.hpp"
+#include "grid/observation/measured.hpp"
 #include "tools/cli/arguments.hpp"
 
 namespace chaintrue::cli {

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "grid/holes/holes_plan.hpp"
+#include "grid/planning/holes_plan.hpp"
 
 namespace chaintrue::cli {
 

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <vector>
 
-#include "grid/holes/seen_effects.hpp"
+#include "grid/planning/seen_effects.hpp"
 
 namespace chaintrue::cli {
 namespace {

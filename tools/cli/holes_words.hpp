@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "grid/holes/holes_fit.hpp"
-#include "grid/holes/holes_plan.hpp"
+#include "grid/map/holes_fit.hpp"
+#include "grid/planning/holes_plan.hpp"
 
 namespace chaintrue::cli {
 

@@ -14,7 +14,7 @@
 #include "grid/files/map_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/holes/passes.hpp"
+#include "grid/planning/passes.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"

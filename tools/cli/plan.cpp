@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "grid/map/measurement_plan.hpp"
+#include "grid/planning/measurement_plan.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grid/files/whole_file.hpp"
-#include "grid/holes/map_check.hpp"
+#include "grid/map/map_check.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/map_input.hpp"
 #include "tools/cli/places.hpp"

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "grid/holes/check_plan.hpp"
+#include "grid/planning/check_plan.hpp"
 #include "tools/cli/plan_outputs.hpp"
 
 namespace chaintrue::cli {

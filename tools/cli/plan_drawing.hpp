@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "grid/map/measurement_plan.hpp"
+#include "grid/planning/measurement_plan.hpp"
 
 namespace chaintrue::cli {
 

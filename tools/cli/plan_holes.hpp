@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "grid/holes/holes_plan.hpp"
+#include "grid/planning/holes_plan.hpp"
 #include "tools/cli/arguments.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/plan_outputs.hpp"

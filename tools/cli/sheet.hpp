@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_grid.hpp"
 #include "tools/cli/arguments.hpp"
 
 namespace chaintrue::cli {

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "grid/holes/holes_plan.hpp"
+#include "grid/planning/holes_plan.hpp"
 #include "tools/cli/sheet.hpp"
 
 namespace chaintrue::cli {

@@ -14,7 +14,7 @@
 #include "grid/files/points_file.hpp"
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/map/measurement_plan.hpp"
+#include "grid/planning/measurement_plan.hpp"
 #include "model/calibration/setting.hpp"
 #include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "grid/holes/holes_plan.hpp"
+#include "grid/planning/holes_plan.hpp"
 #include "grid/synthetic/holes.hpp"
 
 namespace chaintrue::cli {

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "grid/files/sweep_file.hpp"
+#include "grid/files/sweep_store.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/sweep/run_sweep.hpp"
 #include "tools/cli/effect_argument.hpp"
@@ -88,7 +89,7 @@ std::vector<FolderFile> results() {
 
 int assemble(Verb verb,
              const sweep::SweepSpec& spec,
-             const sweep::ResultStore& store,
+             const files::ResultStore& store,
              const SweepOptions& options) {
   if (!store.complete()) {
     fmt::print(stderr,
@@ -121,7 +122,6 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
   sweep::SweepRun run;
   try {
     OptionProblems sound;  // check_options has seen to it
-    run.directory = options.directory;
     run.share = parse_shard(options.shard, sound);
     run.share.rank = processes.rank();
     run.share.ranks = processes.count();
@@ -141,7 +141,10 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
         run.progress = [](std::uint64_t finished, std::uint64_t total) {
           progress_is(static_cast<double>(finished), static_cast<double>(total));
         };
-      sweep::run_sweep(read->spec, read->hash, run);
+      sweep::run_sweep(
+          read->spec,
+          files::cells_kept_in(options.directory, read->spec, read->hash, run.share),
+          run);
     } catch (...) {
       failure = std::current_exception();
     }
@@ -149,7 +152,7 @@ int run_sweep_verb(Verb verb, const SweepOptions& options) {
     if (processes.all(failure == nullptr) && processes.rank() == 0) {
       return assemble(verb,
                       read->spec,
-                      sweep::ResultStore(options.directory, read->hash, cells(read->spec)),
+                      files::ResultStore(options.directory, read->hash, cells(read->spec)),
                       options);
     }
   }

@@ -12,6 +12,7 @@
 namespace chaintrue::cli {
 namespace {
 
+namespace files = grid::files;
 namespace sweep = grid::sweep;
 
 constexpr std::array<std::string_view, sweep::kFactors> kTitles = {
@@ -29,10 +30,10 @@ double points_of(const sweep::SweepSpec& spec, std::size_t grid) {
 }
 
 report::Chart panel(const sweep::SweepSpec& spec,
-                    const std::vector<sweep::LevelError>& errors,
+                    const std::vector<files::LevelError>& errors,
                     std::size_t factor) {
   report::DataTable lines{"lines", {"level", "points", "rms_mm", "max_mm", "cells"}, {}};
-  for (const sweep::LevelError& error : errors) {
+  for (const files::LevelError& error : errors) {
     if (error.factor != factor) continue;
     const std::string level =
         factor + 1 == sweep::kFactors ? "all" : sweep::level_name(spec, factor, error.level);
@@ -50,7 +51,7 @@ report::Chart panel(const sweep::SweepSpec& spec,
           .data = {std::move(lines)}};
 }
 
-report::Table table(const sweep::SweepSpec& spec, const std::vector<sweep::LevelError>& errors) {
+report::Table table(const sweep::SweepSpec& spec, const std::vector<files::LevelError>& errors) {
   report::Table table;
   table.columns = {{"factor"},
                    {"level"},
@@ -59,7 +60,7 @@ report::Table table(const sweep::SweepSpec& spec, const std::vector<sweep::Level
                    {"worst, mm", true},
                    {"cells", true}};
   const auto counts = sweep::level_counts(spec);
-  for (const sweep::LevelError& error : errors) {
+  for (const files::LevelError& error : errors) {
     // A factor of one level says what the grids say.
     if (counts[error.factor] == 1 && error.factor + 1 < sweep::kFactors) continue;
     table.rows.push_back({{std::string(sweep::kFactorNames[error.factor]),
@@ -73,12 +74,12 @@ report::Table table(const sweep::SweepSpec& spec, const std::vector<sweep::Level
 }
 
 /// Pooled over the grids, a level of a factor each; 0 where nothing was done.
-std::vector<double> errors_of_levels(const std::vector<sweep::LevelError>& errors,
+std::vector<double> errors_of_levels(const std::vector<files::LevelError>& errors,
                                      std::size_t factor,
                                      std::size_t levels) {
   std::vector<double> squares(levels, 0.0);
   std::vector<double> cells(levels, 0.0);
-  for (const sweep::LevelError& error : errors) {
+  for (const files::LevelError& error : errors) {
     if (error.factor != factor) continue;
     const auto number = static_cast<double>(error.cells);
     squares[error.level] += number * error.tool_rms_mm * error.tool_rms_mm;
@@ -91,11 +92,11 @@ std::vector<double> errors_of_levels(const std::vector<sweep::LevelError>& error
 
 /// What the sweep says to its own question, a sentence for each factor that varies.
 std::vector<std::string> answers(const sweep::SweepSpec& spec,
-                                 const std::vector<sweep::LevelError>& errors) {
+                                 const std::vector<files::LevelError>& errors) {
   const auto counts = sweep::level_counts(spec);
   std::vector<std::string> sentences;
-  std::vector<sweep::LevelError> grids;
-  for (const sweep::LevelError& error : errors) {
+  std::vector<files::LevelError> grids;
+  for (const files::LevelError& error : errors) {
     if (error.factor + 1 == sweep::kFactors) grids.push_back(error);
   }
   if (grids.size() > 1) {
@@ -137,7 +138,7 @@ std::vector<std::string> answers(const sweep::SweepSpec& spec,
 }  // namespace
 
 report::Document sweep_page(const sweep::SweepSpec& spec,
-                        const std::vector<sweep::LevelError>& errors) {
+                        const std::vector<files::LevelError>& errors) {
   report::Document page;
   page.title = spec.name;
   page.subtitle = spec.question;

@@ -5,12 +5,12 @@
 
 #include <vector>
 
-#include "grid/sweep/result_store.hpp"
+#include "grid/files/sweep_store.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
 [[nodiscard]] report::Document sweep_page(const grid::sweep::SweepSpec& spec,
-                                      const std::vector<grid::sweep::LevelError>& errors);
+                                      const std::vector<grid::files::LevelError>& errors);
 
 }  // namespace chaintrue::cli

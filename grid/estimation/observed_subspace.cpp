@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/estimation/observed_subspace.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+
+namespace chaintrue::grid {
+namespace {
+
+/// R with R R' the pseudo-inverse of the penalty P. With Pi the projector on the polynomials and
+/// P + c Pi = L L', the inverse of L L' is the pseudo-inverse and Pi / c: R = (1 - Pi) L^-T.
+Eigen::MatrixXd bending_root(const Eigen::MatrixXd& penalty, const Eigen::MatrixXd& polynomials) {
+  const Eigen::Index size = penalty.rows();
+  const Eigen::MatrixXd orthonormal =
+      Eigen::HouseholderQR<Eigen::MatrixXd>(polynomials).householderQ() *
+      Eigen::MatrixXd::Identity(size, polynomials.cols());
+  const double scale = penalty.trace() / static_cast<double>(size);
+  const Eigen::LLT<Eigen::MatrixXd> factor(penalty + scale * orthonormal * orthonormal.transpose());
+  Eigen::MatrixXd root = factor.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
+  root -= orthonormal * (orthonormal.transpose() * root);
+  return root;
+}
+
+}  // namespace
+
+ObservedSubspace::ObservedSubspace(const interp::BsplineBasis& basis,
+                                   int bending_order,
+                                   const std::vector<model::MarkPoint>& marks)
+    : polynomials_(basis.polynomial_coefficients(bending_order - 1)) {
+  const auto points = static_cast<Eigen::Index>(marks.size());
+  const Eigen::Index size = basis.size();
+  const Eigen::MatrixXd penalty = basis.bending_penalty(bending_order);
+  penalty_trace_ = penalty.trace();
+  const Eigen::MatrixXd root = bending_root(penalty, polynomials_);
+  bend_rows_ = Eigen::MatrixXd::Zero(points, size);
+  polynomial_rows_ = Eigen::MatrixXd::Zero(points, polynomials_.cols());
+  squares_ = Eigen::VectorXd::Zero(points);
+  for (Eigen::Index i = 0; i < points; ++i) {
+    const model::MarkPoint mark = marks[static_cast<std::size_t>(i)];
+    const interp::BasisSupport support = basis.at(mark.x_mm, mark.y_mm);
+    for (std::size_t k = 0; k < support.index.size(); ++k) {
+      bend_rows_.row(i) += support.value[k] * root.row(support.index[k]);
+      polynomial_rows_.row(i) += support.value[k] * polynomials_.row(support.index[k]);
+      squares_[i] += support.value[k] * support.value[k];
+    }
+  }
+  if (points >= size) {
+    bends_ = root;
+    null_space_.resize(size, 0);
+    return;
+  }
+  // The rows are T' Q': the columns of Q are what the points see, the rest of the space what they
+  // do not.
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(bend_rows_.transpose());
+  const Eigen::MatrixXd turned = root * qr.householderQ();
+  bends_ = turned.leftCols(points);
+  null_space_ = turned.rightCols(size - points);
+  bend_rows_ =
+      Eigen::MatrixXd(qr.matrixQR().topRows(points).triangularView<Eigen::Upper>()).transpose();
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/estimation/spatial_blocks.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace chaintrue::grid {
+namespace {
+
+/// Cuts `order` into `parts` runs of nearly equal length.
+std::vector<std::vector<std::size_t>> cut(const std::vector<std::size_t>& order,
+                                          std::size_t parts) {
+  std::vector<std::vector<std::size_t>> runs;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(part * order.size() / parts);
+    const auto last =
+        order.begin() + static_cast<std::ptrdiff_t>((part + 1) * order.size() / parts);
+    if (first != last) runs.emplace_back(first, last);
+  }
+  return runs;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> spatial_blocks(const std::vector<LengthPoint>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto by_x = [&](std::size_t i) {
+    return std::tuple(points[i].mark.x_mm, points[i].mark.y_mm, points[i].lengths.left_mm);
+  };
+  const auto by_y = [&](std::size_t i) {
+    return std::tuple(points[i].mark.y_mm, points[i].mark.x_mm, points[i].lengths.left_mm);
+  };
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return by_x(a) < by_x(b); });
+  std::vector<std::vector<std::size_t>> blocks;
+  for (auto& column : cut(order, 4)) {
+    std::sort(column.begin(), column.end(), [&](auto a, auto b) { return by_y(a) < by_y(b); });
+    for (auto& block : cut(column, 2)) {
+      std::sort(block.begin(), block.end());
+      blocks.push_back(std::move(block));
+    }
+  }
+  return blocks;
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Splits points into compact blocks of the bed, for held-out errors that a neighbour cannot
+/// flatter.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "grid/observation/length_points.hpp"
+
+namespace chaintrue::grid {
+
+/// Indices into `points`, about eight blocks: four columns by the points' x, each split in two by
+/// its points' y. Each block is ascending; together they hold every point once.
+[[nodiscard]] std::vector<std::vector<std::size_t>> spatial_blocks(
+    const std::vector<LengthPoint>& points);
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/files/pending_file.hpp"
+#include "grid/files/sweep_file.hpp"
+#include "grid/files/sweep_store.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+namespace fs = std::filesystem;
+using sweep::CellResult;
+using sweep::CellStatus;
+using sweep::GridLevel;
+using sweep::kFactorNames;
+using sweep::kFactors;
+using sweep::Levels;
+using sweep::SweepSpec;
+
+std::string csv_text(const std::string& word) {
+  if (word.find_first_of(",\"\n") == std::string::npos) return word;
+  std::string quoted = "\"";
+  for (const char c : word) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string csv_header() {
+  std::string line = "cell";
+  for (const std::string_view factor : kFactorNames) line += fmt::format(",{}", factor);
+  return line +
+         ",points,repetition,status,chain_rms_mm,chain_max_mm,tool_rms_mm,tool_max_mm,expected_"
+         "tool_rms_mm\n";
+}
+
+std::string csv_levels(const SweepSpec& spec, const Levels& levels) {
+  std::string text;
+  for (std::size_t factor = 0; factor < kFactors; ++factor) {
+    text += "," + csv_text(level_name(spec, factor, levels[factor]));
+  }
+  const GridLevel& grid = spec.grids[levels[kFactors - 1]];
+  return text + fmt::format(",{}", grid.columns * grid.rows);
+}
+
+std::string csv_values(const CellResult& r) {
+  if (r.status == CellStatus::no_map || r.status == CellStatus::not_reached) return ",,,,,";
+  return fmt::format(",{},{},{},{},{}",
+                     r.chain_rms_mm,
+                     r.chain_max_mm,
+                     r.tool_rms_mm,
+                     r.tool_max_mm,
+                     r.expected_tool_rms_mm);
+}
+
+// Sums of the report's lines, one for each factor, level and grid.
+class LevelSums {
+ public:
+  explicit LevelSums(const SweepSpec& spec) : grids_(spec.grids.size()) {
+    const auto counts = level_counts(spec);
+    for (std::size_t factor = 0; factor < kFactors; ++factor) {
+      first_[factor] = errors_.size();
+      for (std::size_t level = 0; level < counts[factor]; ++level) {
+        for (std::size_t grid = 0; grid < grids_; ++grid) errors_.push_back({factor, level, grid});
+      }
+    }
+  }
+  void add(const Levels& levels, const CellResult& r) {
+    if (r.status != CellStatus::done) return;
+    for (std::size_t factor = 0; factor < kFactors; ++factor) {
+      LevelError& error = errors_[first_[factor] + levels[factor] * grids_ + levels[kFactors - 1]];
+      ++error.cells;
+      error.tool_rms_mm += r.tool_rms_mm * r.tool_rms_mm;
+      error.tool_max_mm = std::max(error.tool_max_mm, r.tool_max_mm);
+    }
+  }
+  [[nodiscard]] std::vector<LevelError> finished() && {
+    std::erase_if(errors_, [](const LevelError& error) { return error.cells == 0; });
+    for (LevelError& error : errors_)
+      error.tool_rms_mm = std::sqrt(error.tool_rms_mm / static_cast<double>(error.cells));
+    return std::move(errors_);
+  }
+
+ private:
+  std::size_t grids_;
+  std::array<std::size_t, kFactors> first_{};
+  std::vector<LevelError> errors_;
+};
+
+}  // namespace
+
+std::vector<LevelError> write_results(const SweepSpec& spec,
+                                      const ResultStore& store,
+                                      const fs::path& directory) {
+  PendingFile csv(directory / "results.csv");
+  PendingFile summary(directory / "summary.json");
+  csv.write(csv_header());
+  summary.write(sweep_summary_head(spec));
+  LevelSums sums(spec);
+  const auto repetitions = static_cast<std::uint64_t>(spec.repetitions);
+  std::vector<CellResult> combination;
+  std::string levels_text;
+  Levels levels{};
+  store.for_each([&](std::uint64_t cell, const CellResult& result) {
+    const std::uint64_t repetition = cell % repetitions;
+    if (repetition == 0) {
+      levels = levels_of(spec, cell / repetitions);
+      levels_text = csv_levels(spec, levels);
+      combination.clear();
+    }
+    csv.write(fmt::format(
+        "{}{},{},{}{}\n", cell, levels_text, repetition, name(result.status), csv_values(result)));
+    sums.add(levels, result);
+    combination.push_back(result);
+    if (repetition + 1 == repetitions) {
+      const bool last = cell + 1 == store.cells();
+      summary.write(sweep_summary_line(spec, levels, combination) + (last ? "\n" : ",\n"));
+    }
+  });
+  summary.write(sweep_summary_tail());
+  take_places({&csv, &summary});
+  return std::move(sums).finished();
+}
+
+}  // namespace chaintrue::grid::files

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A grid's points as chain lengths, and a machine as its extra readings correct it: what a fit
+/// starts from.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/observation/measured_grid.hpp"
+
+namespace chaintrue::grid {
+
+/// A point with its lengths, however they were given.
+struct LengthPoint {
+  std::size_t index = 0;  ///< into the grid's points
+  model::MarkPoint mark;
+  model::ChainLengths lengths;
+  /// What the controller was told, where the lengths come of a command.
+  std::optional<model::BedPoint> commanded = std::nullopt;
+};
+
+/// A point gives a command that its controller cannot reach, or no controller is stated.
+struct NoLengths {
+  std::string sentence;
+};
+
+/// Every point's lengths. A point that gives a command has the lengths that the machine's
+/// controller pays out for it.
+[[nodiscard]] tl::expected<std::vector<LengthPoint>, NoLengths> length_points(
+    const MeasuredGrid& grid);
+
+/// Points within this distance of each other are repeats of one place.
+inline constexpr double kRepeatDistanceMm = 25.0;
+
+/// Groups of two or more points at one place, as positions in `points`.
+[[nodiscard]] std::vector<std::vector<std::size_t>> repeat_groups(
+    const std::vector<LengthPoint>& points);
+
+/// Readings that state a part of the machine anew replace what it stated: sled_mass_kg and
+/// chain_mass_kg_per_m as they are, ring_radius_mm weighed against the stated one by their sigmas,
+/// link_pitch_mm as a chain_pitch_error.
+[[nodiscard]] model::Machine with_readings(model::Machine machine,
+                                           const std::vector<ExtraReading>& readings);
+
+/// Those readings that the settings predict: motor_spacing_mm and beam_rise_mm.
+[[nodiscard]] std::vector<ExtraReading> setting_readings(const std::vector<ExtraReading>& readings);
+
+}  // namespace chaintrue::grid

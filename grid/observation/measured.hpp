@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Everything that was measured of one machine: any mix of grids and sets of holes, file by file.
+/// Points and distances are numbered through in the order of the files of their kind.
+///
+/// \code
+///   Measured measured(grid);            // or a set of holes
+///   measured.add(holes);
+///   const auto answer = diagnosis::diagnose(measured);
+/// \endcode
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "grid/observation/measured_grid.hpp"
+#include "grid/observation/measured_holes.hpp"
+
+namespace chaintrue::grid {
+
+struct MeasuredFile {
+  std::string name;  ///< in messages
+  std::variant<MeasuredGrid, MeasuredHoles> measured;
+
+  [[nodiscard]] const MeasuredGrid* grid() const { return std::get_if<MeasuredGrid>(&measured); }
+  [[nodiscard]] const MeasuredHoles* holes() const { return std::get_if<MeasuredHoles>(&measured); }
+  /// That the file states.
+  [[nodiscard]] const std::optional<model::Machine>& machine() const;
+};
+
+class Measured {
+ public:
+  Measured() = default;
+  Measured(MeasuredGrid grid);  // NOLINT: a grid is a measurement
+  Measured(MeasuredHoles set);  // NOLINT: and so are holes
+  Measured(std::initializer_list<MeasuredFile> files) : files_(files) {}
+
+  /// Without a name in messages they bear their own.
+  void add(MeasuredGrid grid);
+  void add(MeasuredHoles set);
+  void add(MeasuredFile file) { files_.push_back(std::move(file)); }
+
+  [[nodiscard]] const std::vector<MeasuredFile>& files() const { return files_; }
+  /// Those of one kind, in their order.
+  [[nodiscard]] std::vector<const MeasuredGrid*> grids() const;
+  [[nodiscard]] std::vector<const MeasuredHoles*> holes() const;
+  /// Null where there is none.
+  [[nodiscard]] MeasuredGrid* first_grid();
+  /// What the first file calls itself; empty where there is none.
+  [[nodiscard]] std::string name() const;
+  /// That the first file states.
+  [[nodiscard]] std::optional<model::Machine> machine() const;
+
+ private:
+  std::vector<MeasuredFile> files_;
+};
+
+/// The first setting that two machines do not share, in words of the file that states the other;
+/// empty where they share all.
+[[nodiscard]] std::string difference_of_settings(const model::Machine& first,
+                                                 const model::Machine& other);
+
+}  // namespace chaintrue::grid

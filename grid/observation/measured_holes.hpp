@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What an owner with a drill bit and a tape measures: holes cut at commanded places, distances
+/// between them and to the sheet's edges. Where the holes are is not measured; it follows from what
+/// the controller paid out and is solved with the machine.
+///
+/// \code
+///   MeasuredHoles set;
+///   set.machine = machine;  // with its controller and the settings in force
+///   set.holes = {{"A", {-900.0, 400.0}}, {"B", {900.0, 400.0}}};
+///   set.distances.push_back({.from = 0, .to = 1, .distance_mm = 1801.5});
+///   set.distances.push_back({.from = 0, .edge = SheetEdge::top, .distance_mm = 209.0});
+/// \endcode
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/observation/measured_grid.hpp"
+#include "model/machine.hpp"
+
+namespace chaintrue::grid {
+
+enum class SheetEdge { left, right, top, bottom };
+inline constexpr std::array kSheetEdges = {
+    SheetEdge::left, SheetEdge::right, SheetEdge::top, SheetEdge::bottom};
+/// The word in files: left, right, top, bottom.
+[[nodiscard]] std::string_view name(SheetEdge edge);
+
+struct Hole {
+  std::string name;
+  model::BedPoint commanded;
+};
+
+/// One reading of the tape, the hook's offset still in it: from a hole's centre to another's, or
+/// square to an edge of the sheet.
+struct HoleDistance {
+  std::size_t from = 0;  ///< into the holes
+  std::size_t to = 0;    ///< into the holes; not used where `edge` is set
+  std::optional<SheetEdge> edge = std::nullopt;
+  double distance_mm = 0.0;
+  /// One sigma; absent: the tape's.
+  std::optional<double> sigma_mm = std::nullopt;
+  /// Readings of one session were held to the holes alike.
+  std::size_t session = 0;
+};
+
+struct Tape {
+  /// One sigma of a reading: half a millimetre is what a careful eye makes of a tape.
+  double sigma_mm = 0.5;
+  /// Every reading is longer than the distance by this much (the hook was not used, or a mark at
+  /// 100 mm was held to the hole).
+  double hook_offset_mm = 0.0;
+  /// How well that is known, one sigma: a hook with play, edges of holes taken for their centres.
+  /// All readings of a session share it. Absent: exactly.
+  std::optional<double> hook_sigma_mm = std::nullopt;
+};
+
+/// The sheet whose edges were measured. Absent sizes are the bed's.
+struct SheetSize {
+  std::optional<double> width_mm;
+  std::optional<double> height_mm;
+  /// One sigma of each: sheets are sold to a millimetre or so.
+  double size_sigma_mm = 1.0;
+};
+
+struct MeasuredHoles {
+  std::string name;
+  std::optional<model::Machine> machine;
+  Tape tape;
+  /// One sigma on each axis of where a hole lies beside where its chain lengths put it: friction of
+  /// the sled, drift of the drill.
+  double hole_sigma_mm = 0.3;
+  /// How well these two are known, in degrees of freedom.
+  double noise_dof = 15.0;
+  SheetSize sheet;
+  std::vector<ExtraReading> readings;  ///< of the machine itself
+  std::vector<Hole> holes;
+  std::vector<HoleDistance> distances;
+};
+
+/// One sigma of a reading.
+[[nodiscard]] double sigma_of(const MeasuredHoles& set, const HoleDistance& distance);
+/// The distance without the hook.
+[[nodiscard]] double length_of(const MeasuredHoles& set, const HoleDistance& distance);
+/// "A-B", "A to the top edge".
+[[nodiscard]] std::string words_of(const MeasuredHoles& set, const HoleDistance& distance);
+/// What the commands say the distance is, on a sheet laid as the bed.
+[[nodiscard]] double commanded_mm(const MeasuredHoles& set, const HoleDistance& distance);
+
+/// The amount by which nearly all distances are longer than commanded, alike for short and long
+/// ones; nothing where there is none above 8 mm. It smells of a hook offset that was not stated (or
+/// stated twice, where negative).
+[[nodiscard]] std::optional<double> suspected_hook_offset_mm(const MeasuredHoles& set);
+
+/// A distance-only set tells the motors' spacing, both chain zeros and both chains' scales; fewer
+/// distances than these leave the answer to what was stated.
+inline constexpr std::size_t kFewestHoleDistances = 5;
+
+}  // namespace chaintrue::grid

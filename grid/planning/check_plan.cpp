@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Notation as in the header.
+#include "grid/planning/check_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "grid/map/check_readings.hpp"
+#include "grid/precondition.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::MarkPoint;
+using model::Side;
+
+/// Rows and columns of places that are tried.
+constexpr int kCheckColumns = 9;
+constexpr int kCheckRows = 5;
+
+/// Where the map answers, row by row from the top left.
+std::vector<MarkPoint> places_of(const CompensationMap& map, double margin_mm) {
+  const model::Bed& bed = map.machine()->bed;
+  std::vector<MarkPoint> places;
+  for (int iy = 0; iy < kCheckRows; ++iy) {
+    for (int ix = 0; ix < kCheckColumns; ++ix) {
+      const double across = 2.0 * ix / (kCheckColumns - 1) - 1.0;
+      const double up = 1.0 - 2.0 * iy / (kCheckRows - 1);
+      // Whole millimetres: that is what is typed and marked.
+      const MarkPoint mark{std::trunc((0.5 * bed.width_mm - margin_mm) * across),
+                           std::trunc((0.5 * bed.height_mm - margin_mm) * up)};
+      if (map.status(mark) != MapStatus::extrapolated && map.query(mark)) places.push_back(mark);
+    }
+  }
+  return places;
+}
+
+class Separation {
+ public:
+  explicit Separation(const CheckReadings& readings)
+      : readings_(readings), covariance_(readings.covariance.dense()) {}
+
+  /// (1), both chains.
+  [[nodiscard]] model::PerSide<double> told2(const std::vector<std::size_t>& points) const {
+    std::vector<Eigen::Index> rows;
+    for (const std::size_t point : points) {
+      rows.push_back(2 * static_cast<Eigen::Index>(point));
+      rows.push_back(rows.back() + 1);
+    }
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd k = covariance_(rows, rows);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      for (Eigen::Index j = i % 2; j < count; j += 2)
+        k(i, j) += kZeroShiftSigmaMm * kZeroShiftSigmaMm;
+    }
+    const Eigen::LLT<Eigen::MatrixXd> factor(k);
+    const Eigen::MatrixXd grown = kPitchGrowthSigma * readings_.lengths_mm(rows, Eigen::all);
+    const Eigen::MatrixXd white = factor.matrixL().solve(grown);
+    return {white.col(0).squaredNorm(), white.col(1).squaredNorm()};
+  }
+
+  /// Harmonic mean of both chains': near the lesser one, and moved by either.
+  [[nodiscard]] double together(const std::vector<std::size_t>& points) const {
+    const model::PerSide<double> told = told2(points);
+    return 2.0 / (1.0 / told.left + 1.0 / told.right);
+  }
+
+ private:
+  const CheckReadings& readings_;
+  Eigen::MatrixXd covariance_;
+};
+
+/// Exchanges points as long as one helps, from as many evenly taken ones.
+std::vector<std::size_t> choose(const Separation& separation, std::size_t places, int points) {
+  constexpr int kSweeps = 20;
+  constexpr double kWorthwhile = 1e-6;
+  std::vector<std::size_t> chosen;
+  for (int i = 0; i < points; ++i) {
+    chosen.push_back(static_cast<std::size_t>(i) * (places - 1) /
+                     static_cast<std::size_t>(points - 1));
+  }
+  double best = separation.together(chosen);
+  bool moved = true;
+  for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
+    moved = false;
+    for (std::size_t& one : chosen) {
+      for (std::size_t other = 0; other < places; ++other) {
+        if (std::find(chosen.begin(), chosen.end(), other) != chosen.end()) continue;
+        const std::size_t before = std::exchange(one, other);
+        const double value = separation.together(chosen);
+        if (value > best * (1.0 + kWorthwhile)) {
+          best = value;
+          moved = true;
+        } else {
+          one = before;
+        }
+      }
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+void check(const CompensationMap& map, const CheckPlanRequest& request) {
+  const bool sound = request.points >= kFewestCheckPoints && request.points <= kMostCheckPoints &&
+                     request.length_mm > 0.0 && request.position_mm >= 0.0 &&
+                     request.margin_mm >= 0.0;
+  const model::Machine* machine = map.machine();
+  const bool fits =
+      machine == nullptr ||
+      2.0 * request.margin_mm < std::min(machine->bed.width_mm, machine->bed.height_mm);
+  if (sound && fits) return;
+  throw precondition("a check of {} points, {} mm from the edges, with noise of {} and {} mm",
+                     request.points,
+                     request.margin_mm,
+                     request.length_mm,
+                     request.position_mm);
+}
+
+/// Readings that are what the map says.
+tl::expected<CheckReadings, PlanFailure> readings_at(const CompensationMap& map,
+                                                     const std::vector<MarkPoint>& marks,
+                                                     const CheckPlanRequest& request) {
+  MeasuredGrid grid;
+  grid.noise = StatedNoise{request.length_mm, request.position_mm};
+  for (const MarkPoint& mark : marks) {
+    const auto told = map.query(mark);
+    if (!told) {
+      return tl::unexpected(PlanFailure{
+          PlanFailure::Reason::unreachable,
+          fmt::format("({:.1f}, {:.1f}): {}", mark.x_mm, mark.y_mm, explain(told.error()))});
+    }
+    grid.points.push_back({mark, told->lengths, {}, {}});
+  }
+  auto readings = check_readings(map, grid);
+  if (!readings) {
+    return tl::unexpected(PlanFailure{PlanFailure::Reason::unreachable, readings.error().sentence});
+  }
+  return *std::move(readings);
+}
+
+PlanFailure no_machine() {
+  return {PlanFailure::Reason::no_machine,
+          "a direct map has no machine: its bed and what a zero shifts are unknown"};
+}
+
+model::PerSide<double> roots(const model::PerSide<double>& squares) {
+  return {std::sqrt(squares.left), std::sqrt(squares.right)};
+}
+
+}  // namespace
+
+tl::expected<model::PerSide<double>, PlanFailure> told_sigmas(const CompensationMap& map,
+                                                              const std::vector<MarkPoint>& marks,
+                                                              const CheckPlanRequest& request) {
+  if (map.machine() == nullptr) return tl::unexpected(no_machine());
+  const auto readings = readings_at(map, marks, request);
+  if (!readings) return tl::unexpected(readings.error());
+  std::vector<std::size_t> all(marks.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return roots(Separation(*readings).told2(all));
+}
+
+tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
+                                                const CheckPlanRequest& request) {
+  check(map, request);
+  if (map.machine() == nullptr) return tl::unexpected(no_machine());
+  const std::vector<MarkPoint> places = places_of(map, request.margin_mm);
+  if (places.size() < static_cast<std::size_t>(request.points)) {
+    return tl::unexpected(
+        PlanFailure{PlanFailure::Reason::too_few_places,
+                    fmt::format("the map answers at {} of the places tried only", places.size())});
+  }
+  const auto readings = readings_at(map, places, request);
+  if (!readings) return tl::unexpected(readings.error());
+  const Separation separation(*readings);
+  const std::vector<std::size_t> chosen = choose(separation, places.size(), request.points);
+  CheckPlan plan;
+  for (const std::size_t k : chosen) plan.marks.push_back(places[k]);
+  plan.told_sigmas = roots(separation.told2(chosen));
+  return plan;
+}
+
+}  // namespace chaintrue::grid

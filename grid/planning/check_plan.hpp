@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Which few points tell best, a month later, whether a map still holds.
+///
+/// Hardest to tell apart are a chain whose links grew and a chain whose zero shifted: over most of
+/// the bed both shorten its readings by about as much. The points are those where they differ most.
+/// With K, X and P of map_check.hpp, x what growth of one chain by kPitchGrowthSigma does to the
+/// readings and Z what shifted zeros do,
+///
+///   told^2 = x' (K + Z P Z')^-1 x                                                           (1)
+///
+/// is the square of what growth stands out by, in sigmas, beyond what shifted zeros imitate. The
+/// harmonic mean of both chains' is made as large as can be by exchanging points of a lattice.
+/// Source: A. Atkinson, A. Donev and R. Tobias, Optimum Experimental Designs, with SAS (2007),
+/// section 12.3, for the exchange.
+///
+/// \code
+///   const auto plan = plan_check(map, {.points = 5});
+///   if (plan) for (const MarkPoint& mark : plan->marks) visit(mark);
+/// \endcode
+#pragma once
+
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/map/compensation_map.hpp"
+#include "grid/planning/measurement_plan.hpp"
+
+namespace chaintrue::grid {
+
+inline constexpr int kFewestCheckPoints = 3;
+inline constexpr int kMostCheckPoints = 12;
+
+struct CheckPlanRequest {
+  int points = 5;
+  /// Of a reading and of a mark, one sigma.
+  double length_mm = 0.3;
+  double position_mm = 0.0;
+  /// From the bed's edge to the outermost marks.
+  double margin_mm = 10.0;
+};
+
+struct CheckPlan {
+  /// In whole mm, row by row from the top left.
+  std::vector<model::MarkPoint> marks;
+  /// (1) of either chain.
+  model::PerSide<double> told_sigmas;
+};
+
+/// (1) of given points; their number and the margin are not looked at. Fails in words where the map
+/// has no answer at one of them.
+[[nodiscard]] tl::expected<model::PerSide<double>, PlanFailure> told_sigmas(
+    const CompensationMap& map,
+    const std::vector<model::MarkPoint>& marks,
+    const CheckPlanRequest& request);
+
+/// Fails in words where the map has no machine or answers at too few places.
+/// \throws std::invalid_argument for numbers out of range.
+[[nodiscard]] tl::expected<CheckPlan, PlanFailure> plan_check(const CompensationMap& map,
+                                                              const CheckPlanRequest& request);
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Notation as in the header.
+#include "grid/planning/distance_choice.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "grid/observation/tape_distances.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::MarkPoint;
+using Holes = std::vector<const PlannedPlace*>;
+
+/// A tape is laid square to an edge by eye, to a degree: 0.15 mm at this length.
+constexpr double kLongestToEdgeMm = 1000.0;
+/// Two choices of the same worth, each other's mirror image say, differ by rounding, which many updates let grow to
+/// 1e-9; the first one stays.
+constexpr double kBetterChoice = 1.0 + 1e-6;
+
+std::vector<MarkPoint> marks_of(const Holes& holes) {
+  std::vector<MarkPoint> marks;
+  for (const PlannedPlace* hole : holes) marks.push_back(hole->place);
+  return marks;
+}
+
+}  // namespace
+
+DistanceChooser::DistanceChooser(const model::Machine& machine,
+                                 const HolesPlanRequest& request,
+                                 Eigen::MatrixXd prior,
+                                 Eigen::MatrixXd root)
+    : request_(request), prior_(std::move(prior)), root_(std::move(root)) {
+  frame_.machine = machine;
+  frame_.tape.sigma_mm = request.tape_sigma_mm;
+  frame_.hole_sigma_mm = request.hole_sigma_mm;
+}
+
+std::vector<HoleDistance> DistanceChooser::in_reach(const Holes& holes) const {
+  std::vector<HoleDistance> distances;
+  for (std::size_t a = 0; a < holes.size(); ++a) {
+    for (std::size_t b = a + 1; b < holes.size(); ++b) {
+      const double way_mm = std::hypot(holes[a]->place.x_mm - holes[b]->place.x_mm,
+                                       holes[a]->place.y_mm - holes[b]->place.y_mm);
+      if (way_mm <= request_.longest_mm) distances.push_back({.from = a, .to = b});
+    }
+  }
+  if (!request_.edges) return distances;
+  const model::Bed& bed = frame_.machine->bed;
+  const double longest_mm = std::min(request_.longest_mm, kLongestToEdgeMm);
+  for (std::size_t a = 0; a < holes.size(); ++a) {
+    // Of two edges the nearer: it tells as much.
+    const MarkPoint at = holes[a]->place;
+    const SheetEdge edges[] = {at.x_mm > 0.0 ? SheetEdge::right : SheetEdge::left,
+                               at.y_mm < 0.0 ? SheetEdge::bottom : SheetEdge::top};
+    const double way_mm[] = {0.5 * bed.width_mm - std::abs(at.x_mm),
+                             0.5 * bed.height_mm - std::abs(at.y_mm)};
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (way_mm[i] <= longest_mm) distances.push_back({.from = a, .edge = edges[i]});
+    }
+  }
+  return distances;
+}
+
+DistanceChooser::Measurable DistanceChooser::measurable(const Holes& holes,
+                                                        std::vector<HoleDistance> distances) const {
+  MeasuredHoles set = frame_;
+  set.distances = std::move(distances);
+  const observation::DistanceGeometry geometry =
+      observation::distance_geometry(set, marks_of(holes));
+  const observation::DistanceNoise noise = observation::distance_noise(set, geometry);
+  Eigen::MatrixXd marks_by_unknown(2 * static_cast<Eigen::Index>(holes.size()), kPlanUnknowns);
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    marks_by_unknown.middleRows<2>(2 * static_cast<Eigen::Index>(i)) = holes[i]->by_unknown;
+  }
+  Measurable all;
+  all.by_unknown = geometry.by_mark * marks_by_unknown;
+  const Eigen::MatrixXd cross = prior_ * all.by_unknown.transpose();
+  all.known = all.by_unknown * cross + noise.holes_mm2 + noise.size_mm2 + noise.hook_mm2;
+  all.pull = root_ * cross;
+  all.distances = std::move(set.distances);
+  return all;
+}
+
+DistanceChooser::Choice DistanceChooser::greedy(const Holes& holes) const {
+  Measurable all = measurable(holes, in_reach(holes));
+  const double tape2 = request_.tape_sigma_mm * request_.tape_sigma_mm;
+  const auto count = static_cast<Eigen::Index>(all.distances.size());
+  const auto wanted = std::min(static_cast<Eigen::Index>(distances_of(request_)), count);
+  Choice choice;
+  choice.variance_mm2 = (root_ * prior_ * root_.transpose()).trace();
+  std::vector<bool> taken(all.distances.size(), false);
+  for (Eigen::Index i = 0; i < wanted; ++i) {
+    Eigen::Index best = -1;
+    double best_gain = 0.0;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      if (taken[static_cast<std::size_t>(k)]) continue;
+      const double gain = all.pull.col(k).squaredNorm() / (tape2 + all.known(k, k));
+      if (best >= 0 && gain <= best_gain * kBetterChoice) continue;
+      best_gain = gain;
+      best = k;
+    }
+    taken[static_cast<std::size_t>(best)] = true;
+    choice.distances.push_back(all.distances[static_cast<std::size_t>(best)]);
+    choice.variance_mm2 -= best_gain;
+    const Eigen::VectorXd with = all.known.col(best) / (tape2 + all.known(best, best));
+    all.pull -= Eigen::VectorXd(all.pull.col(best)) * with.transpose();
+    all.known -= Eigen::VectorXd(all.known.col(best)) * with.transpose();
+  }
+  return choice;
+}
+
+double DistanceChooser::variance_mm2(const Measurable& all,
+                                     const std::vector<std::size_t>& chosen) const {
+  Eigen::MatrixXd k = all.known(chosen, chosen);
+  k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
+  const Eigen::MatrixXd pull = all.pull(Eigen::all, chosen);
+  const Eigen::MatrixXd half = k.llt().matrixL().solve(pull.transpose());
+  return (root_ * prior_ * root_.transpose()).trace() - half.squaredNorm();
+}
+
+DistanceChooser::Choice DistanceChooser::exchange(const Holes& holes, Choice choice) const {
+  constexpr int kSweeps = 5;
+  constexpr double kWorthwhile = 1e-6;
+  const Measurable all = measurable(holes, in_reach(holes));
+  const auto number_of = [&all](const HoleDistance& distance) {
+    const auto at = std::find_if(all.distances.begin(), all.distances.end(), [&](const auto& one) {
+      return one.from == distance.from && one.to == distance.to && one.edge == distance.edge;
+    });
+    return static_cast<std::size_t>(at - all.distances.begin());
+  };
+  std::vector<std::size_t> chosen;
+  for (const HoleDistance& distance : choice.distances) chosen.push_back(number_of(distance));
+  bool moved = true;
+  for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
+    moved = false;
+    for (std::size_t& one : chosen) {
+      const auto done = static_cast<double>(&one - chosen.data());
+      tell(request_.progress,
+           {"which distances are measured",
+            2,
+            2,
+            done / static_cast<double>(chosen.size()),
+            sweep + 1});
+      for (std::size_t other = 0; other < all.distances.size(); ++other) {
+        if (std::find(chosen.begin(), chosen.end(), other) != chosen.end()) continue;
+        const std::size_t before = std::exchange(one, other);
+        const double variance = variance_mm2(all, chosen);
+        if (variance < choice.variance_mm2 * (1.0 - kWorthwhile)) {
+          choice.variance_mm2 = variance;
+          moved = true;
+        } else {
+          one = before;
+        }
+      }
+    }
+  }
+  choice.distances.clear();
+  for (const std::size_t k : chosen) choice.distances.push_back(all.distances[k]);
+  return choice;
+}
+
+Eigen::MatrixXd DistanceChooser::covariance(const Holes& holes,
+                                            const std::vector<HoleDistance>& distances) const {
+  const Measurable measured = measurable(holes, distances);
+  Eigen::MatrixXd k = measured.known;
+  k.diagonal().array() += request_.tape_sigma_mm * request_.tape_sigma_mm;
+  const Eigen::MatrixXd cross = prior_ * measured.by_unknown.transpose();
+  return prior_ - cross * k.llt().solve(cross.transpose());
+}
+
+}  // namespace chaintrue::grid

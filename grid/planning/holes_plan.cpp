@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Notation as in distance_choice.hpp.
+#include "grid/planning/holes_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+
+#include "grid/planning/seen_effects.hpp"
+#include "grid/planning/tool_error.hpp"
+#include "grid/precondition.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::MarkPoint;
+using Holes = std::vector<const PlannedPlace*>;
+
+/// Holes nearer than this to each other weaken the sheet and tell little.
+constexpr double kLeastApartMm = 150.0;
+/// Rows and columns of places that are tried.
+constexpr int kColumns = 9;
+constexpr int kRows = 5;
+
+std::vector<PlannedPlace> candidates(const model::Machine& machine, double margin_mm) {
+  const model::ReadingModel model(machine);
+  const double half_width = 0.5 * machine.bed.width_mm - margin_mm;
+  const double half_height = 0.5 * machine.bed.height_mm - margin_mm;
+  std::vector<PlannedPlace> result;
+  for (int iy = 0; iy < kRows; ++iy) {
+    for (int ix = 0; ix < kColumns; ++ix) {
+      // Whole millimetres: that is what is typed and drilled.
+      const MarkPoint place{std::trunc(half_width * (2.0 * ix / (kColumns - 1) - 1.0)),
+                            std::trunc(half_height * (2.0 * iy / (kRows - 1) - 1.0))};
+      if (const auto planned = planned_place(model, place)) result.push_back(*planned);
+    }
+  }
+  return result;
+}
+
+bool is_free(const Holes& holes, std::size_t moving, MarkPoint place) {
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    if (i == moving) continue;
+    if (std::hypot(holes[i]->place.x_mm - place.x_mm, holes[i]->place.y_mm - place.y_mm) <
+        kLeastApartMm)
+      return false;
+  }
+  return true;
+}
+
+/// Spread: each next hole as far as can be from those before, the first in a corner.
+Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
+  Holes holes = {&places.front()};
+  while (holes.size() < count) {
+    constexpr double kSameWayMm = 1e-6;  // as far but for rounding: the first one stays
+    const PlannedPlace* best = nullptr;
+    double best_way = -1.0;
+    for (const PlannedPlace& candidate : places) {
+      double way = 1e9;
+      for (const PlannedPlace* hole : holes) {
+        way = std::min(way,
+                       std::hypot(hole->place.x_mm - candidate.place.x_mm,
+                                  hole->place.y_mm - candidate.place.y_mm));
+      }
+      if (way <= best_way + kSameWayMm) continue;
+      best_way = way;
+      best = &candidate;
+    }
+    holes.push_back(best);
+  }
+  return holes;
+}
+
+/// Moves single holes as long as one helps.
+DistanceChooser::Choice move_holes(const DistanceChooser& chooser,
+                                   const std::vector<PlannedPlace>& places,
+                                   const Progress& progress,
+                                   Holes& holes) {
+  constexpr int kSweeps = 4;
+  constexpr double kWorthwhile = 1e-4;
+  DistanceChooser::Choice best = chooser.greedy(holes);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    bool moved = false;
+    for (std::size_t i = 0; i < holes.size(); ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(holes.size());
+      tell(progress, {"where the holes are cut", 1, 2, share, sweep + 1});
+      for (const PlannedPlace& place : places) {
+        if (&place == holes[i] || !is_free(holes, i, place.place)) continue;
+        const PlannedPlace* before = holes[i];
+        holes[i] = &place;
+        DistanceChooser::Choice next = chooser.greedy(holes);
+        if (next.variance_mm2 < best.variance_mm2 * (1.0 - kWorthwhile)) {
+          best = std::move(next);
+          moved = true;
+        } else {
+          holes[i] = before;
+        }
+      }
+    }
+    if (!moved) break;
+  }
+  return best;
+}
+
+/// Holes in the order of a walk, row by row from the top left, named A, B, C, ...
+MeasuredHoles set_of(const model::Machine& machine,
+                     const HolesPlanRequest& request,
+                     const Holes& holes,
+                     const std::vector<HoleDistance>& distances) {
+  std::vector<std::size_t> order(holes.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const MarkPoint p = holes[a]->place;
+    const MarkPoint q = holes[b]->place;
+    return p.y_mm != q.y_mm ? p.y_mm > q.y_mm : p.x_mm < q.x_mm;
+  });
+  std::vector<std::size_t> number(holes.size());
+  MeasuredHoles set;
+  set.name = "plan";
+  set.machine = machine;
+  set.tape.sigma_mm = request.tape_sigma_mm;
+  set.hole_sigma_mm = request.hole_sigma_mm;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    number[order[i]] = i;
+    set.holes.push_back(
+        {std::string(1, static_cast<char>('A' + i)), model::laid_as_bed(holes[order[i]]->place)});
+  }
+  for (const HoleDistance& distance : distances) {
+    if (distance.edge) {
+      set.distances.push_back({.from = number[distance.from], .edge = distance.edge});
+      continue;
+    }
+    const auto [from, to] = std::minmax(number[distance.from], number[distance.to]);
+    set.distances.push_back({.from = from, .to = to});
+  }
+  // Edges last: the tape is held another way there.
+  const auto key = [](const HoleDistance& one) { return std::tuple(one.edge, one.from, one.to); };
+  std::sort(set.distances.begin(), set.distances.end(), [&key](const auto& a, const auto& b) {
+    return key(a) < key(b);
+  });
+  for (HoleDistance& distance : set.distances) distance.distance_mm = commanded_mm(set, distance);
+  return set;
+}
+
+void check(const model::Machine& machine, const HolesPlanRequest& request) {
+  const double half = 0.5 * std::min(machine.bed.width_mm, machine.bed.height_mm);
+  const bool sound =
+      request.holes >= kFewestPlannedHoles && request.holes <= kMostPlannedHoles &&
+      request.distances >= 0 &&
+      (request.distances == 0 || request.distances >= fewest_distances(request.edges)) &&
+      request.tape_sigma_mm > 0.0 && request.hole_sigma_mm >= 0.0 && request.margin_mm >= 0.0 &&
+      request.margin_mm < half - kLeastApartMm && request.longest_mm > 2.0 * kLeastApartMm;
+  if (sound) return;
+  throw precondition(
+      "a plan of {} holes and {} distances, {} mm from the edges, with a tape of {} mm "
+      "and sigmas of {} and {} mm",
+      request.holes,
+      request.distances,
+      request.margin_mm,
+      request.longest_mm,
+      request.tape_sigma_mm,
+      request.hole_sigma_mm);
+}
+
+/// Settings and scales in words, and where the sheet lies under the tool where that counts.
+std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
+                                           const Eigen::MatrixXd& after,
+                                           const std::optional<Eigen::MatrixXd>& whole) {
+  struct Known {
+    const char* what;
+    const char* unit;
+    Eigen::RowVectorXd combination;
+  };
+  const auto row = [](std::initializer_list<double> machine) {
+    Eigen::RowVectorXd combination = Eigen::RowVectorXd::Zero(kPlanUnknowns);
+    std::copy(machine.begin(), machine.end(), combination.begin());
+    return combination;
+  };
+  // left x, left y, right x, right y, zero left, zero right, scale left, scale right
+  std::vector<Known> rows = {
+      {"motor spacing", "mm", row({-1, 0, 1, 0, 0, 0, 0, 0})},
+      {"height of the motors", "mm", row({0, 0.5, 0, 0.5, 0, 0, 0, 0})},
+      {"rise of the beam", "mm", row({0, -1, 0, 1, 0, 0, 0, 0})},
+      {"both chain zeros together", "mm", row({0, 0, 0, 0, 0.5, 0.5, 0, 0})},
+      {"left chain zero less right", "mm", row({0, 0, 0, 0, 1, -1, 0, 0})},
+      {"left chain scale", "%", row({0, 0, 0, 0, 0, 0, 100, 0})},
+      {"right chain scale", "%", row({0, 0, 0, 0, 0, 0, 0, 100})},
+      {"left chain scale less right", "%", row({0, 0, 0, 0, 0, 0, 100, -100})},
+  };
+  if (whole) {
+    constexpr double kMmPerMetre = 1e3;
+    rows.push_back({"the whole job, sideways", "mm", whole->row(0)});
+    rows.push_back({"the whole job, up or down", "mm", whole->row(1)});
+    rows.push_back({"the whole job, turned", "mm per metre", kMmPerMetre * whole->row(2)});
+  }
+  std::vector<PlannedKnowledge> result;
+  for (const Known& known : rows) {
+    const auto sigma = [&known](const Eigen::MatrixXd& covariance) {
+      const Eigen::RowVectorXd& c = known.combination;
+      return std::sqrt(std::max(0.0, (c * covariance * c.transpose())(0)));
+    };
+    result.push_back({known.what, known.unit, sigma(before), sigma(after)});
+  }
+  return result;
+}
+
+/// The sheet's place where it counts is not known beforehand.
+Eigen::MatrixXd prior_of(const model::Machine& machine, bool edges) {
+  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns);
+  prior.topLeftCorner<estimation::kMachineUnknowns, estimation::kMachineUnknowns>() =
+      estimation::stated_knowledge(machine).covariance;
+  if (edges) {
+    prior.diagonal().tail<3>() =
+        Eigen::Array3d(
+            observation::kSheetShiftMm, observation::kSheetShiftMm, observation::kSheetTurnRad)
+            .square();
+  }
+  return prior;
+}
+
+}  // namespace
+
+int fewest_distances(bool edges) {
+  return static_cast<int>(kFewestHoleDistances) + (edges ? 3 : 0);
+}
+
+int most_distances(int holes, bool edges) { return holes * (holes - 1) / 2 + (edges ? holes : 0); }
+
+int distances_of(const HolesPlanRequest& request) {
+  const int usual = 2 * request.holes + (request.edges ? 6 : 2);
+  return std::min(most_distances(request.holes, request.edges),
+                  request.distances > 0 ? request.distances : usual);
+}
+
+tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
+                                                const HolesPlanRequest& request) {
+  check(machine, request);
+  const std::vector<PlannedPlace> places = candidates(machine, request.margin_mm);
+  if (places.size() < static_cast<std::size_t>(request.holes)) {
+    return tl::unexpected(PlanFailure{PlanFailure::Reason::too_few_places,
+                                      fmt::format("the machine can cut at {} of the places tried "
+                                                  "only; a wider margin leaves out those it "
+                                                  "cannot reach",
+                                                  places.size())});
+  }
+  const Eigen::MatrixXd prior = prior_of(machine, request.edges);
+  const ToolError error = tool_error(machine, request.edges);
+  const DistanceChooser chooser(machine, request, prior, error.root);
+  Holes holes = spread(places, static_cast<std::size_t>(request.holes));
+  DistanceChooser::Choice choice = move_holes(chooser, places, request.progress, holes);
+  choice = chooser.exchange(holes, std::move(choice));
+  const Eigen::MatrixXd after = chooser.covariance(holes, choice.distances);
+  HolesPlan plan;
+  plan.set = set_of(machine, request, holes, choice.distances);
+  plan.expected_rms_mm = std::sqrt(choice.variance_mm2);
+  plan.expected_before_mm =
+      tool_sigma_mm(machine, estimation::stated_knowledge(machine).covariance);
+  plan.knowledge =
+      knowledge_of(prior, after, request.edges ? std::optional(error.whole) : std::nullopt);
+  plan.effects = seen_effects(plan.set);
+  return plan;
+}
+
+}  // namespace chaintrue::grid

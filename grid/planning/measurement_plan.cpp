@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/planning/measurement_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "grid/map/fit.hpp"
+#include "grid/observation/length_points.hpp"
+#include "grid/precondition.hpp"
+#include "grid/synthetic/generator.hpp"
+#include "interp/planner_nodes.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::MarkPoint;
+
+/// What good calibration leaves on real machines (root mean square 0.2 to 0.5 mm on the optical
+/// scans of tests/accuracy/real_scans_test.cpp).
+constexpr double kDisturbanceMm = 0.5;
+/// Stands for noise known for certain: a plan is not to believe that its readings have none.
+constexpr double kCertainDof = 1e6;
+/// Cells of the raster on which the largest expected error is looked for.
+constexpr int kRasterColumns = 48;
+constexpr int kRasterRows = 24;
+/// By less than that a place's mirror image differs in rounding; the first one stays.
+constexpr double kWorse = 1.0 + 1e-6;
+
+class Planner {
+ public:
+  Planner(const model::Machine& machine, const PlanRequest& request)
+      : machine_(machine), model_(machine), request_(request) {}
+
+  [[nodiscard]] tl::expected<CompensationMap, PlanFailure> map_of(
+      const std::vector<MarkPoint>& marks) const {
+    MeasuredGrid grid;
+    grid.name = "plan";
+    grid.machine = machine_;
+    grid.noise = StatedNoise{request_.noise.length_mm, request_.noise.position_mm, kCertainDof};
+    for (const MarkPoint& mark : marks) {
+      const auto reading = model_.at(model::laid_as_bed(mark));
+      if (!reading) {
+        return tl::unexpected(
+            PlanFailure{PlanFailure::Reason::unreachable,
+                        fmt::format("the machine cannot measure at ({:.0f}, {:.0f}): {}. A wider "
+                                    "margin leaves such places out",
+                                    mark.x_mm,
+                                    mark.y_mm,
+                                    model::explain(reading.error()))});
+      }
+      const model::ChainLengths beside = synthetic::unmodelled(model::laid_as_bed(mark));
+      grid.points.push_back(
+          {mark,
+           model::ChainLengths{reading->lengths.left_mm + kDisturbanceMm * beside.left_mm,
+                               reading->lengths.right_mm + kDisturbanceMm * beside.right_mm},
+           std::nullopt,
+           std::nullopt});
+    }
+    auto map = fit(grid);
+    if (!map) return tl::unexpected(PlanFailure{PlanFailure::Reason::no_map, map.error().sentence});
+    return *std::move(map);
+  }
+
+  /// The cell of the raster with the largest expected error that a mark may stand in.
+  [[nodiscard]] std::optional<MarkPoint> worst_free(const CompensationMap& map,
+                                                    const std::vector<MarkPoint>& marks) const {
+    const model::Bed& bed = machine_.bed;
+    const double half_x = 0.5 * bed.width_mm - request_.margin_mm;
+    const double half_y = 0.5 * bed.height_mm - request_.margin_mm;
+    const auto errors = expected_error_mm(map, bed, kRasterColumns, kRasterRows);
+    std::optional<MarkPoint> worst;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      const auto column = static_cast<double>(i % kRasterColumns);
+      const auto row = static_cast<double>(i / kRasterColumns);
+      const MarkPoint place{
+          std::trunc(
+              std::clamp(bed.width_mm * ((column + 0.5) / kRasterColumns - 0.5), -half_x, half_x)),
+          std::trunc(
+              std::clamp(bed.height_mm * ((row + 0.5) / kRasterRows - 0.5), -half_y, half_y))};
+      // Nearer than this a point repeats its neighbour rather than tells something new.
+      const bool taken = std::any_of(marks.begin(), marks.end(), [&](const MarkPoint& mark) {
+        return std::hypot(mark.x_mm - place.x_mm, mark.y_mm - place.y_mm) <=
+               2.0 * kRepeatDistanceMm;
+      });
+      if (taken || errors[i] <= kWorse * largest) continue;
+      largest = errors[i];
+      worst = place;
+    }
+    return worst;
+  }
+
+ private:
+  const model::Machine& machine_;
+  model::ReadingModel model_;
+  const PlanRequest& request_;
+};
+
+/// The nodes towards the middle, in whole mm.
+std::vector<double> whole_mm(std::vector<double> nodes) {
+  for (double& node : nodes) node = std::trunc(node);
+  return nodes;
+}
+
+/// Rows from the bottom, every other from right to left; an extra point goes with the row that it
+/// is nearest to.
+void walk(std::vector<MarkPoint>& marks, const std::vector<double>& rows) {
+  const auto row_of = [&rows](const MarkPoint& mark) {
+    const auto nearest = std::min_element(rows.begin(), rows.end(), [&](double a, double b) {
+      return std::abs(a - mark.y_mm) < std::abs(b - mark.y_mm);
+    });
+    return nearest - rows.begin();
+  };
+  std::sort(marks.begin(), marks.end(), [&](const MarkPoint& a, const MarkPoint& b) {
+    const auto row_a = row_of(a);
+    const auto row_b = row_of(b);
+    if (row_a != row_b) return row_a < row_b;
+    if (a.x_mm != b.x_mm) return (a.x_mm < b.x_mm) == (row_a % 2 == 0);
+    return a.y_mm < b.y_mm;
+  });
+}
+
+}  // namespace
+
+std::vector<double> expected_error_mm(const CompensationMap& map,
+                                      const model::Bed& bed,
+                                      int columns,
+                                      int rows) {
+  std::vector<double> errors;
+  for (int iy = 0; iy < rows; ++iy) {
+    for (int ix = 0; ix < columns; ++ix) {
+      const auto answer = map.query(
+          {bed.width_mm * ((ix + 0.5) / columns - 0.5), bed.height_mm * ((iy + 0.5) / rows - 0.5)});
+      errors.push_back(answer ? answer->tool_sigma_mm : -1.0);
+    }
+  }
+  return errors;
+}
+
+tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const model::Machine& machine,
+                                                            const PlanRequest& request) {
+  const model::Bed& bed = machine.bed;
+  const double width = bed.width_mm - 2.0 * request.margin_mm;
+  const double height = bed.height_mm - 2.0 * request.margin_mm;
+  constexpr double kLeastSideMm = 100.0;
+  if (request.points < kFewestPlanned || request.points > kMostPlanned ||
+      !(width >= kLeastSideMm) || !(height >= kLeastSideMm)) {
+    throw precondition(
+        "a plan of {} points on {} x {} mm, {} mm from its edges: {} to {} points on "
+        "at least 100 x 100 mm are possible",
+        request.points,
+        bed.width_mm,
+        bed.height_mm,
+        request.margin_mm,
+        kFewestPlanned,
+        kMostPlanned);
+  }
+  const interp::GridShape shape = interp::grid_shape(width, height, request.points);
+  const auto x = whole_mm(interp::chebyshev_lobatto(-0.5 * width, 0.5 * width, shape.columns));
+  const auto y = whole_mm(interp::chebyshev_lobatto(-0.5 * height, 0.5 * height, shape.rows));
+  std::vector<MarkPoint> marks;
+  for (double row : y) {
+    for (double column : x) marks.push_back({column, row});
+  }
+  const Planner planner(machine, request);
+  auto map = planner.map_of(marks);
+  while (map && marks.size() < static_cast<std::size_t>(request.points)) {
+    const auto next = planner.worst_free(*map, marks);
+    if (!next) break;
+    marks.push_back(*next);
+    map = planner.map_of(marks);
+  }
+  if (!map) return tl::unexpected(map.error());
+  walk(marks, y);
+  const int extra = static_cast<int>(marks.size()) - shape.columns * shape.rows;
+  return MeasurementPlan{std::move(marks), shape.columns, shape.rows, extra, *std::move(map)};
+}
+
+}  // namespace chaintrue::grid

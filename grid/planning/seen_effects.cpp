@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/planning/seen_effects.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "model/calibration/setting.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+/// cos 5 degrees: patterns nearer than this take hundreds of readings to tell apart.
+constexpr double kAlike = 0.9962;
+
+/// An effect's secant: what it does to the distances at its nominal size.
+struct Secant {
+  const model::effects::Effect* effect = nullptr;
+  model::effects::EffectSide side{};
+  Eigen::VectorXd change_mm;
+};
+
+struct Pattern {
+  SeenEffect seen;
+  Eigen::VectorXd white;
+};
+
+bool is_seen_by_distances(const model::effects::Effect& effect) {
+  return effect.station != model::effects::Station::paper &&
+         !model::effects::depends_on_visit(effect);
+}
+
+/// The set about the machine as stated.
+struct Stated {
+  Eigen::MatrixXd covariance;  ///< K
+  std::vector<Secant> secants;
+};
+
+std::optional<Stated> stated_of(const MeasuredHoles& set) {
+  if (!set.machine) throw std::invalid_argument("effects on distances need a machine");
+  const auto distances = observation::TapeDistances::in_given_order(set);
+  if (!distances) return std::nullopt;
+  std::vector<model::Setting> settings(model::kMachineSettings.begin(),
+                                       model::kMachineSettings.end());
+  // Distances between holes do not know where the sheet lies; those to its edges must not take a
+  // shift of the whole for an effect.
+  settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
+  const auto line = distances->linearise({model::ReadingModel(*set.machine), {}}, settings);
+  if (!line) return std::nullopt;
+  Eigen::VectorXd prior(static_cast<Eigen::Index>(settings.size()));
+  prior << estimation::stated_knowledge(*set.machine).covariance.diagonal().head(model::kMachineSettings.size()),
+      std::pow(observation::kSheetShiftMm, 2), std::pow(observation::kSheetShiftMm, 2), std::pow(observation::kSheetTurnRad, 2);
+  Stated stated{observation::marginal_covariance(*line, distances->nuisance_sigma()) +
+                    line->by_setting * prior.asDiagonal() * line->by_setting.transpose(),
+                {}};
+  for (const model::effects::Effect* effect : model::effects::catalogue()) {
+    if (!is_seen_by_distances(*effect)) continue;
+    for (const model::effects::EffectSide side : effect->sides) {
+      model::Machine machine = *set.machine;
+      machine.effects.push_back(
+          model::effects::applied(*effect, side, model::effects::nominal_values(*effect)));
+      if (!model::effects::problems_of_effects(machine).empty()) continue;
+      const auto with = distances->predicted({model::ReadingModel(machine), {}});
+      if (with) stated.secants.push_back({effect, side, *with - line->predicted});
+    }
+  }
+  return stated;
+}
+
+}  // namespace
+
+std::vector<SeenEffect> seen_effects(const MeasuredHoles& set) {
+  const auto stated = stated_of(set);
+  if (!stated) return {};
+  const Eigen::LLT<Eigen::MatrixXd> factor(stated->covariance);
+  std::vector<Pattern> patterns;
+  for (const Secant& secant : stated->secants) {
+    Pattern pattern;
+    pattern.seen.effect = secant.effect->id;
+    pattern.seen.side = model::effects::name(secant.side);
+    pattern.white = factor.matrixL().solve(secant.change_mm);
+    pattern.seen.sigmas = pattern.white.norm();
+    patterns.push_back(std::move(pattern));
+  }
+  std::stable_sort(patterns.begin(), patterns.end(), [](const Pattern& a, const Pattern& b) {
+    return a.seen.sigmas > b.seen.sigmas;
+  });
+  std::vector<SeenEffect> seen;
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    for (std::size_t j = 0; j < patterns.size(); ++j) {
+      if (i == j) continue;
+      const double together = patterns[i].seen.sigmas * patterns[j].seen.sigmas;
+      if (together > 0.0 && std::abs(patterns[i].white.dot(patterns[j].white)) > kAlike * together)
+        patterns[i].seen.same_as.push_back(j);
+    }
+    seen.push_back(patterns[i].seen);
+  }
+  return seen;
+}
+
+}  // namespace chaintrue::grid

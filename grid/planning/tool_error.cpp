@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/planning/tool_error.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <cmath>
+#include <vector>
+
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid {
+
+using model::MarkPoint;
+
+std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, MarkPoint place) {
+  const auto reading = model.at(model::laid_as_bed(place));
+  if (!reading) return std::nullopt;
+  Eigen::Matrix<double, 2, estimation::kMachineUnknowns> lengths;
+  for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {
+    lengths.col(static_cast<Eigen::Index>(i)) =
+        model.sensitivity(*reading, model::kMachineSettings[i]);
+  }
+  lengths.rightCols<2>() =
+      Eigen::Vector2d(reading->lengths.left_mm, reading->lengths.right_mm).asDiagonal();
+  PlannedPlace planned{place, {}};
+  planned.by_unknown << -reading->position_jacobian.inverse() * lengths,
+      -model::SheetPlacement{}.sensitivity(place);
+  return planned;
+}
+
+ToolError tool_error(const model::Machine& machine, bool sheet_counts) {
+  constexpr int kAcross = 13;
+  constexpr int kUp = 7;
+  const model::ReadingModel model(machine);
+  std::vector<PlannedPlace> places;
+  for (int iy = 0; iy < kUp; ++iy) {
+    for (int ix = 0; ix < kAcross; ++ix) {
+      const MarkPoint place{machine.bed.width_mm * ((ix + 0.5) / kAcross - 0.5),
+                            machine.bed.height_mm * ((iy + 0.5) / kUp - 0.5)};
+      if (const auto planned = planned_place(model, place)) places.push_back(*planned);
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(places.size());
+  if (count < kPlanUnknowns) {
+    return {Eigen::MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns),
+            Eigen::MatrixXd::Zero(3, kPlanUnknowns)};
+  }
+  Eigen::MatrixXd motion(2 * count, kPlanUnknowns);
+  Eigen::MatrixXd rigid(2 * count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const PlannedPlace& place = places[static_cast<std::size_t>(i)];
+    motion.middleRows<2>(2 * i) = place.by_unknown;
+    rigid.middleRows<2>(2 * i) = model::SheetPlacement{}.sensitivity(place.place);
+  }
+  ToolError error;
+  error.whole = rigid.colPivHouseholderQr().solve(motion);
+  if (!sheet_counts) motion -= rigid * error.whole;
+  error.root = motion.householderQr().matrixQR().topRows(kPlanUnknowns);
+  error.root = Eigen::MatrixXd(error.root.triangularView<Eigen::Upper>()) /
+               std::sqrt(static_cast<double>(count));
+  return error;
+}
+
+double tool_sigma_mm(const model::Machine& machine, const Eigen::MatrixXd& covariance) {
+  const Eigen::MatrixXd root =
+      tool_error(machine, false).root.leftCols(estimation::kMachineUnknowns);
+  return std::sqrt(std::max(0.0, (root * covariance * root.transpose()).trace()));
+}
+
+}  // namespace chaintrue::grid
