@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Each step of the procedure earns its place: left out, it costs right names or makes wrong ones.
+/// What is right with the step and what without is frozen by the seeds of what is not.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +13,8 @@ namespace chaintrue::sealed {
 namespace {
 
 using generator::Mix;
+using testing::ElementsAre;
+using testing::IsEmpty;
 
 TrialOptions ablation_options(Mix mix) {
   TrialOptions o;
@@ -19,19 +23,12 @@ TrialOptions ablation_options(Mix mix) {
   return o;
 }
 
-int count_of_all(const std::vector<Trial>& all, bool (*hit)(const Trial&)) {
-  return static_cast<int>(std::count_if(all.begin(), all.end(), hit));
-}
-
 // Signatures that are not projected share most of their length with the settings' own.
 TEST(Ablation, WithoutProjectionCausesAreMistaken) {
   TrialOptions o = ablation_options(Mix::single);
-  const int with = count_of_all(trials(o, 9100, 20), leads_right);
+  EXPECT_THAT(seeds_without(trials(o, 9100, 20), leads_right), ElementsAre(9108, 9113));
   o.steps.project_settings = false;
-  const int without = count_of_all(trials(o, 9100, 20), leads_right);
-  std::printf("right with projection %d, without %d of 20\n", with, without);
-  EXPECT_GE(with, 17);  // 96.7 % at least, and one set more
-  EXPECT_LE(without, with - 2);
+  EXPECT_THAT(seeds_without(trials(o, 9100, 20), leads_right), ElementsAre(9103, 9108, 9109, 9113));
 }
 
 // A beam 150 mm above the bed: at its top centre the chains are level, and where the mark is off
@@ -46,12 +43,10 @@ TEST(Ablation, WithoutWhiteningLessIsFound) {
   const auto names_it_alone = [](const Trial& t) {
     return t.verdict == grid::diagnosis::Verdict::named && leads_right(t);
   };
-  const int with = count_of_all(trials(o, 9600, 16), names_it_alone);
+  EXPECT_THAT(seeds_without(trials(o, 9600, 16), names_it_alone), ElementsAre(9605));
   o.steps.whiten = false;
-  const int without = count_of_all(trials(o, 9600, 16), names_it_alone);
-  std::printf("right with whitening %d, without %d of 16\n", with, without);
-  EXPECT_GE(with, 11);
-  EXPECT_LE(without, with - 3);
+  EXPECT_THAT(seeds_without(trials(o, 9600, 16), names_it_alone),
+              ElementsAre(9601, 9602, 9605, 9606, 9608, 9610, 9611, 9612));
 }
 
 // The noise is three times what was said. Whoever takes it from the fit alone sees nothing odd.
@@ -61,20 +56,18 @@ TEST(Ablation, WithoutTheNoisesAnchorWrongNoiseIsNotSeen) {
   };
   TrialOptions o = ablation_options(Mix::nothing);
   o.recipe.noise_ratio = 1.0 / 3.0;
-  const int with = count_of_all(trials(o, 9700, 8), said);
+  EXPECT_THAT(seeds_without(trials(o, 9700, 8), said), IsEmpty());
   o.steps.anchor_noise = false;
-  const int without = count_of_all(trials(o, 9700, 8), said);
-  std::printf("said with the anchor %d, without %d of 8\n", with, without);
-  EXPECT_GE(with, 7);
-  EXPECT_LE(without, 1);
+  EXPECT_EQ(seeds_without(trials(o, 9700, 8), said).size(), 8u);
 }
 
 // A slip of the pen weighs more than any cause where no point may be set aside.
 TEST(Ablation, WithoutARobustStartSlipsMakeCauses) {
+  const auto silent = [](const Trial& t) { return !names_something(t); };
   TrialOptions o = ablation_options(Mix::bad_points);
+  EXPECT_THAT(seeds_without(trials(o, 9400, 10), silent), IsEmpty());
   o.steps.robust = false;
-  // Two sets of three are named so; of ten fewer than three once in 200 times.
-  EXPECT_GE(count_of_all(trials(o, 9400, 10), names_something), 3);
+  EXPECT_EQ(seeds_without(trials(o, 9400, 10), silent).size(), 10u);
 }
 
 // Places that may be chosen freely fit noise better than they should: the best of many counts in

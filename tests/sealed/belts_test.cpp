@@ -1,67 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hidden sessions of four belts, few enough for every test run; build/sealed_belts poses
-// hundreds, and its table stands in docs/maslow4.md.
+// Hidden sessions of four belts: what is proposed where causes are left open, and what is said of
+// them. Which are named is of the excerpt in rates_test.cpp.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <iostream>
+#include <vector>
 
 #include "sealed/judge/belts_trial.hpp"
 
 namespace chaintrue::sealed {
 namespace {
 
-using generator::BeltRecipe;
+using testing::ElementsAre;
 
-constexpr int kBeltSets = 12;
-
-template <class Right>
-int right_of(const BeltRecipe& recipe, std::uint64_t first_seed, Right right) {
-  int good = 0;
-  for (int k = 0; k < kBeltSets; ++k) {
-    const BeltsTrial trial = run_belts_trial(recipe, first_seed + static_cast<std::uint64_t>(k));
-    if (right(trial)) {
-      ++good;
-    } else {
-      testing::Test::RecordProperty("wrong", static_cast<int>(trial.seed));
-      std::cout << "seed " << trial.seed << ", " << trial.secret.effect << " " << trial.secret.side
-                << ": " << trial.sentence << "\n";
-    }
-  }
-  return good;
-}
-
-TEST(SealedBelts, AStrongCauseIsNamedAlone) {
-  // 27 of 28 are (docs/maslow4.md): two of twelve are wrong by chance in 6 of 100 such runs.
-  EXPECT_GE(right_of({.effect = "", .least_strength = 12.0, .most_strength = 40.0},
-                     901,
-                     [](const BeltsTrial& t) { return t.exact; }),
-            kBeltSets - 1);
-}
-
-TEST(SealedBelts, WhereNothingIsHiddenNothingIsNamed) {
-  // A name where noise does as much once in a thousand sessions: one of twelve is wrong in 1 run of 80.
-  EXPECT_GE(
-      right_of({.effect = "", .nothing = true}, 951, [](const BeltsTrial& t) { return !t.named; }),
-      kBeltSets);
-}
-
+// Outcomes are frozen by their seeds: a share of a few dozen sets hides a change.
 TEST(SealedBelts, WhatIsProposedPartsCausesThatAreLeftOpen) {
-  constexpr int kDraws = 24;
-  int proposed = 0;
-  int parted = 0;
-  for (std::uint64_t seed = 1101; seed < 1101 + kDraws; ++seed) {
+  std::vector<std::uint64_t> proposed, parted;
+  for (std::uint64_t seed = 1101; seed < 1125; ++seed) {
     const BeltsTrial trial =
         run_belts_trial({.effect = "", .least_strength = 6.0, .most_strength = 9.0}, seed, true);
-    proposed += trial.proposed > 0;
-    parted += trial.parted;
-    if (trial.proposed > 0 && !trial.parted) {
-      std::cout << "seed " << seed << ", " << trial.secret.effect << " " << trial.secret.side
-                << ": " << trial.sentence << "\n";
-    }
+    if (trial.proposed > 0) proposed.push_back(seed);
+    if (trial.parted) parted.push_back(seed);
   }
-  ASSERT_GT(proposed, 5) << "seeds 1101 to " << 1100 + kDraws << " leave nothing open";
-  // 34 of 51 are parted (docs/maslow4.md): fewer than a third of nine are so in 1 run of 120.
-  EXPECT_GE(3 * parted, proposed) << "of seeds 1101 to " << 1100 + kDraws;
+  EXPECT_THAT(proposed,
+              ElementsAre(1101, 1102, 1106, 1107, 1108, 1113, 1118, 1119, 1120, 1123, 1124));
+  EXPECT_THAT(parted, ElementsAre(1102, 1107, 1108, 1119, 1120, 1123, 1124));
 }
 
 TEST(SealedBelts, APatternThatIsTheAnswerHasASize) {
@@ -71,13 +34,6 @@ TEST(SealedBelts, APatternThatIsTheAnswerHasASize) {
   EXPECT_NE(trial.sentence.find("changes smoothly from place to place"), std::string::npos)
       << trial.sentence;
   EXPECT_EQ(trial.sentence.find("over some 0 mm"), std::string::npos) << trial.sentence;
-}
-
-TEST(SealedBelts, BadReadingsAreFoundByPointAndBelt) {
-  EXPECT_GE(right_of({.effect = "", .nothing = true, .bad_readings = 3},
-                     1001,
-                     [](const BeltsTrial& t) { return t.bad_found; }),
-            kBeltSets - 1);
 }
 
 }  // namespace

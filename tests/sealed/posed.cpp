@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "grid/files/grid_file.hpp"
 
 namespace chaintrue::sealed {
@@ -59,24 +57,21 @@ bool names_any(const grid::diagnosis::Diagnosis& found) {
          found.verdict == Verdict::several_causes;
 }
 
-int fewest(int n, double p) {
-  double below = 0.0;
-  for (int k = 0; k <= n; ++k) {
-    below += std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) +
-                      k * std::log(p) + (n - k) * std::log1p(-p));
-    if (below > 1e-3) return k;
-  }
-  return n;
-}
-
-int most(int n, double p) { return n - fewest(n, 1.0 - p); }
-
 std::vector<Trial> trials(TrialOptions options, std::uint64_t first, int count) {
   std::vector<Trial> all;
   for (int i = 0; i < count; ++i) {
     all.push_back(run_trial(options, first + static_cast<std::uint64_t>(i)));
   }
   return all;
+}
+
+std::vector<std::uint64_t> seeds_without(const std::vector<Trial>& trials,
+                                         bool (*right)(const Trial&)) {
+  std::vector<std::uint64_t> seeds;
+  for (const Trial& trial : trials) {
+    if (!right(trial)) seeds.push_back(trial.seed);
+  }
+  return seeds;
 }
 
 }  // namespace chaintrue::sealed

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What the tests of the diagnosis share: sets posed on purpose, and how many of many must be
-/// right.
+/// What the tests of the diagnosis share: sets posed on purpose, and which of many are not right.
 #pragma once
 
 #include <initializer_list>
@@ -29,12 +28,11 @@ namespace chaintrue::sealed {
 [[nodiscard]] bool led_by(const grid::diagnosis::Diagnosis& found, const std::string& id);
 [[nodiscard]] bool names_any(const grid::diagnosis::Diagnosis& found);
 
-/// The smallest count of successes among `n` that a true rate of `p` undercuts less than once in a
-/// thousand times; and the largest count that it exceeds as rarely.
-[[nodiscard]] int fewest(int n, double p);
-[[nodiscard]] int most(int n, double p);
-
 /// Trials of seeds first .. first + count - 1.
 [[nodiscard]] std::vector<Trial> trials(TrialOptions options, std::uint64_t first, int count);
+/// The seeds of those that are not so, which a test freezes: an allowance of misses would hide a
+/// change.
+[[nodiscard]] std::vector<std::uint64_t> seeds_without(const std::vector<Trial>& trials,
+                                                       bool (*right)(const Trial&));
 
 }  // namespace chaintrue::sealed

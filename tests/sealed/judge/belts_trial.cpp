@@ -82,6 +82,7 @@ BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t se
   const generator::BeltDraw draw = generator::draw_belts(recipe, seed);
   BeltsTrial trial;
   trial.seed = seed;
+  trial.points = static_cast<int>(draw.lengths_mm.size());
   trial.secret = draw.secret;
   grid::MeasuredBelts belts = measured(draw);
   grid::diagnosis::DiagnosisOptions how;
@@ -95,6 +96,7 @@ BeltsTrial run_belts_trial(const generator::BeltRecipe& recipe, std::uint64_t se
   trial.sentence = found->sentence;
   trial.verdict = name(found->verdict);
   trial.family_wise_p = found->family_wise_p;
+  trial.causes = named_causes(*found);
   trial.named = !found->causes.empty();
   const auto is_hidden = [&](const auto& cause) {
     return cause.cause.effect->id == draw.secret.effect &&

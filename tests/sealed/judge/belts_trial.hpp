@@ -5,13 +5,16 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "generator/hidden/belt_draw.hpp"
+#include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
 
 struct BeltsTrial {
   std::uint64_t seed = 0;
+  int points = 0;
   generator::BeltSecret secret;
   bool failed = false;
   bool named = false;        ///< anything at all
@@ -24,6 +27,7 @@ struct BeltsTrial {
   bool bad_found = false;    ///< the bad readings, each by point and belt, and no others
   std::string sentence;
   std::string verdict;          ///< as files have it; empty where it failed
+  std::vector<NamedCause> causes;
   double family_wise_p = 1.0;
   double probability = 0.0;     ///< that what is hidden acts, as the table of hypotheses has it
   /// Where no single name was given and the trial went on: places that were proposed and measured,

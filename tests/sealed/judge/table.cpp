@@ -10,6 +10,7 @@
 #include <iterator>
 #include <map>
 
+#include "sealed/judge/binomial.hpp"
 #include "sealed/judge/pattern_table.hpp"
 
 namespace chaintrue::sealed {
@@ -130,16 +131,10 @@ void about_unlisted(const std::vector<Trial>& trials, Rows& rows) {
            }));
 }
 
-bool found_all_bad(const Trial& t) {
-  return std::all_of(t.answer.bad_points.begin(), t.answer.bad_points.end(), [&](std::size_t i) {
-    return std::find(t.bad_points.begin(), t.bad_points.end(), i) != t.bad_points.end();
-  });
-}
-
 void about_bad_points(const std::vector<Trial>& trials, Rows& rows) {
   rows.add("clean verdict: bad points and no cause",
            share_of(trials, [](const Trial& t) { return t.verdict == Verdict::outliers; }));
-  rows.add("every slip found", share_of(trials, found_all_bad));
+  rows.add("every slip found", share_of(trials, all_bad_found));
   rows.add("more points called bad than were", share_of(trials, [](const Trial& t) {
              return t.bad_points.size() > t.answer.bad_points.size();
            }));
@@ -225,15 +220,13 @@ std::string cell(const std::vector<std::size_t>& indices) {
 
 std::string text(const Share& share) {
   if (share.of == 0) return "-";
-  const double n = share.of, p = share.value(), z = 1.96;
-  const double middle = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
-  const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
+  const RateBounds bounds = rate_bounds_95(share.hits, share.of);
   return fmt::format("{:.1f} % ({} of {}; {:.1f}-{:.1f})",
-                     100.0 * p,
+                     100.0 * share.value(),
                      share.hits,
                      share.of,
-                     100.0 * std::max(0.0, middle - half),
-                     100.0 * std::min(1.0, middle + half));
+                     100.0 * bounds.lower,
+                     100.0 * bounds.upper);
 }
 
 Honesty honesty(const std::vector<Trial>& trials) {
@@ -292,7 +285,7 @@ std::string markdown(const TrialOptions& options, const std::vector<Trial>& tria
       break;
     case Mix::bad_points_and_effect:
       rows.add("right name", share_of(trials, leads_right));
-      rows.add("every slip found", share_of(trials, found_all_bad));
+      rows.add("every slip found", share_of(trials, all_bad_found));
       break;
     default:
       rows.add("false name", share_of(trials, names_something));

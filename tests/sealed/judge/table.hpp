@@ -10,7 +10,7 @@
 
 namespace chaintrue::sealed {
 
-/// A share with its 95 % interval (Wilson).
+/// A share with its 95 % bounds (binomial.hpp).
 struct Share {
   int hits = 0;
   int of = 0;

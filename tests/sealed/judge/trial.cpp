@@ -25,24 +25,6 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-void take_over(const Diagnosis& found, Trial& trial) {
-  trial.verdict = found.verdict;
-  for (const auto& cause : found.causes) {
-    NamedCause named{sealed::id_of(cause.cause), cause.probability, {}};
-    for (const auto& same : cause.same_as) named.same_as.push_back(sealed::id_of(same.cause));
-    trial.causes.push_back(std::move(named));
-  }
-  trial.hypotheses = found.hypotheses;
-  for (const auto& h : found.hypotheses) {
-    if (h.effect == "unknown") trial.unknown_probability = h.probability;
-  }
-  trial.family_wise_p = found.family_wise_p;
-  trial.left_over_delta = found.left_over.signal_to_noise;
-  trial.noise_factor = found.noise_factor;
-  for (const auto& bad : found.outliers) trial.bad_points.push_back(bad.index);
-  for (const auto& no : found.not_testable) trial.not_testable.push_back(sealed::id_of(no.cause));
-}
-
 }  // namespace
 
 std::string id_of(const generator::Hidden& hidden) {
@@ -51,6 +33,30 @@ std::string id_of(const generator::Hidden& hidden) {
 
 std::string id_of(const grid::diagnosis::CauseId& cause) {
   return id_of(cause.effect->id, model::effects::name(cause.side));
+}
+
+std::vector<NamedCause> named_causes(const Diagnosis& found) {
+  std::vector<NamedCause> causes;
+  for (const auto& cause : found.causes) {
+    NamedCause named{id_of(cause.cause), cause.probability, {}};
+    for (const auto& same : cause.same_as) named.same_as.push_back(id_of(same.cause));
+    causes.push_back(std::move(named));
+  }
+  return causes;
+}
+
+void take_over(const Diagnosis& found, Trial& trial) {
+  trial.verdict = found.verdict;
+  trial.causes = named_causes(found);
+  trial.hypotheses = found.hypotheses;
+  for (const auto& h : found.hypotheses) {
+    if (h.effect == "unknown") trial.unknown_probability = h.probability;
+  }
+  trial.family_wise_p = found.family_wise_p;
+  trial.left_over_delta = found.left_over.signal_to_noise;
+  trial.noise_factor = found.noise_factor;
+  for (const auto& bad : found.outliers) trial.bad_points.push_back(bad.index);
+  for (const auto& no : found.not_testable) trial.not_testable.push_back(id_of(no.cause));
 }
 
 Trial run_trial(const TrialOptions& options, std::uint64_t seed) {
@@ -114,6 +120,13 @@ bool all_named(const Trial& trial) {
     return std::any_of(trial.causes.begin(), trial.causes.end(), [&](const NamedCause& c) {
       return means(c, id);
     });
+  });
+}
+
+bool all_bad_found(const Trial& trial) {
+  const auto& bad = trial.answer.bad_points;
+  return std::all_of(bad.begin(), bad.end(), [&](std::size_t i) {
+    return std::find(trial.bad_points.begin(), trial.bad_points.end(), i) != trial.bad_points.end();
   });
 }
 

@@ -67,6 +67,11 @@ struct Trial {
 
 [[nodiscard]] Trial run_trial(const TrialOptions& options, std::uint64_t seed);
 
+/// In the order of the diagnosis.
+[[nodiscard]] std::vector<NamedCause> named_causes(const grid::diagnosis::Diagnosis& found);
+/// Takes what a trial says of a diagnosis over from it.
+void take_over(const grid::diagnosis::Diagnosis& found, Trial& trial);
+
 /// The cause or a member of its class.
 [[nodiscard]] bool means(const NamedCause& named, const std::string& id);
 /// Any of named, named_set, several_causes.
@@ -77,6 +82,8 @@ struct Trial {
 [[nodiscard]] bool in_set(const Trial& trial);
 /// Every hidden cause is among `causes`.
 [[nodiscard]] bool all_named(const Trial& trial);
+/// Every point that is bad is among those that were set aside.
+[[nodiscard]] bool all_bad_found(const Trial& trial);
 /// effect:side, `-` for no side.
 [[nodiscard]] std::string id_of(const generator::Hidden& hidden);
 [[nodiscard]] std::string id_of(const grid::diagnosis::CauseId& cause);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Exact binomial tests of counts: bounds of a rate, and whether of paired outcomes more were lost
+/// than gained.
+///
+/// Sources: Clopper and Pearson, Biometrika 26 (1934) 404-413; McNemar, Psychometrika 12 (1947)
+/// 153-157, in its exact form, which is the sign test of the pairs that differ.
+#pragma once
+
+namespace chaintrue::sealed {
+
+/// P(X >= least) of X binomial with `of` trials of probability `p`; to 1e-12 up to 10,000 trials.
+/// \throws std::invalid_argument unless 0 <= p <= 1 and of >= 0.
+[[nodiscard]] double probability_of_at_least(int least, int of, double p);
+
+struct RateBounds {
+  double lower = 0.0;
+  double upper = 1.0;
+};
+/// Two-sided 95 % bounds of Clopper and Pearson: 2.5 % on each side, at most.
+/// \throws std::invalid_argument unless 0 <= hits <= of.
+[[nodiscard]] RateBounds rate_bounds_95(int hits, int of);
+
+/// One-sided exact sign test: the chance that so many or more of the sets that differ are lost where
+/// each is lost or gained as likely. Twice this, at most one, is McNemar's exact two-sided test where
+/// more were lost than gained. 1 where none differs.
+[[nodiscard]] double sign_test(int lost, int gained);
+
+}  // namespace chaintrue::sealed

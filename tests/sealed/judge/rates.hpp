@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// From the outcomes of sealed sets to the table of rates, and from two versions' outcomes of the
+/// same sets to what one lost against the other.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sealed/judge/outcome.hpp"
+
+namespace chaintrue::sealed {
+
+/// One row of the table: the sets of a kind within a range of strength that have all of `facts`.
+struct RateRow {
+  std::string hidden;    ///< in words
+  std::string right_is;  ///< in words
+  std::string kind;
+  std::vector<std::string> facts;
+  double from_strength = 0.0;
+  double to_strength = 1e9;
+
+  [[nodiscard]] bool counts(const Outcome& outcome) const;
+  [[nodiscard]] bool right(const Outcome& outcome) const;
+};
+[[nodiscard]] const std::vector<RateRow>& rate_rows();
+
+/// As Markdown, with binomial 95 % bounds; rows without a set are left out.
+[[nodiscard]] std::string rates_table(const std::vector<Outcome>& outcomes);
+
+/// One row of two versions on the same sets.
+struct RowComparison {
+  std::string hidden;
+  std::string right_is;
+  int sets = 0;
+  int both = 0;    ///< right in both
+  int lost = 0;    ///< right as frozen, wrong now
+  int gained = 0;  ///< wrong as frozen, right now
+  double p = 1.0;  ///< sign_test(lost, gained)
+
+  /// In points, now less frozen.
+  [[nodiscard]] double difference() const;
+  /// By more than one point, and by more than chance makes once in twenty times.
+  [[nodiscard]] bool worse() const;
+};
+struct Comparison {
+  std::vector<RowComparison> rows;
+  int sets = 0;  ///< that both have
+  /// Sets whose outcome is another, as frozen and now; names and verdicts included.
+  std::vector<std::pair<Outcome, Outcome>> changed;
+
+  [[nodiscard]] bool worse() const;
+};
+/// Of the sets that both have. \throws std::invalid_argument where what is hidden in a set of one is
+/// not what is hidden in the other's: these are not the same sets.
+[[nodiscard]] Comparison compare(const std::vector<Outcome>& frozen,
+                                 const std::vector<Outcome>& now);
+[[nodiscard]] std::string comparison_table(const Comparison& comparison);
+
+}  // namespace chaintrue::sealed
