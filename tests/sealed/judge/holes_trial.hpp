@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "grid/measured_grid.hpp"
+#include "grid/observation/measured_holes.hpp"
 #include "sealed/judge/trial.hpp"
 
 namespace chaintrue::sealed {
