@@ -21,7 +21,7 @@ class InBrowser : public ::testing::Test {
   void SetUp() override {
     if (!has_browser()) GTEST_SKIP() << "Chromium was not found when the tests were configured";
   }
-  const std::string html_ = render_html(page_of(sample_report()));
+  const std::string html_ = render_html(sample_document());
 };
 
 std::string with(std::string text, std::string_view from, std::string_view to) {
@@ -132,10 +132,10 @@ TEST_F(InBrowser, ABrokenSpecificationIsFound) {
 }
 
 TEST_F(InBrowser, AnEmptyChartIsFound) {
-  MapReport report = sample_report();
-  report.error_map->cells.clear();
-  report.points.clear();
-  EXPECT_THAT(problems_of(visit(render_html(page_of(report)))),
+  MapPictures map = sample_pictures();
+  map.error_map->cells.clear();
+  map.points.clear();
+  EXPECT_THAT(problems_of(visit(render_html(sample_document(map)))),
               Contains(HasSubstr("error_map is empty: ")));
 }
 

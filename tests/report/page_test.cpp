@@ -2,7 +2,7 @@
 /// \file
 /// What a page promises without a browser: same input same bytes, no network, escaped text, sound
 /// numbers only.
-#include "tools/report/document.hpp"
+#include "tests/report/sample_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@
 #include <regex>
 #include <set>
 
-#include "tests/report/sample_report.hpp"
 #include "tools/report/bed_chart.hpp"
 #include "tools/report/embedded.hpp"
 
@@ -48,11 +47,11 @@ std::string message_of(Call call) {
 }
 
 TEST(Page, SameInputGivesTheSameBytes) {
-  EXPECT_EQ(render_html(page_of(sample_report())), render_html(page_of(sample_report())));
+  EXPECT_EQ(render_html(sample_document()), render_html(sample_document()));
 }
 
 TEST(Page, AsksForNothingFromTheNetwork) {
-  std::string html = render_html(page_of(sample_report()));
+  std::string html = render_html(sample_document());
   // The embedded programs are looked at in the browser test, which has no network.
   html.resize(html.find("<script"));
   for (const char* const loader :
@@ -62,10 +61,11 @@ TEST(Page, AsksForNothingFromTheNetwork) {
 }
 
 TEST(Page, TextCannotBecomeMarkup) {
-  MapReport report = sample_report();
-  report.name = "<b>&\"grid\"";
-  report.points[0].name = "</script><script>alert(1)</script>";
-  const std::string html = render_html(page_of(report));
+  MapPictures map = sample_pictures();
+  map.points[0].name = "</script><script>alert(1)</script>";
+  Document document = sample_document(map);
+  document.title = "<b>&\"grid\"";
+  const std::string html = render_html(document);
   EXPECT_THAT(html, HasSubstr("&lt;b&gt;&amp;&quot;grid&quot;"));
   EXPECT_THAT(html, Not(HasSubstr("<script>alert(1)")));
   EXPECT_THAT(html, HasSubstr("\\u003c/script>"));
@@ -76,16 +76,16 @@ TEST(Page, BytesThatAreNoTextAreReplaced) {
   const std::string bad[] = {
       "\xFF", "\xC3", "\xC0\x80", "\xED\xA0\x80", "\xF5\x80\x80\x80", "\xE2\x82"};
   for (const std::string& bytes : bad) {
-    MapReport report = sample_report();
-    report.name = "a" + bytes + "b";
-    const std::string html = render_html(page_of(report));
+    Document document = sample_document();
+    document.title = "a" + bytes + "b";
+    const std::string html = render_html(document);
     EXPECT_EQ(html.find(bytes + "b"), std::string::npos);
     EXPECT_THAT(html, HasSubstr("\xEF\xBF\xBD"));
     EXPECT_NO_THROW((void)nlohmann::json(html).dump()) << "strict UTF-8";
   }
-  MapReport report = sample_report();
-  report.name = "Säge \xE2\x82\xAC \xF0\x9F\x94\xA9";
-  EXPECT_THAT(render_html(page_of(report)), HasSubstr(report.name));
+  Document document = sample_document();
+  document.title = "Säge \xE2\x82\xAC \xF0\x9F\x94\xA9";
+  EXPECT_THAT(render_html(document), HasSubstr(document.title));
 }
 
 TEST(Page, EmbeddedScriptsCannotEndTheirElement) {
@@ -150,7 +150,7 @@ std::vector<Chart> charts_of(const Document& page) {
 
 // Vega draws a missing field at 0 without a word, so no browser could tell.
 TEST(Page, EveryFieldThatAChartReadsIsGiven) {
-  const std::vector<Chart> charts = charts_of(page_of(sample_report()));
+  const std::vector<Chart> charts = charts_of(sample_document());
   ASSERT_EQ(charts.size(), 7u);
   for (const Chart& chart : charts) {
     const auto spec = nlohmann::json::parse(embedded_text("chart", chart.specification));
@@ -164,14 +164,14 @@ TEST(Page, EveryFieldThatAChartReadsIsGiven) {
 }
 
 TEST(Page, CarriesTheNoticesOfWhatItEmbeds) {
-  const std::string html = render_html(page_of(sample_report()));
+  const std::string html = render_html(sample_document());
   EXPECT_THAT(html, HasSubstr("UW Interactive Data Lab"));
   EXPECT_THAT(html,
               HasSubstr("THIS SOFTWARE IS PROVIDED BY THE COPYRIGHT HOLDERS AND CONTRIBUTORS"));
 }
 
 TEST(Page, AFlaggedSettingStandsOut) {
-  const std::string html = render_html(page_of(sample_report()));
+  const std::string html = render_html(sample_document());
   EXPECT_THAT(html,
               HasSubstr("<tr class=\"flagged\"><td data-heading=\"setting\">right motor, y</td>"));
   EXPECT_THAT(html,
@@ -225,18 +225,15 @@ TEST(BedChart, TheArrowOfABadPointEndsAtTheFrame) {
   EXPECT_EQ(cut_off_at_frame(sheet, {good}, magnification), "");
 }
 
-TEST(MapReportPage, RefusesASheetWithoutExtent) {
-  MapReport report = sample_report();
-  report.sheet.x_max_mm = report.sheet.x_min_mm;
-  EXPECT_THAT(message_of([&report] { (void)page_of(report); }),
+TEST(MapPictures, RefuseASheetWithoutExtent) {
+  MapPictures map = sample_pictures();
+  map.sheet.x_max_mm = map.sheet.x_min_mm;
+  EXPECT_THAT(message_of([&map] { (void)picture_sections(map); }),
               HasSubstr("a sheet with an extent"));
 }
 
-TEST(MapReportPage, LeavesOutWhatIsNotKnown) {
-  MapReport report;
-  report.name = "only a verdict";
-  report.sheet = {0.0, 1000.0, 0.0, 1000.0};
-  EXPECT_TRUE(page_of(report).sections.empty());
+TEST(MapPictures, LeaveOutWhatIsNotKnown) {
+  EXPECT_TRUE(picture_sections(MapPictures{.sheet = {0.0, 1000.0, 0.0, 1000.0}}).empty());
 }
 
 }  // namespace

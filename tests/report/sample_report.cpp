@@ -59,23 +59,10 @@ ErrorMap sample_error_map() {
 
 }  // namespace
 
-MapReport sample_report() {
-  MapReport report;
-  report.name = "workshop grid";
-  report.machine_name = "classic Maslow, 28 points, sheet as placed";
-  report.sheet = {-kBedWidthMm / 2, kBedWidthMm / 2, -kBedHeightMm / 2, kBedHeightMm / 2};
-  report.verdict =
-      "Inside the measured points the tool will land within 0.25 mm (rms) of where the drawing "
-      "says; as the machine was "
-      "stated it was 3.9 mm off.";
-  report.advice = {"Use this map for the whole sheet; near its lower corners expect up to 0.6 mm.",
-                   "Measure point 10 again: it disagrees with its neighbours by 1.4 mm."};
-  report.not_proved = "This says how well new points are predicted, not why the machine erred.";
-  report.figures = {{"0.25 mm", "error to expect at the tool, rms, held out"},
-                    {"0.52 mm", "worst point, held out"},
-                    {"3.9 mm", "as the machine was stated, rms"},
-                    {"0.21 mm", "noise of the readings"}};
-  report.steps = {
+MapPictures sample_pictures() {
+  MapPictures map;
+  map.sheet = {-kBedWidthMm / 2, kBedWidthMm / 2, -kBedHeightMm / 2, kBedHeightMm / 2};
+  map.steps = {
       {ErrorStep::Kind::before, "machine as stated", 3.91, 6.2, "at the 28 points"},
       {ErrorStep::Kind::after, "machine calibrated", 0.44, 0.93, "points left out one at a time"},
       {ErrorStep::Kind::after, "with the map", 0.25, 0.52, "points left out one at a time"},
@@ -84,21 +71,40 @@ MapReport sample_report() {
        0.21,
        {},
        "as stated: 0.2 mm a chain, 0.3 mm a mark"}};
-  report.points = sample_points();
-  report.error_map = sample_error_map();
-  report.noise_floor_mm = 0.21;
-  report.settings = {{"left motor, x", "mm", -1489.2, -1492.31, 0.62, 3.0, false},
-                     {"left motor, y", "mm", 1072.6, 1073.1, 0.41, 3.0, false},
-                     {"right motor, x", "mm", 1489.2, 1488.8, 0.6, 3.0, false},
-                     {"right motor, y", "mm", 1072.6, 1061.2, 0.4, 3.0, true},
-                     {"left chain, zero", "mm", 0.0, -0.31, 0.52, 1.0, false},
-                     {"right chain, zero", "mm", 0.0, 0.12, 0.5, 1.0, false},
-                     {"sheet, turned", "mrad", 0.0, 1.204, 0.22, 10.0, false}};
-  report.findings = {
-      "The right chain is not the left one mirrored: at mirrored points they differ by 4.2 mm "
-      "(rms)."};
-  report.provenance = "chaintrue, from grid.json.";
-  return report;
+  map.points = sample_points();
+  map.error_map = sample_error_map();
+  map.noise_floor_mm = 0.21;
+  return map;
+}
+
+Document sample_document(const MapPictures& map) {
+  Document document{.title = "Compensation map: workshop grid",
+                    .subtitle = "classic Maslow, 28 points, sheet as placed"};
+  document.verdict = {
+      "Inside the measured points the tool will land within 0.25 mm (rms) of where the drawing "
+      "says; as the machine was stated it was 3.9 mm off."};
+  document.advice = {
+      {"Use this map for the whole sheet; near its lower corners expect up to 0.6 mm."},
+      {"Measure point 10 again: it disagrees with its neighbours by 1.4 mm."}};
+  document.not_proved = {"This says how well new points are predicted, not why the machine erred."};
+  document.figures = {{"0.25 mm", "error to expect at the tool, rms, held out"},
+                      {"0.52 mm", "worst point, held out"},
+                      {"3.9 mm", "as the machine was stated, rms"},
+                      {"0.21 mm", "noise of the readings"}};
+  document.sections = picture_sections(map);
+  document.sections.push_back(
+      {"The machine's settings",
+       {Table{{{"setting"}, {"stated", true}, {"calibrated", true}, {"unit"}, {"remark"}},
+              {{{"left motor, x", -1489.2, -1492.31, "mm"}},
+               {{"right motor, y", 1072.6, 1061.2, "mm", "off: check it"}, true},
+               {{"sheet, turned", 0.0, 1.204, "mrad"}}},
+              ""}}});
+  document.remarks = {"What else was found",
+                      {Paragraph{"The right chain is not the left one mirrored: at mirrored points "
+                                 "they differ by 4.2 mm (rms)."}}};
+  document.has_glossary = true;
+  document.provenance = "chaintrue, from grid.json.";
+  return document;
 }
 
 }  // namespace chaintrue::report::testing

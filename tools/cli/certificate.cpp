@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "model/calibration/setting.hpp"
-#include "tools/cli/map_report.hpp"
+#include "tools/cli/map_document.hpp"
+#include "tools/cli/map_pictures.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/settings_table.hpp"
-#include "tools/report/map_report.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -119,7 +119,6 @@ report::Section remaining_section(const MapContents& contents) {
 
 report::Document certificate(const grid::CompensationMap& map, std::string_view source) {
   const MapContents& contents = map.contents();
-  const report::MapReport full = map_report(map, source);
   const grid::ErrorSummary& expected = contents.accuracy.expected_tool;
   report::Document page;
   page.title = "Certificate: " + (contents.name.empty() ? std::string("map") : contents.name);
@@ -128,7 +127,7 @@ report::Document certificate(const grid::CompensationMap& map, std::string_view 
       "Expect the tool within {:.2f} mm of where it should be, 95 times in 100, over the measured "
       "part of the bed.",
       k95PerCent * expected.rms_mm)};
-  page.tone = full.tone;
+  page.tone = tone_of(contents);
   page.is_one_sheet = true;
   page.figures = {
       {fmt::format("{:.2f} mm", expected.rms_mm), "expected over the bed, rms, one sigma"},
@@ -140,7 +139,7 @@ report::Document certificate(const grid::CompensationMap& map, std::string_view 
   page.not_proved = {
       "These figures hold for the machine as it was when it was measured, and end when a motor, a "
       "chain or the sheet is moved."};
-  report::Chart chart = report::error_map_chart(full);
+  report::Chart chart = report::error_map_chart(map_pictures(map));
   chart.caption = "One sigma at the tool.";
   report::Section error_section{"Where to expect which error", {}};
   error_section.blocks.push_back(std::move(chart));
@@ -148,7 +147,7 @@ report::Document certificate(const grid::CompensationMap& map, std::string_view 
   page.sections.push_back(measured_section(map));
   page.sections.push_back(named_section(contents));
   page.sections.push_back(remaining_section(contents));
-  page.provenance = full.provenance;
+  page.provenance = provenance_of(source);
   return page;
 }
 

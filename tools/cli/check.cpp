@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/map/map_check.hpp"
 #include "tools/cli/check_anchors.hpp"
+#include "tools/cli/check_document.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/map_input.hpp"
@@ -34,25 +34,6 @@ struct CheckCommand {
   bool json = false;
   std::string output = "-";
 };
-
-std::string in_words(const grid::MapCheck& check) {
-  std::string text = check.sentence + "\n";
-  if (!check.not_told_apart.empty()) text += check.not_told_apart + "\n";
-  fmt::format_to(std::back_inserter(text),
-                 "\nStill valid {:.1f} %, valid after re-zeroing {:.1f} %, to be measured again "
-                 "{:.1f} %.\n\nMeasured less map                       mm     sigma\n",
-                 100.0 * check.probability[0],
-                 100.0 * check.probability[1],
-                 100.0 * check.probability[2]);
-  for (const grid::CheckResidual& residual : check.residuals) {
-    fmt::format_to(std::back_inserter(text),
-                   "  {:<30}{:>+10.2f}{:>10.2f}\n",
-                   residual.what,
-                   residual.residual_mm,
-                   residual.sigma_mm);
-  }
-  return text;
-}
 
 /// A valid map says what it is good for; after re-zeroing, and where the points do not decide, a few
 /// more tell; a map that no longer holds is made anew.
@@ -102,7 +83,7 @@ int run_check(const CheckCommand& command) {
                check.error().sentence);
     return kBadInput;
   }
-  write_output(command.output, command.json ? grid::files::write_check(*check) : in_words(*check));
+  write_output(command.output, command.json ? grid::files::write_check(*check) : report::render_text(check_document(*check)));
   say_next_of(*check, command);
   return check->is_valid_as_it_is() ? kDone : kCheckFailed;
 }

@@ -4,42 +4,20 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <iterator>
 
 #include "grid/belts/anchors_check.hpp"
 #include "grid/files/belts_file.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/belts_input.hpp"
+#include "tools/cli/check_document.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
-namespace {
 
 namespace files = grid::files;
-
-std::string in_words(const grid::AnchorsCheck& check) {
-  std::string text = check.sentence + "\n";
-  if (!check.not_told_apart.empty()) text += check.not_told_apart + "\n";
-  fmt::format_to(std::back_inserter(text),
-                 "\nStill valid {:.1f} %, valid after re-zeroing {:.1f} %, to be measured again "
-                 "{:.1f} %.\n\nOne belt is off by                      mm     sigma\n",
-                 100.0 * check.probability[0],
-                 100.0 * check.probability[1],
-                 100.0 * check.probability[2]);
-  for (std::size_t k = 0; k < check.places.size(); ++k) {
-    fmt::format_to(std::back_inserter(text),
-                   "  {:<30}{:>10.2f}{:>10.2f}\n",
-                   fmt::format("point {}", k),
-                   check.places[k].rms_mm,
-                   check.places[k].sigma_mm);
-  }
-  return text;
-}
-
-}  // namespace
 
 int check_the_anchors(const AnchorsCheckCommand& command) {
   const files::FittedAnchors anchors =
@@ -60,7 +38,7 @@ int check_the_anchors(const AnchorsCheckCommand& command) {
     fmt::print(stderr, "{}: {}\n", file, check.error().sentence);
     return kBadInput;
   }
-  write_output(command.output, command.json ? files::write_check(*check) : in_words(*check));
+  write_output(command.output, command.json ? files::write_check(*check) : report::render_text(check_document(*check)));
   if (check->is_valid_as_it_is()) {
     say_next({"report", command.anchors, "-o", "anchors.html"});
   } else {

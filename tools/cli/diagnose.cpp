@@ -313,7 +313,8 @@ int run_diagnose(DiagnoseCommand command) {
     if (!path.empty()) outputs.push_back({path, text()});
   };
   add(command.output, [&] { return file; });
-  const report::Document document = diagnosis_document(*found, source);
+  const report::Document document = diagnosis_document(
+      *found, source, command.report.empty() ? report::Detail::verbose : report::Detail::page);
   add(command.report, [&] { return report::render_html(document); });
   add(command.extended_machine, [&] { return extended_machine_text(*found, source); });
   add(command.corrected_grid, [&] {

@@ -105,26 +105,28 @@ void put_the_verdict(const Diagnosis& found, report::Document& document) {
     document.not_proved = {"What this does not prove: " + found.not_proved};
 }
 
-/// Those without anything to show are left out; `detail` page: on the page alone.
+/// Those without anything to show are left out, and those of the page where none is asked for.
 class Sections {
  public:
-  explicit Sections(std::vector<Section>& sections) : sections_(sections) {}
+  Sections(std::vector<Section>& sections, Detail detail) : sections_(sections), detail_(detail) {}
   void add(bool has_any, Section (*section)(const Diagnosis&), const Diagnosis& found) {
     if (has_any) sections_.push_back(section(found));
   }
   void add_to_page(bool has_any, Section (*section)(const Diagnosis&), const Diagnosis& found) {
-    add(has_any, section, found);
-    if (has_any) sections_.back().detail = Detail::page;
+    if (!has_any || detail_ != Detail::page) return;
+    add(true, section, found);
+    sections_.back().detail = Detail::page;
   }
 
  private:
   std::vector<Section>& sections_;
+  Detail detail_;
 };
 
-void add_sections(const Diagnosis& found, std::vector<Section>& all) {
+void add_sections(const Diagnosis& found, Detail detail, std::vector<Section>& all) {
   const bool has_readings = !found.points.empty() || !found.distances.empty();
   const bool named = !found.causes.empty();
-  Sections sections(all);
+  Sections sections(all, detail);
   sections.add(found.budget && !found.budget->lines.empty(), budget_section, found);
   sections.add(found.trend.has_value(), trend_section, found);
   sections.add(named, causes_section, found);
@@ -151,7 +153,9 @@ void add_sections(const Diagnosis& found, std::vector<Section>& all) {
 
 }  // namespace
 
-report::Document diagnosis_document(const Diagnosis& found, std::string_view source) {
+report::Document diagnosis_document(const Diagnosis& found,
+                                    std::string_view source,
+                                    Detail detail) {
   report::Document document;
   document.title = fmt::format("Diagnosis: {}", found.grid_name);
   document.subtitle =
@@ -159,7 +163,7 @@ report::Document diagnosis_document(const Diagnosis& found, std::string_view sou
                   found.belts ? found.belts->machine.name : found.extended_machine.name,
                   readings_counted(found));
   put_the_verdict(found, document);
-  add_sections(found, document.sections);
+  add_sections(found, detail, document.sections);
   document.remarks = remarks_section(found);
   document.has_glossary = true;
   document.provenance =

@@ -12,7 +12,9 @@
 namespace chaintrue::cli {
 
 /// `source` is the name of the file that the diagnosis was made from, for the page's last line.
+/// Pictures are made where `detail` is page.
 [[nodiscard]] report::Document diagnosis_document(const grid::diagnosis::Diagnosis& diagnosis,
-                                                  std::string_view source);
+                                                  std::string_view source,
+                                                  report::Detail detail = report::Detail::page);
 
 }  // namespace chaintrue::cli

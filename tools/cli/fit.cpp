@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@
 #include "tools/cli/fit_the_belts.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/holes_words.hpp"
+#include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
@@ -86,7 +88,7 @@ std::string too_many(const grid::Measured& measured) {
 /// The map goes to its file, the words to standard error; a fit that failed is told.
 int finish(const FitCommand& command,
            const tl::expected<grid::CompensationMap, grid::FitFailure>& map,
-           const std::string& more_words) {
+           std::vector<report::Section> more) {
   if (!map) {
     fmt::print(stderr,
                "{}: {}\n",
@@ -97,8 +99,11 @@ int finish(const FitCommand& command,
   std::vector<grid::files::OutputFile> outputs = {{command.output, grid::files::write_map(*map)}};
   if (command.json) outputs.push_back({"-", grid::files::write_fit(*map, fit_sentence(*map))});
   write_outputs(outputs);
-  fmt::print(stderr, "{}", fit_in_words(*map));
-  if (command.verbose) fmt::print(stderr, "{}{}", fit_in_tables(*map), more_words);
+  const report::Detail detail =
+      command.verbose ? report::Detail::verbose : report::Detail::always;
+  report::Document document = map_document(*map, command.output, detail);
+  std::move(more.begin(), more.end(), std::back_inserter(document.sections));
+  fmt::print(stderr, "{}", report::render_text(document, detail));
   const model::Machine* machine = map->machine();
   const bool typed = machine != nullptr && machine->controller.settings.motor_spacing_mm;
   if (typed) {
@@ -119,7 +124,7 @@ int fit_the_holes(const FitCommand& command, const grid::MeasuredHoles& set) {
                       grid::FitFailure::Reason::no_machine,
                       "the holes name no machine; what was commanded becomes chain lengths by its "
                       "controller: give --machine"}),
-                  "");
+                  {});
   }
   if (command.surface == "direct") {
     return finish(command,
@@ -127,13 +132,13 @@ int fit_the_holes(const FitCommand& command, const grid::MeasuredHoles& set) {
                       grid::FitFailure::Reason::not_a_grid,
                       "a direct surface needs chain lengths at known places; holes and a tape tell "
                       "neither, leave --surface out"}),
-                  "");
+                  {});
   }
   const auto fit = grid::fit_holes(set, std::nullopt, shown_progress());
-  if (!fit) return finish(command, tl::unexpected(fit.error()), "");
-  return finish(command,
-                grid::map_of(set, *fit),
-                distances_in_words(set, *fit) + distances_legend(fit->estimate.knowledge));
+  if (!fit) return finish(command, tl::unexpected(fit.error()), {});
+  report::Section distances = distances_section(set, *fit, "");
+  add_legend(fit->estimate.knowledge, distances);
+  return finish(command, grid::map_of(set, *fit), {std::move(distances)});
 }
 
 /// The file and those of --with in one estimate.
@@ -143,16 +148,16 @@ int fit_all(const FitCommand& command, const grid::Measured& measured) {
     fmt::print(stderr, "chaintrue fit: {}\n", fit.error().sentence);
     return kBadInput;
   }
-  std::string words;
+  std::vector<report::Section> distances;
   for (const grid::HolesAmongFiles& one : fit->holes) {
     const grid::MeasuredFile& file = measured.files()[one.file];
-    words += fmt::format("\n{}:", file.name) + distances_in_words(*file.holes(), one.fit);
+    distances.push_back(distances_section(*file.holes(), one.fit, file.name));
   }
-  if (!fit->holes.empty()) words += distances_legend(fit->estimate.knowledge);
+  if (!distances.empty()) add_legend(fit->estimate.knowledge, distances.back());
   grid::CompensationMap map = fit->map;
   const grid::OutsideRule rule = rule_of(command.outside, {});
   if (rule.way != grid::Outside::continued) map = map.with_outside(rule);
-  return finish(command, map, words);
+  return finish(command, map, std::move(distances));
 }
 
 /// The file, and those of --with.
@@ -215,7 +220,7 @@ int run_fit(FitCommand command) {
   options.ends = {{end, end}, {end, end}};
   options.outside = rule_of(command.outside, {});
   options.progress = shown_progress();
-  return finish(command, grid::fit(measured, options), "");
+  return finish(command, grid::fit(measured, options), {});
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 #include "grid/files/belts_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "tools/cli/anchors_document.hpp"
 #include "tools/cli/belts_input.hpp"
-#include "tools/cli/belts_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
@@ -108,13 +108,10 @@ int fit_the_belts(const BeltsFitCommand& command) {
   std::vector<files::OutputFile> outputs = {{command.output, text}};
   if (command.json) outputs.push_back({"-", text});
   write_outputs(outputs);
-  fmt::print(
-      stderr, "{}", belts_fit_in_words(all.belts.value_or(grid::MeasuredBelts{}), found->fit));
-  if (found->holes) fmt::print(stderr, "{}", holes_beside_belts_in_words(*found->holes));
-  if (command.verbose) {
-    if (all.belts) fmt::print(stderr, "{}", places_in_a_table(found->fit));
-    if (found->holes) fmt::print(stderr, "{}", taped_in_a_table(*found->holes));
-  }
+  const grid::MeasuredBelts belts = all.belts.value_or(grid::MeasuredBelts{});
+  const report::Document document = anchors_document(
+      {found->fit, found->holes ? &*found->holes : nullptr, &belts}, found->name, command.output);
+  fmt::print(stderr, "{}", report::render_text(document, command.verbose ? report::Detail::verbose : report::Detail::always));
   say_next({"export", "maslow4", command.output});
   return kDone;
 }

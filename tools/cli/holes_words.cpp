@@ -27,31 +27,45 @@ std::string listed(const std::vector<std::string>& words) {
 
 }  // namespace
 
-std::string distances_in_words(const grid::MeasuredHoles& set, const grid::FittedDistances& fit) {
-  std::string text = "\nDistance                  measured  commanded   left out    sigmas\n";
+report::Section distances_section(const grid::MeasuredHoles& set,
+                                  const grid::FittedDistances& fit,
+                                  std::string_view file) {
+  report::Table table{
+      .columns = {{.heading = "Distance", .width = 22},
+                  {.heading = "measured", .is_number = true, .digits = 1, .width = 10},
+                  {.heading = "commanded", .is_number = true, .digits = 1, .width = 11},
+                  {.heading = "left out", .is_number = true, .has_sign = true, .width = 11},
+                  {.heading = "sigmas", .is_number = true, .digits = 1, .has_sign = true, .width = 10},
+                  {.gap = 2}},
+      .is_headed = true};
   for (std::size_t k = 0; k < fit.distances.size(); ++k) {
     const grid::FittedDistance& distance = fit.distances[k];
-    fmt::format_to(std::back_inserter(text),
-                   "  {:<22}{:>10.1f}{:>11.1f}{:>+11.2f}{:>+10.1f}{}\n",
-                   words_of(set, set.distances[k]),
-                   distance.measured_mm,
-                   distance.commanded_mm,
-                   distance.left_out_mm,
-                   distance.sigmas(),
-                   distance.set_aside ? "  set aside" : "");
+    report::Row& row = table.rows.emplace_back();
+    row.cells = {words_of(set, set.distances[k]),
+                 distance.measured_mm,
+                 distance.commanded_mm,
+                 distance.left_out_mm,
+                 distance.sigmas()};
+    row.is_flagged = distance.set_aside;
+    if (distance.set_aside) row.cells.emplace_back("set aside");
   }
-  return text;
+  report::Section section{
+      "Distance by distance", {}, true, report::Detail::verbose, /*is_titled=*/false};
+  if (!file.empty()) section.blocks.emplace_back(report::Paragraph{fmt::format("{}:", file)});
+  section.blocks.emplace_back(std::move(table));
+  return section;
 }
 
-std::string distances_legend(const grid::estimation::MachineKnowledge& knowledge) {
-  return fmt::format(
-      "Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % (readings over "
-      "the model's lengths).\n"
-      "Left out: measured less what a fit without this reading makes of it, mm.\n",
-      100.0 * knowledge.mean[6],
-      100.0 * std::sqrt(knowledge.covariance(6, 6)),
-      100.0 * knowledge.mean[7],
-      100.0 * std::sqrt(knowledge.covariance(7, 7)));
+void add_legend(const grid::estimation::MachineKnowledge& knowledge, report::Section& distances) {
+  distances.blocks.emplace_back(report::Paragraph{
+      fmt::format("Chain scales: left {:+.3f} +- {:.3f} %, right {:+.3f} +- {:.3f} % (readings "
+                  "over the model's lengths).",
+                  100.0 * knowledge.mean[6],
+                  100.0 * std::sqrt(knowledge.covariance(6, 6)),
+                  100.0 * knowledge.mean[7],
+                  100.0 * std::sqrt(knowledge.covariance(7, 7)))});
+  distances.blocks.emplace_back(report::Paragraph{
+      "Left out: measured less what a fit without this reading makes of it, mm."});
 }
 
 std::string distances_in_number(const grid::MeasuredHoles& set) {

@@ -4,17 +4,20 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "grid/map/holes_fit.hpp"
 #include "grid/planning/holes_plan.hpp"
+#include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
-/// Each distance: measured, commanded, and what the others make of it.
-[[nodiscard]] std::string distances_in_words(const grid::MeasuredHoles& set,
-                                             const grid::FittedDistances& fit);
-/// What is known of the chains' scales, and what the last column is.
-[[nodiscard]] std::string distances_legend(const grid::estimation::MachineKnowledge& knowledge);
+/// Each distance: measured, commanded, and what the others make of it; `file` where there are several.
+[[nodiscard]] report::Section distances_section(const grid::MeasuredHoles& set,
+                                                const grid::FittedDistances& fit,
+                                                std::string_view file);
+/// What is known of the chains' scales, and what "left out" means.
+void add_legend(const grid::estimation::MachineKnowledge& knowledge, report::Section& distances);
 /// "20 distances", "18 distances and 6 to the sheet's edges".
 [[nodiscard]] std::string distances_in_number(const grid::MeasuredHoles& set);
 /// The holes and what to measure, as a list for the workshop.

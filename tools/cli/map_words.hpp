@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A compensation map in the words of a workshop.
+/// What a compensation map is compared by, in words and numbers.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "grid/map/compensation_map.hpp"
 #include "tools/cli/settings_table.hpp"
@@ -13,10 +14,15 @@ namespace chaintrue::cli {
 
 /// One sentence: how far the tool was off before, and what is left.
 [[nodiscard]] std::string fit_sentence(const grid::CompensationMap& map);
-/// That, how far the tool will be off now, and what was odd: a few lines.
-[[nodiscard]] std::string fit_in_words(const grid::CompensationMap& map);
-/// The rest of the story: settings, errors of points left out, the mirror claim.
-[[nodiscard]] std::string fit_in_tables(const grid::CompensationMap& map);
+
+using Residual = Eigen::Vector2d grid::MapPoint::*;
+/// Over the good points.
+[[nodiscard]] grid::ErrorSummary summary_of(const grid::MapContents& contents, Residual residual);
+/// Whether the sheet was laid by hand, and its place found.
+[[nodiscard]] bool has_placed_sheet(const grid::MapContents& contents);
+/// What the map is held against, and its name: the machine as stated, the sheet found.
+[[nodiscard]] Residual residual_before(const grid::MapContents& contents);
+[[nodiscard]] std::string_view machine_before(const grid::MapContents& contents);
 /// Of the machine and of the sheet.
 [[nodiscard]] std::vector<SettingRow> settings_rows(const grid::CompensationMap& map);
 

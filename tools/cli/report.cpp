@@ -15,16 +15,15 @@
 #include "grid/files/input_error.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/belts_input.hpp"
-#include "tools/cli/anchors_page.hpp"
+#include "tools/cli/anchors_document.hpp"
 #include "tools/cli/certificate.hpp"
 #include "tools/cli/diagnosis_document.hpp"
 #include "tools/cli/map_input.hpp"
-#include "tools/cli/map_report.hpp"
+#include "tools/cli/map_document.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/cli/warnings.hpp"
-#include "tools/report/map_report.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -55,7 +54,7 @@ struct Reportable {
 report::Document page_of_map(const std::string& text,
                          const std::string& file,
                          std::string_view source) {
-  return report::page_of(map_report(parse_map_input(text, file), source));
+  return map_document(parse_map_input(text, file), source);
 }
 
 report::Document certificate_of_map(const std::string& text,
@@ -77,7 +76,8 @@ report::Document page_of_anchors(const std::string& text,
                              const std::string& file,
                              std::string_view source) {
   const files::FittedAnchors found = parse_anchors_input(text, file);
-  return anchors_page(found.fit, found.holes ? &*found.holes : nullptr, found.name, source);
+  return anchors_document(
+      {found.fit, found.holes ? &*found.holes : nullptr}, found.name, source);
 }
 
 std::vector<std::string> next_of_map(const std::string& text,

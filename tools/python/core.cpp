@@ -25,8 +25,7 @@
 #include "grid/map/holes_fit.hpp"
 #include "tools/cli/certificate.hpp"
 #include "tools/cli/diagnosis_document.hpp"
-#include "tools/cli/map_report.hpp"
-#include "tools/report/map_report.hpp"
+#include "tools/cli/map_document.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::python {
@@ -252,7 +251,7 @@ void add_types(py::module_& module) {
       .def("page",
            [](const grid::CompensationMap& map, const std::string& source, bool certificate) {
              return report::render_html(certificate ? cli::certificate(map, source)
-                                               : report::page_of(cli::map_report(map, source)));
+                                               : cli::map_document(map, source));
            });
   using grid::diagnosis::Diagnosis;
   py::class_<Diagnosis>(module, "Diagnosis")

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/report/map_report.hpp"
+#include "tools/report/bed_chart.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::report {

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// Lays a MapReport out: before and after on the bed, what each step gained, the error to expect,
-/// every point predicted without itself, the settings, what else was found.
-#include "tools/report/map_report.hpp"
+#include "tools/report/map_pictures.hpp"
 
 #include <fmt/format.h>
 
@@ -10,30 +7,22 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tools/report/glossary.hpp"
+#include "tools/report/typeset.hpp"
 
 namespace chaintrue::report {
 namespace {
 
 double length_mm(const ToolVector& vector) { return std::hypot(vector.x_mm, vector.y_mm); }
 
-/// Fixed digits with a true minus sign.
-std::string number(double value, int digits) {
-  const std::string text = fmt::format("{:.{}f}", value, digits);
-  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
-  if (text.front() != '-') return text;
-  return is_zero ? text.substr(1) : "\u2212" + text.substr(1);
-}
-
 using PointVector = std::optional<ToolVector> ReportPoint::*;
 
-bool has_any(const MapReport& report, PointVector vector) {
+bool has_any(const MapPictures& report, PointVector vector) {
   return std::any_of(report.points.begin(), report.points.end(), [vector](const ReportPoint& p) {
     return (p.*vector).has_value();
   });
 }
 
-std::vector<Arrow> arrows_of(const MapReport& report, PointVector vector) {
+std::vector<Arrow> arrows_of(const MapPictures& report, PointVector vector) {
   std::vector<Arrow> arrows;
   for (const ReportPoint& point : report.points) {
     if (!(point.*vector)) continue;
@@ -44,14 +33,14 @@ std::vector<Arrow> arrows_of(const MapReport& report, PointVector vector) {
   return arrows;
 }
 
-std::vector<Signal> signals_of_bed(const MapReport& report) {
+std::vector<Signal> signals_of_bed(const MapPictures& report) {
   std::vector<Arrow> marks;
   for (const ReportPoint& point : report.points)
     marks.push_back({.x_mm = point.x_mm, .y_mm = point.y_mm});
   return bed_signals(report.sheet, marks);
 }
 
-Section before_after_section(const MapReport& report) {
+Section before_after_section(const MapPictures& report) {
   Section section{"Before and after", {}};
   const std::vector<Arrow> arrows_before = arrows_of(report, &ReportPoint::before);
   const std::vector<Arrow> arrows_after = arrows_of(report, &ReportPoint::after);
@@ -82,7 +71,7 @@ Section before_after_section(const MapReport& report) {
   return section;
 }
 
-Section steps_section(const MapReport& report) {
+Section steps_section(const MapPictures& report) {
   static constexpr const char* kColorOfKind[] = {kBeforeColor, kAfterColor, kNeutralColor};
   Section section{"What each step gains", {}};
   Chart chart{.specification = "error_steps", .title = "Error at the tool, rms"};
@@ -90,22 +79,16 @@ Section steps_section(const MapReport& report) {
   Table table{
       {{"error of the tool"}, {"rms, mm", true}, {"worst, mm", true}, {"what it is"}}, {}, ""};
   for (const ErrorStep& step : report.steps) {
-    const std::string worst = step.max_mm ? number(*step.max_mm, 2) : "\u2013";
+    const std::string worst = step.max_mm ? fixed(*step.max_mm, 2) : "\u2013";
     steps.rows.push_back({step.what,
                           step.rms_mm,
                           step.max_mm ? worst + " mm" : worst,
                           std::string(kColorOfKind[static_cast<std::size_t>(step.kind)])});
-    table.rows.push_back({{step.what, number(step.rms_mm, 2), worst, step.note}, false});
+    table.rows.push_back({{step.what, step.rms_mm, step.max_mm, step.note}});
   }
   chart.data.push_back(std::move(steps));
   section.blocks.push_back(std::move(chart));
   section.blocks.push_back(std::move(table));
-  return section;
-}
-
-Section error_map_section(const MapReport& report) {
-  Section section{"Where to expect which error", {}};
-  section.blocks.push_back(error_map_chart(report));
   return section;
 }
 
@@ -118,7 +101,7 @@ struct HeldOut {
 };
 
 /// Bad points count in max_mm and count only.
-HeldOut held_out_of(const MapReport& report) {
+HeldOut held_out_of(const MapPictures& report) {
   HeldOut result;
   double sum_mm2 = 0.0;
   std::size_t good = 0;
@@ -140,7 +123,7 @@ HeldOut held_out_of(const MapReport& report) {
   return result;
 }
 
-Chart target_chart(const MapReport& report, const HeldOut& held_out) {
+Chart target_chart(const MapPictures& report, const HeldOut& held_out) {
   Chart chart{.specification = "held_out_target",
               .title = "Every point predicted without itself",
               .caption =
@@ -161,7 +144,7 @@ Chart target_chart(const MapReport& report, const HeldOut& held_out) {
   return chart;
 }
 
-Chart points_chart(const MapReport& report, const HeldOut& held_out) {
+Chart points_chart(const MapPictures& report, const HeldOut& held_out) {
   Chart chart{.specification = "held_out_points",
               .title = "Point by point",
               .caption = "In the order of the file."};
@@ -192,42 +175,9 @@ Chart points_chart(const MapReport& report, const HeldOut& held_out) {
   return chart;
 }
 
-Section settings_section(const MapReport& report) {
-  Table table{{{"setting"},
-               {"stated", true},
-               {"calibrated", true},
-               {"\u00b1 1 sigma", true},
-               {"change", true},
-               {"unit"},
-               {"remark"}},
-              {},
-              ""};
-  for (const ReportSetting& setting : report.settings) {
-    const int digits = setting.unit == "mm" ? 2 : 3;
-    std::string remark;
-    if (setting.is_off) {
-      remark = "off: further from what was stated";
-      if (setting.stated_sigma > 0.0)
-        remark += fmt::format(" (\u00b1 {})", number(setting.stated_sigma, 1));
-      remark += " than chance explains; check it";
-    }
-    table.rows.push_back({{setting.name,
-                           number(setting.stated, digits),
-                           number(setting.calibrated, digits),
-                           number(setting.sigma, digits),
-                           number(setting.calibrated - setting.stated, digits),
-                           setting.unit,
-                           std::move(remark)},
-                          setting.is_off});
-  }
-  Section section{"The machine's settings", {}};
-  section.blocks.push_back(std::move(table));
-  return section;
-}
-
 }  // namespace
 
-Chart error_map_chart(const MapReport& report) {
+Chart error_map_chart(const MapPictures& report) {
   if (!report.error_map) throw std::invalid_argument("no error map to draw");
   const ErrorMap& map = *report.error_map;
   Chart chart{.specification = "error_map",
@@ -254,34 +204,18 @@ Chart error_map_chart(const MapReport& report) {
   return chart;
 }
 
-Document page_of(const MapReport& report) {
-  Document page{.title = report.name.empty() ? "Compensation map"
-                                         : fmt::format("Compensation map: {}", report.name),
-            .subtitle = report.machine_name,
-            .verdict = {report.verdict},
-            .tone = report.tone,
-            .not_proved = {report.not_proved},
-            .figures = report.figures,
-            .provenance = report.provenance};
-  for (const std::string& line : report.advice) page.advice.push_back({line});
-  if (has_any(report, &ReportPoint::before) && has_any(report, &ReportPoint::after))
-    page.sections.push_back(before_after_section(report));
-  if (!report.steps.empty()) page.sections.push_back(steps_section(report));
-  if (report.error_map) page.sections.push_back(error_map_section(report));
-  if (const HeldOut held_out = held_out_of(report); held_out.count > 0) {
-    Section section{"How well it predicts", {}};
-    section.blocks.push_back(
-        ChartRow{{target_chart(report, held_out), points_chart(report, held_out)}});
-    page.sections.push_back(std::move(section));
+std::vector<Section> picture_sections(const MapPictures& map) {
+  std::vector<Section> sections;
+  if (has_any(map, &ReportPoint::before) && has_any(map, &ReportPoint::after))
+    sections.push_back(before_after_section(map));
+  if (!map.steps.empty()) sections.push_back(steps_section(map));
+  if (map.error_map) sections.push_back({"Where to expect which error", {error_map_chart(map)}});
+  if (const HeldOut held_out = held_out_of(map); held_out.count > 0) {
+    sections.push_back({"How well it predicts",
+                        {ChartRow{{target_chart(map, held_out), points_chart(map, held_out)}}}});
   }
-  if (!report.settings.empty()) page.sections.push_back(settings_section(report));
-  if (!report.findings.empty()) {
-    Section section{"What else was found", {}};
-    for (const std::string& finding : report.findings) section.blocks.push_back(Paragraph{finding});
-    page.sections.push_back(std::move(section));
-  }
-  page.has_glossary = !page.sections.empty();
-  return page;
+  for (Section& section : sections) section.detail = Detail::page;
+  return sections;
 }
 
 }  // namespace chaintrue::report

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a compensation map's report says, as plain data: the caller fills it, page_of() lays it
-/// out.
+/// The pictures of a compensation map from plain data: the caller fills it, picture_sections() draws
+/// it: before and after on the bed, what each step gained, the error to expect, every point
+/// predicted without itself.
 ///
 /// All vectors are where the tool lands minus where it should, at the tool, in mm, x right and y
 /// up. "Held out" means that the point was predicted by a map made without it.
-///
-/// \code
-///   MapReport report{.name = "workshop grid", .verdict = "Expect 0.21 mm at the tool."};
-///   report.points.push_back({.name = "point 1", .x_mm = -1200, .y_mm = -600, .before = {1.9, 0.4},
-///                            .after = {0.1, 0.0}, .held_out = {{0.2, 0.1}}});
-///   write_file("report.html", render_html(page_of(report)));
-/// \endcode
 #pragma once
 
 #include <optional>
@@ -58,19 +52,6 @@ struct ErrorMap {
   std::vector<ErrorCell> cells{};
 };
 
-/// One setting as the person stated it and as the points calibrate it.
-struct ReportSetting {
-  std::string name{};  ///< in words: "left motor, x"
-  std::string unit{};  ///< "mm" or "mrad"
-  double stated = 0.0;
-  double calibrated = 0.0;
-  double sigma = 0.0;
-  /// One sigma of what was stated; 0: not said.
-  double stated_sigma = 0.0;
-  /// Further from what was stated than its uncertainty allows.
-  bool is_off = false;
-};
-
 /// One step on the way to the map, with the error at the tool that is left there.
 struct ErrorStep {
   enum class Kind { before, after, reference };
@@ -82,17 +63,8 @@ struct ErrorStep {
   std::string note{};  ///< what the figure is relative to
 };
 
-struct MapReport {
-  std::string name{};
-  std::string machine_name{};
+struct MapPictures {
   Outline sheet{};
-
-  std::string verdict{};
-  Tone tone = Tone::good;
-  std::vector<std::string> advice{};
-  std::string not_proved{};
-
-  std::vector<Figure> figures{};
   /// In the order of the work; the last may be the noise floor.
   std::vector<ErrorStep> steps{};
   std::vector<ReportPoint> points{};
@@ -103,18 +75,14 @@ struct MapReport {
   double held_out_rms_mm = 0.0;
   /// What the readings' own noise amounts to at the tool; 0: not drawn.
   double noise_floor_mm = 0.0;
-  std::vector<ReportSetting> settings{};
-  /// More findings, one paragraph each: the mirror test, what was assumed, which points were bad.
-  std::vector<std::string> findings{};
-  std::string provenance{};
 };
 
-/// The expected error over the bed as a chart. \throws as page_of; std::invalid_argument without an
+/// The expected error over the bed. \throws as picture_sections; std::invalid_argument without an
 /// error map.
-[[nodiscard]] Chart error_map_chart(const MapReport& report);
+[[nodiscard]] Chart error_map_chart(const MapPictures& map);
 
-/// Lays the report out as a page; sections without data are left out.
-/// \throws std::invalid_argument where the sheet has no extent, or a number is not finite.
-[[nodiscard]] Document page_of(const MapReport& report);
+/// Sections without data are left out.
+/// \throws std::invalid_argument where the sheet has no extent.
+[[nodiscard]] std::vector<Section> picture_sections(const MapPictures& map);
 
 }  // namespace chaintrue::report

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/anchors_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/cli/anchors_sections.hpp"
+#include "tools/cli/belts_frame_chart.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::diagnosis::BeltPlacePicture;
+using grid::diagnosis::BeltsFindings;
+using model::Belt;
+using model::kBelts;
+using report::Detail;
+using report::Tone;
+
+/// A fit as a diagnosis without causes has it: the same picture.
+BeltsFindings findings_of(const grid::BeltsFit& fit) {
+  BeltsFindings found;
+  found.machine = fit.machine;
+  for (std::size_t i = 0; i < fit.coordinates.size(); ++i) {
+    const grid::AnchorCoordinate& c = fit.coordinates[i];
+    found.coordinates[i] = {c.name, c.stated_mm, c.fitted_mm, c.fitted_mm, c.sigma_mm};
+  }
+  for (const grid::FittedPlace& place : fit.places) {
+    BeltPlacePicture& picture = found.places.emplace_back();
+    picture.at = place.at;
+    for (const Belt belt : kBelts) {
+      picture.before_mm[belt] = place.belts[belt].off_mm;
+      picture.bad[belt] = !place.belts[belt].counts;
+    }
+  }
+  return found;
+}
+
+/// Verdict, figures, lights and advice: on the page, for the terminal has the sentences.
+void put_the_verdict(const grid::BeltsFit& fit, report::Document& page) {
+  double worst = 0.0;
+  for (const auto& c : fit.coordinates) worst = std::max(worst, c.sigma_mm);
+  page.verdict = {fmt::format("The anchors are known to {:.2g} mm at worst.", worst), Detail::page};
+  if (!fit.places.empty()) {
+    page.verdict.text += fmt::format(" One belt's reading is off by {:.2f} mm.", fit.spread_mm);
+    page.figures = {{fmt::format("{:.2f} mm", fit.spread_mm), "one belt is off by"},
+                    {fmt::format("{:.2f} mm", fit.rms_mm), "rms as the machine counts"}};
+    page.advice.push_back(
+        {"Ask why what is left is left: chaintrue diagnose of the same belts.", Detail::page});
+  }
+  page.tone = fit.bad.empty() && fit.bad_points.empty() ? Tone::good : Tone::caution;
+  page.lights = {{fit.scale ? Tone::good : Tone::caution,
+                  "Scale known?",
+                  fit.scale ? "yes, by the tape" : "not without a tape"}};
+  if (fit.scale) {
+    page.figures.push_back({fmt::format("{:.5f} +- {:.5f}", fit.scale->factor, fit.scale->sigma),
+                            "scale: true over what belts say"});
+  }
+}
+
+}  // namespace
+
+report::Document anchors_document(const FittedBelts& fitted,
+                                  std::string_view name,
+                                  std::string_view source) {
+  const grid::BeltsFit& fit = fitted.fit;
+  report::Document document;
+  document.title = fmt::format("Anchors: {}", name.empty() ? source : name);
+  document.subtitle = fmt::format("{}, {} places", fit.machine.name, fit.places.size());
+  put_the_verdict(fit, document);
+  if (!fit.places.empty()) {
+    report::Chart chart =
+        frame_chart(findings_of(fit), "Anchors as fitted", &BeltPlacePicture::before_mm);
+    chart.caption = kFrameCaption;
+    document.remarks = agreement_section(fitted);
+    document.sections.push_back(
+        {"The frame, and what its belts disagree about", {std::move(chart)}});
+  }
+  document.sections.push_back(fitted_anchors_section(fit));
+  document.sections.push_back(tests_section(fitted));
+  if (!fit.places.empty()) document.sections.push_back(places_section(fit));
+  if (fitted.holes != nullptr) document.sections.push_back(taped_section(*fitted.holes));
+  document.has_glossary = true;
+  document.provenance = fmt::format("Made from {} by chaintrue {}.", source, CHAINTRUE_VERSION);
+  return document;
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A fit of four belts as a document for the terminal and for a browser.
+#pragma once
+
+#include <string_view>
+
+#include "grid/belts/belts_and_holes.hpp"
+#include "tools/report/document.hpp"
+
+namespace chaintrue::cli {
+
+/// What was fitted, and to what; null where it is not at hand.
+struct FittedBelts {
+  const grid::BeltsFit& fit;
+  const grid::HolesBesideBelts* holes = nullptr;
+  /// Their taped distances and the machine's own message are not in the file of the anchors.
+  const grid::MeasuredBelts* belts = nullptr;
+};
+
+/// How well the belts agree, the frame, the anchors, what was left out and predicted, the scale and
+/// the tape. `name` is the belts', `source` the file's.
+[[nodiscard]] report::Document anchors_document(const FittedBelts& fitted,
+                                                std::string_view name,
+                                                std::string_view source);
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/anchors_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/belts/scale_by_tape.hpp"
+#include "tools/cli/belts_frame_chart.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::BeltsFit;
+using model::Belt;
+using model::kBelts;
+using report::Detail;
+using report::List;
+using report::Paragraph;
+using report::Section;
+using report::Table;
+
+void say(Section& section, std::string text) {
+  section.blocks.emplace_back(Paragraph{std::move(text)});
+}
+
+void say_what_was_left_out(const BeltsFit& fit, Section& section) {
+  if (fit.one_left_out.readings == 0) return;
+  std::string text = fmt::format(
+      "Lower belts as the upper two foretell them, at places left out one by one: {:.2f} mm rms, "
+      "{:.2f} mm at worst",
+      fit.one_left_out.rms_mm,
+      fit.one_left_out.largest_mm);
+  if (fit.half_left_out) {
+    text += fmt::format("; either half by the other: {:.2f} and {:.2f} mm",
+                        fit.half_left_out->rms_mm,
+                        fit.half_left_out->largest_mm);
+  }
+  say(section, text + ".");
+}
+
+void say_bad_readings(const BeltsFit& fit, Section& section) {
+  const double turn_mm = fit.machine.belt_turn_mm;
+  for (const grid::BadBeltReading& bad : fit.bad) {
+    const double turns = bad.off_mm / turn_mm;
+    // To within a twentieth of a turn: a bad reading is that by chance one time in ten.
+    const bool is_whole = std::abs(turns) > 0.5 && std::abs(turns - std::round(turns)) < 0.05;
+    say(section,
+        fmt::format("Set aside: the {} belt at point {}, {:.1f} mm {} than all others make it{}.",
+                    model::words(bad.belt),
+                    bad.point,
+                    std::abs(bad.off_mm),
+                    bad.off_mm > 0.0 ? "longer" : "shorter",
+                    is_whole ? fmt::format(", {:.0f} whole turn{} of the encoder",
+                                           std::abs(std::round(turns)),
+                                           std::abs(turns) < 1.5 ? "" : "s")
+                             : ""));
+  }
+  for (const std::size_t point : fit.bad_points) {
+    say(section,
+        fmt::format("Point {} is bad as a whole: fewer than three of its readings agree. Measure "
+                    "it again or leave it out.",
+                    point));
+  }
+}
+
+std::string what_tells_the_scale(const FittedBelts& fitted) {
+  const auto best = fitted.belts ? grid::distance_for_scale(*fitted.belts, fitted.fit)
+                                 : std::nullopt;
+  if (!best) {
+    return "Tape one long distance, between two anchors or two holes that were cut, and add it to "
+           "the file's \"distances\".";
+  }
+  return fmt::format(
+      "Tape the distance from {} to {}, about {:.0f} mm, and add it to the file's \"distances\": "
+      "read to {:g} mm it tells the scale to {:.2g} %, better than any other.",
+      words_of(best->distance.from),
+      words_of(best->distance.to),
+      best->distance.distance_mm,
+      best->distance.sigma_mm,
+      100.0 * best->sigma);
+}
+
+void say_the_scale(const FittedBelts& fitted, Section& section) {
+  const BeltsFit& fit = fitted.fit;
+  if (!fit.scale) {
+    say(section,
+        fmt::format("Scale: not known. Belts alone cannot tell it: anchors and parts are as true "
+                    "as a turn of the encoder is {:g} mm of belt. {}",
+                    fit.machine.belt_turn_mm,
+                    what_tells_the_scale(fitted)));
+    return;
+  }
+  say(section,
+      fmt::format("Scale: by the tape everything is {:.5f} +- {:.5f} times what the belts make it, "
+                  "{:.1f} mm in a metre.",
+                  fit.scale->factor,
+                  fit.scale->sigma,
+                  1000.0 * (fit.scale->factor - 1.0)));
+  if (fitted.belts == nullptr) return;
+  List taped;
+  for (std::size_t i = 0; i < fitted.belts->distances.size(); ++i) {
+    const grid::BeltDistance& distance = fitted.belts->distances[i];
+    taped.items.push_back({fmt::format("{} to {}: taped {:.1f} mm, {:+.2f} mm from the fit",
+                                       words_of(distance.from),
+                                       words_of(distance.to),
+                                       distance.distance_mm,
+                                       fit.scale->residuals_mm[i])});
+  }
+  section.blocks.emplace_back(std::move(taped));
+}
+
+void say_the_holes(const grid::HolesBesideBelts& holes, Section& section) {
+  say(section,
+      fmt::format("Holes: {} distances, each foretold by all others to {:.2f} mm rms; tape and "
+                  "holes err {:.2g} times what was stated.",
+                  holes.distances.size(),
+                  holes.left_out_rms_mm,
+                  holes.noise_factor));
+  for (const auto& distance : holes.distances) {
+    if (!distance.set_aside) continue;
+    say(section,
+        fmt::format("Set aside: the distance {}, taped {:.1f} mm {} than all others make it; tape "
+                    "it again.",
+                    distance.words,
+                    std::abs(distance.left_out_mm),
+                    distance.left_out_mm > 0.0 ? "longer" : "shorter"));
+  }
+  if (!holes.displacement) {
+    return say(section,
+               "No bend of the tool's place over the sheet is left that the holes could show.");
+  }
+  double largest = 0.0;
+  const auto& at = holes.displacement->at_mm;
+  for (Eigen::Index i = 0; i + 1 < at.size(); i += 2)
+    largest = std::max(largest, std::hypot(at[i], at[i + 1]));
+  say(section,
+      fmt::format("Beside its upper two belts the tool lies up to {:.1f} mm off, changing over "
+                  "some {:.0f} mm of the sheet: gcode compensate takes that out, no number to paste "
+                  "does.",
+                  largest,
+                  holes.displacement->reach_mm));
+}
+
+}  // namespace
+
+Section agreement_section(const FittedBelts& fitted) {
+  const BeltsFit& fit = fitted.fit;
+  const std::size_t readings = 4 * fit.places.size();
+  Section section{"How well the belts agree", {}};
+  say(section,
+      fmt::format("{} places, {} readings: one belt's reading is off by {:.2f} mm (one sigma, from "
+                  "{} checks that are left over).",
+                  fit.places.size(),
+                  readings,
+                  fit.spread_mm,
+                  fit.checks));
+  say(section,
+      fmt::format("In the words of the machine (Find Anchors fit: rms) that is {:.2f} mm: it "
+                  "divides by all {} readings, though places and anchors have used up {} of them.",
+                  fit.rms_mm,
+                  readings,
+                  readings - static_cast<std::size_t>(fit.checks)));
+  if (fitted.belts != nullptr && fitted.belts->firmware_fit) {
+    say(section,
+        fmt::format("Its own message said rms {:.2f} mm and max {:.2f} mm.",
+                    fitted.belts->firmware_fit->rms_mm,
+                    fitted.belts->firmware_fit->max_mm));
+  }
+  return section;
+}
+
+Section fitted_anchors_section(const BeltsFit& fit) {
+  Table table{
+      .columns = {{.heading = "Anchor", .width = 6},
+                  {.heading = "fitted", .is_number = true, .width = 12},
+                  {.heading = "sigma", .is_number = true, .width = 8},
+                  {.heading = "stated", .is_number = true, .digits = 1, .width = 10},
+                  {.heading = "differs", .is_number = true, .digits = 1, .has_sign = true, .width = 9},
+                  {.heading = "rests on tl", .is_number = true, .width = 14},
+                  {.heading = "tr", .is_number = true, .width = 5},
+                  {.heading = "bl", .is_number = true, .width = 5},
+                  {.heading = "br", .is_number = true, .width = 5}},
+      .caption = std::string(kAnchorsCaption) +
+                 " Rests on: the share of its variance that comes of each belt's readings.",
+      .is_headed = true};
+  for (const grid::AnchorCoordinate& c : fit.coordinates) {
+    report::Row& row = table.rows.emplace_back();
+    row.cells = {coordinate_title(c.name), c.fitted_mm, c.sigma_mm, c.stated_mm};
+    row.cells.emplace_back(c.stated_mm ? std::optional(c.fitted_mm - *c.stated_mm) : std::nullopt);
+    for (const Belt belt : kBelts)
+      row.cells.emplace_back(fmt::format("{:.0f}%", 100.0 * c.rests_on[belt]));
+  }
+  return {"The anchors, mm", {std::move(table)}};
+}
+
+Section tests_section(const FittedBelts& fitted) {
+  Section section{.title = "What was left out, and the scale", .is_titled = false};
+  if (!fitted.fit.places.empty()) {
+    say_what_was_left_out(fitted.fit, section);
+    say_bad_readings(fitted.fit, section);
+  }
+  say_the_scale(fitted, section);
+  if (fitted.holes != nullptr) say_the_holes(*fitted.holes, section);
+  return section;
+}
+
+Section places_section(const BeltsFit& fit) {
+  Table table{.columns = {{.heading = "Point", .is_number = true, .digits = 0, .width = 3},
+                          {.heading = "x", .is_number = true, .digits = 1, .width = 10},
+                          {.heading = "y", .is_number = true, .digits = 1, .width = 10},
+                          {.heading = "read less fitted, mm:    tl", .is_number = true, .width = 30},
+                          {.heading = "tr", .is_number = true, .width = 8},
+                          {.heading = "bl", .is_number = true, .width = 8},
+                          {.heading = "br", .is_number = true, .width = 8}},
+              .is_headed = true};
+  for (std::size_t k = 0; k < fit.places.size(); ++k) {
+    const grid::FittedPlace& place = fit.places[k];
+    report::Row& row = table.rows.emplace_back();
+    row.cells = {static_cast<double>(k), place.at.x_mm, place.at.y_mm};
+    for (const Belt belt : kBelts) {
+      const auto& residual = place.belts[belt];
+      row.cells.emplace_back(fmt::format("{:+.2f}{}", residual.off_mm, residual.counts ? ' ' : '*'));
+    }
+  }
+  Section section{"Place by place", {std::move(table)}, true, Detail::verbose};
+  if (!fit.bad.empty()) say(section, "* set aside");
+  return section;
+}
+
+Section taped_section(const grid::HolesBesideBelts& holes) {
+  Table table{
+      .columns = {{.heading = "Distance", .width = 14},
+                  {.heading = "taped", .is_number = true, .digits = 1, .width = 8},
+                  {.heading = "off, mm", .is_number = true, .has_sign = true, .width = 10},
+                  {.heading = "left out", .is_number = true, .has_sign = true, .width = 11},
+                  {.heading = "sigma", .is_number = true, .width = 8},
+                  {.gap = 1}},
+      .caption = "Left out: taped less what all others make of it. * set aside.",
+      .is_headed = true,
+      .head_width = 15};
+  for (const grid::BeltTapedDistance& distance : holes.distances) {
+    report::Row& row = table.rows.emplace_back();
+    row.cells = {distance.words,
+                 distance.measured_mm,
+                 distance.off_mm,
+                 distance.left_out_mm,
+                 distance.left_out_sigma_mm};
+    row.is_flagged = distance.set_aside;
+    if (distance.set_aside) row.cells.emplace_back("*");
+  }
+  return {"Holes on the sheet", {std::move(table)}, false, Detail::verbose};
+}
+
+}  // namespace chaintrue::cli

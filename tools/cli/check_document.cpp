@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/check_document.hpp"
+
+#include <fmt/format.h>
+
+namespace chaintrue::cli {
+namespace {
+
+using report::Paragraph;
+using report::Table;
+
+/// `what` is the table's heading.
+Table table_of(std::string what, bool has_sign) {
+  return {.columns = {{.heading = std::move(what), .width = 30},
+                      {.heading = "mm", .is_number = true, .has_sign = has_sign, .width = 10},
+                      {.heading = "sigma", .is_number = true, .width = 10}},
+          .is_headed = true};
+}
+
+template <class Check>
+report::Document document_of(const Check& check, Table table) {
+  report::Document document;
+  document.title = "Check";
+  document.verdict = {check.sentence};
+  document.remarks = {"What is not told apart", {Paragraph{check.not_told_apart}}};
+  document.sections = {
+      {"How sure",
+       {Paragraph{fmt::format("Still valid {:.1f} %, valid after re-zeroing {:.1f} %, to be "
+                              "measured again {:.1f} %.",
+                              100.0 * check.probability[0],
+                              100.0 * check.probability[1],
+                              100.0 * check.probability[2])}},
+       false,
+       report::Detail::always,
+       /*is_titled=*/false},
+      {"What was measured", {std::move(table)}}};
+  return document;
+}
+
+}  // namespace
+
+report::Document check_document(const grid::MapCheck& check) {
+  Table table = table_of("Measured less map", true);
+  for (const grid::CheckResidual& one : check.residuals)
+    table.rows.push_back({{one.what, one.residual_mm, one.sigma_mm}});
+  return document_of(check, std::move(table));
+}
+
+report::Document check_document(const grid::AnchorsCheck& check) {
+  Table table = table_of("One belt is off by", false);
+  for (std::size_t k = 0; k < check.places.size(); ++k) {
+    table.rows.push_back(
+        {{fmt::format("point {}", k), check.places[k].rms_mm, check.places[k].sigma_mm}});
+  }
+  return document_of(check, std::move(table));
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/map_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/cli/map_pictures.hpp"
+#include "tools/cli/map_words.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::MapContents;
+using grid::MapPoint;
+using report::Detail;
+using report::Paragraph;
+using report::Section;
+using report::Table;
+
+/// What to do now, the most urgent first.
+void put_advice(const MapContents& contents,
+                const model::Machine* machine,
+                std::string_view source,
+                report::Document& document) {
+  const auto say = [&document](std::string text) {
+    document.advice.push_back({std::move(text), Detail::page});
+  };
+  for (std::size_t i = 0; i < contents.points.size(); ++i) {
+    const MapPoint& point = contents.points[i];
+    if (!point.bad) continue;
+    say(fmt::format("Measure point {} at ({:.0f}, {:.0f}) again: it lies {:.1f} mm beside what its "
+                    "neighbours say.",
+                    i + 1,
+                    point.mark.x_mm,
+                    point.mark.y_mm,
+                    point.left_out_mm.norm()));
+  }
+  for (const grid::SettingResult& result : contents.settings) {
+    if (!result.off) continue;
+    say(fmt::format("Check \"{}\" with a tape: {:.1f} {} was stated, the points say {:.1f}.",
+                    setting_in_words(result.setting),
+                    in_unit(result.setting, result.stated),
+                    unit_of(result.setting),
+                    in_unit(result.setting, result.calibrated)));
+  }
+  if (machine != nullptr) {
+    say(fmt::format(
+        "Now rewrite each program with it: chaintrue gcode compensate part.nc --map {0} -o "
+        "part.true.nc.{1}",
+        source,
+        machine->controller.settings.motor_spacing_mm
+            ? fmt::format(" Or type better numbers in, once: chaintrue export groundcontrol {}.",
+                          source)
+            : ""));
+  }
+}
+
+void put_figures(const grid::CompensationMap& map, report::Document& document) {
+  const MapContents& contents = map.contents();
+  const grid::MapAccuracy& accuracy = contents.accuracy;
+  const auto add = [&document](double value_mm, std::string label) {
+    document.figures.push_back({fmt::format("{:.2f} mm", value_mm), std::move(label)});
+  };
+  add(accuracy.leave_one_out.tool.rms_mm,
+      contents.distances ? "rms of distances that the fit has not seen"
+                         : "rms at points that the map has not seen");
+  add(accuracy.leave_one_out.tool.maximum_mm, "the worst of them");
+  if (map.machine() != nullptr) {
+    add(summary_of(contents, residual_before(contents)).rms_mm,
+        fmt::format("rms before: {}", machine_before(contents)));
+  }
+  add(accuracy.expected_tool.rms_mm, "expected error of the map itself, one sigma");
+  add(accuracy.expected_tool.maximum_mm,
+      fmt::format("at its weakest place, ({:.0f}, {:.0f})",
+                  accuracy.expected_worst_at.x_mm,
+                  accuracy.expected_worst_at.y_mm));
+}
+
+Section remarks_section(const MapContents& contents) {
+  const grid::MapAccuracy& accuracy = contents.accuracy;
+  Section section{"What else was found", {}};
+  section.blocks.emplace_back(Paragraph{
+      fmt::format("Expected error of the tool over the measured part (one sigma): {:.2f} mm rms, "
+                  "{:.2f} mm at worst, at ({:.0f}, {:.0f}).",
+                  accuracy.expected_tool.rms_mm,
+                  accuracy.expected_tool.maximum_mm,
+                  accuracy.expected_worst_at.x_mm,
+                  accuracy.expected_worst_at.y_mm)});
+  for (const std::string& note : contents.notes) section.blocks.emplace_back(Paragraph{note});
+  return section;
+}
+
+Table left_out_distances(const grid::DistancesUsed& used) {
+  return {.columns = {{.heading = "Error of distances left out one at a time, mm", .width = 48},
+                      {.heading = "rms", .is_number = true, .width = 8},
+                      {.heading = "max", .is_number = true, .width = 8}},
+          .rows = {{{"all", used.left_out_all.rms_mm, used.left_out_all.maximum_mm}},
+                   {{"those that fit", used.left_out_good.rms_mm, used.left_out_good.maximum_mm}}},
+          .is_headed = true,
+          .head_width = 49};
+}
+
+Table left_out_points(const grid::CompensationMap& map) {
+  const grid::MapAccuracy& accuracy = map.contents().accuracy;
+  const bool direct = map.machine() == nullptr;
+  Table table{.columns = {{.heading = "Error of points left out, mm", .width = 28},
+                          {.heading = "chain rms", .is_number = true, .width = 8},
+                          {.heading = "max", .is_number = true, .width = 8},
+                          {.heading = "tool rms", .is_number = true, .width = 10},
+                          {.heading = "max", .is_number = true, .width = 8}},
+              .is_headed = true,
+              .head_width = 35};
+  const auto row = [&table](const char* what, const grid::HeldOutError& error) {
+    table.rows.push_back({{what,
+                           error.chain.rms_mm,
+                           error.chain.maximum_mm,
+                           error.tool.rms_mm,
+                           error.tool.maximum_mm}});
+  };
+  if (accuracy.leave_one_out.tool.maximum_mm == 0.0) {
+    table.rows.push_back({{"not tested: no inner row or column could be left out"}});
+    return table;
+  }
+  row(direct ? "a column or row at a time" : "one at a time", accuracy.leave_one_out);
+  row(direct ? "the worse of the two" : "a block of the bed at a time", accuracy.blocked);
+  return table;
+}
+
+/// What the terminal shows where all is asked for.
+void add_tables(const grid::CompensationMap& map, std::vector<Section>& sections) {
+  const MapContents& contents = map.contents();
+  const auto add = [&sections](std::string title, report::Block block) {
+    sections.push_back({std::move(title), {std::move(block)}, false, Detail::verbose, false});
+  };
+  if (!contents.settings.empty())
+    add("The machine's settings", settings_table(settings_rows(map)));
+  add("What was left out",
+      contents.distances ? left_out_distances(*contents.distances) : left_out_points(map));
+  if (contents.mirror) add("One side against the other", Paragraph{contents.mirror->sentence});
+}
+
+}  // namespace
+
+report::Tone tone_of(const MapContents& contents) {
+  const bool is_clean = std::none_of(contents.points.begin(),
+                                     contents.points.end(),
+                                     [](const MapPoint& point) { return point.bad; }) &&
+                        std::none_of(contents.settings.begin(),
+                                     contents.settings.end(),
+                                     [](const auto& setting) { return setting.off; });
+  return is_clean ? report::Tone::good : report::Tone::caution;
+}
+
+std::string provenance_of(std::string_view source) {
+  return fmt::format("Made from {} by chaintrue {}.", source, CHAINTRUE_VERSION);
+}
+
+report::Document map_document(const grid::CompensationMap& map,
+                              std::string_view source,
+                              Detail detail) {
+  const MapContents& contents = map.contents();
+  report::Document document;
+  document.title = contents.name.empty() ? "Compensation map"
+                                         : fmt::format("Compensation map: {}", contents.name);
+  document.subtitle = fmt::format("{}, {} points",
+                                  map.machine() ? map.machine()->name : "no machine model",
+                                  contents.points.size());
+  document.verdict = {fit_sentence(map)};
+  document.tone = tone_of(contents);
+  put_advice(contents, map.machine(), source, document);
+  document.not_proved = {
+      "These figures hold for the machine as it was when the points were measured. They do not say "
+      "why it erred, and they end when a motor, a chain or the sheet is moved.",
+      Detail::page};
+  put_figures(map, document);
+  document.remarks = remarks_section(contents);
+  if (detail == Detail::page) document.sections = report::picture_sections(map_pictures(map));
+  add_tables(map, document.sections);
+  document.has_glossary = true;
+  document.provenance = provenance_of(source);
+  return document;
+}
+
+}  // namespace chaintrue::cli

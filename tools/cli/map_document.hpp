@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A compensation map as a document for the terminal and for a browser.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "grid/map/compensation_map.hpp"
+#include "tools/report/document.hpp"
+
+namespace chaintrue::cli {
+
+/// `source` is the name of the map's file, as the page's last line gives it. Pictures are made where
+/// `detail` is page.
+[[nodiscard]] report::Document map_document(const grid::CompensationMap& map,
+                                            std::string_view source,
+                                            report::Detail detail = report::Detail::page);
+
+/// Caution where a point was rejected or a setting is off.
+[[nodiscard]] report::Tone tone_of(const grid::MapContents& contents);
+/// "Made from map.json by chaintrue 1.0."
+[[nodiscard]] std::string provenance_of(std::string_view source);
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/map_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/cli/map_words.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+using grid::MapContents;
+using grid::MapPoint;
+using report::ErrorStep;
+
+/// The error map's raster over the sheet: squares of some 60 mm on a full sheet.
+constexpr int kColumns = 41;
+constexpr int kRows = 21;
+
+/// The tool beyond where the model thinks: the same arrow, seen from the drawing.
+report::ToolVector tool_vector(const Eigen::Vector2d& residual_mm) {
+  return {residual_mm.x(), residual_mm.y()};
+}
+
+/// What the readings' noise amounts to at the tool, averaged over the points: the marks' own in x
+/// and y, and the chains' carried to the tool.
+double noise_at_tool_mm(const grid::CompensationMap& map) {
+  const grid::MapNoise& noise = map.contents().noise;
+  double variance_mm2 = 0.0;
+  std::size_t count = 0;
+  for (const MapPoint& point : map.contents().points) {
+    const auto lengths = map.lengths(point.mark);
+    if (point.bad || !lengths) continue;
+    const Eigen::Matrix2d to_tool = lengths->mark_jacobian.inverse();
+    // What was stated stands as it is; what was not is known only by the factor that was found.
+    const double factor = noise.source == "stated" ? 1.0 : noise.factor_found;
+    variance_mm2 += factor * factor *
+                    (to_tool.squaredNorm() * noise.length_mm * noise.length_mm +
+                     2.0 * noise.position_mm * noise.position_mm);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(variance_mm2 / static_cast<double>(count)) : 0.0;
+}
+
+/// The machine's bed; where there is no machine, the part that was measured.
+report::Outline sheet_of(const grid::CompensationMap& map) {
+  if (const model::Machine* machine = map.machine()) {
+    const double half_width_mm = machine->bed.width_mm / 2,
+                 half_height_mm = machine->bed.height_mm / 2;
+    return {-half_width_mm, half_width_mm, -half_height_mm, half_height_mm};
+  }
+  const auto [left, right] = std::minmax_element(
+      map.contents().hull.begin(), map.contents().hull.end(), [](const auto& a, const auto& b) {
+        return a.x_mm < b.x_mm;
+      });
+  const auto [low, high] = std::minmax_element(
+      map.contents().hull.begin(), map.contents().hull.end(), [](const auto& a, const auto& b) {
+        return a.y_mm < b.y_mm;
+      });
+  return {left->x_mm, right->x_mm, low->y_mm, high->y_mm};
+}
+
+std::vector<report::ReportPoint> points_of(const grid::CompensationMap& map) {
+  const MapContents& contents = map.contents();
+  const Residual before = residual_before(contents);
+  std::vector<report::ReportPoint> points;
+  for (std::size_t i = 0; i < contents.points.size(); ++i) {
+    const MapPoint& from = contents.points[i];
+    report::ReportPoint point{
+        .name = fmt::format("point {}", i + 1), .x_mm = from.mark.x_mm, .y_mm = from.mark.y_mm};
+    if (map.machine() != nullptr) {
+      point.before = tool_vector(from.*before);
+      point.after = tool_vector(from.mapped_mm);
+    }
+    // Of holes no place is known but through the distances that the fit used.
+    if (!contents.distances) {
+      point.held_out = tool_vector(from.left_out_mm);
+      point.held_out_sigmas = from.distance_sigmas;
+    }
+    point.is_bad = from.bad;
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+report::ErrorMap error_map_of(const grid::CompensationMap& map, const report::Outline& sheet) {
+  report::ErrorMap raster{
+      (sheet.x_max_mm - sheet.x_min_mm) / kColumns, (sheet.y_max_mm - sheet.y_min_mm) / kRows, {}};
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      const model::MarkPoint at{sheet.x_min_mm + (column + 0.5) * raster.cell_width_mm,
+                                sheet.y_min_mm + (row + 0.5) * raster.cell_height_mm};
+      if (const auto answer = map.query(at)) {
+        raster.cells.push_back(
+            {at.x_mm, at.y_mm, answer->tool_sigma_mm, std::string(grid::name(answer->status))});
+      }
+    }
+  }
+  return raster;
+}
+
+std::vector<ErrorStep> steps_of(const grid::CompensationMap& map, double noise_mm) {
+  const MapContents& contents = map.contents();
+  std::vector<ErrorStep> steps;
+  const auto add = [&steps](ErrorStep::Kind kind,
+                            std::string what,
+                            const grid::ErrorSummary& error,
+                            std::string note) {
+    steps.push_back({kind, std::move(what), error.rms_mm, error.maximum_mm, std::move(note)});
+  };
+  const bool has_machine = map.machine() != nullptr;
+  if (has_machine) {
+    add(ErrorStep::Kind::before,
+        "machine as stated",
+        summary_of(contents, &MapPoint::as_stated_mm),
+        "at the measured points");
+  }
+  if (has_machine && has_placed_sheet(contents)) {
+    add(ErrorStep::Kind::before,
+        "sheet found",
+        summary_of(contents, &MapPoint::sheet_placed_mm),
+        "the same, with the sheet laid as well as it can be");
+  }
+  if (has_machine) {
+    add(ErrorStep::Kind::after,
+        "map, its own points",
+        summary_of(contents, &MapPoint::mapped_mm),
+        "what the fit leaves; too good to be promised");
+  }
+  if (contents.distances) {
+    add(ErrorStep::Kind::after,
+        "distances unseen",
+        contents.distances->left_out_good,
+        "each distance predicted by a fit without it, along the tape; contains the tape's noise");
+  } else {
+    add(ErrorStep::Kind::after,
+        "map, unseen points",
+        contents.accuracy.leave_one_out.tool,
+        "each point predicted by a map made without it; contains that reading's noise");
+    add(ErrorStep::Kind::after,
+        "map, unseen regions",
+        contents.accuracy.blocked.tool,
+        "a block of the bed predicted by a map made without it");
+  }
+  if (noise_mm > 0.0) {
+    steps.push_back(
+        {ErrorStep::Kind::reference,
+         "noise of a reading",
+         noise_mm,
+         {},
+         fmt::format("{:.2g} mm a chain and {:.2g} mm a mark, {}",
+                     contents.noise.length_mm,
+                     contents.noise.position_mm,
+                     contents.noise.source == "stated" ? "as stated"
+                                                       : "found from " + contents.noise.source)});
+  }
+  add(ErrorStep::Kind::reference,
+      "map, expected",
+      contents.accuracy.expected_tool,
+      "one sigma against the true machine, over the measured part");
+  return steps;
+}
+
+}  // namespace
+
+report::MapPictures map_pictures(const grid::CompensationMap& map) {
+  const double noise_mm = noise_at_tool_mm(map);
+  report::MapPictures pictures;
+  pictures.sheet = sheet_of(map);
+  pictures.before_what = machine_before(map.contents());
+  pictures.steps = steps_of(map, noise_mm);
+  pictures.points = points_of(map);
+  pictures.error_map = error_map_of(map, pictures.sheet);
+  pictures.held_out_rms_mm = map.contents().accuracy.leave_one_out.tool.rms_mm;
+  pictures.noise_floor_mm = noise_mm;
+  return pictures;
+}
+
+}  // namespace chaintrue::cli
