@@ -70,7 +70,7 @@ TEST_F(DiagnoseCommand, NamesAStrongCauseAndWritesEveryFile) {
                               "Looked for and absent"}) {
     EXPECT_THAT(told.out, HasSubstr(heading));
   }
-  EXPECT_THAT(content_of(folder_ / "d.html"), HasSubstr("<h2>What naming it gains</h2>"));
+  EXPECT_THAT(content_of(folder_ / "d.html"), HasSubstr("<h2>Error of the tool at points held out, mm</h2>"));
   // What depends on the visit goes into the data, never into the machine that a map is made of.
   for (const auto& effect : grid::files::read_machine(folder_ / "m.json").effects)
     EXPECT_NE(effect.effect, "direction_hysteresis");
@@ -191,7 +191,7 @@ TEST_F(DiagnoseCommand, TellsHowWellItPredictsAnotherGrid) {
   EXPECT_EQ(found.transferred->points, 24U);
   EXPECT_LT(found.transferred->extended.rms_mm, found.transferred->as_delivered.rms_mm);
   EXPECT_THAT(told.out, HasSubstr("Error of the tool on \"later\", 24 points"));
-  EXPECT_THAT(content_of(folder_ / "d.html"), HasSubstr("On other points: later (24)"));
+  EXPECT_THAT(content_of(folder_ / "d.html"), HasSubstr("Error of the tool on &quot;later&quot;, 24 points that had no part"));
 }
 
 TEST_F(DiagnoseCommand, OfDataThatDoNotDoSaysWhatWouldBeNeeded) {

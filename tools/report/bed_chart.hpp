@@ -10,6 +10,12 @@
 
 namespace chaintrue::report {
 
+/// An error at the tool.
+struct ToolVector {
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+};
+
 /// The sheet, or what of it was measured.
 struct Outline {
   double x_min_mm = 0.0;

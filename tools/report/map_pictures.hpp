@@ -17,12 +17,7 @@
 
 namespace chaintrue::report {
 
-/// An error at the tool.
-struct ToolVector {
-  double x_mm = 0.0;
-  double y_mm = 0.0;
-};
-
+/// A measured point.
 struct ReportPoint {
   std::string name{};  ///< "point 7"
   /// Where the tool truly stood, in the frame of the page.
