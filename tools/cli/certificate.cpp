@@ -9,11 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/calibration/setting.hpp"
 #include "tools/cli/map_document.hpp"
-#include "tools/cli/map_pictures.hpp"
 #include "tools/cli/map_words.hpp"
-#include "tools/cli/settings_table.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -66,31 +63,17 @@ report::Section measured_section(const grid::CompensationMap& map) {
   return section;
 }
 
-report::Section named_section(const MapContents& contents) {
-  report::Table table{
-      .columns = {{"Setting"}, {"stated", true}, {"found", true}, {"+-", true}, {""}},
-      .rows = {},
-      .caption = {}};
-  for (const grid::SettingResult& result : contents.settings) {
-    const bool is_machine =
-        std::find(model::kMachineSettings.begin(), model::kMachineSettings.end(), result.setting) !=
-        model::kMachineSettings.end();
-    if (!is_machine) continue;
-    table.rows.push_back({{std::string(setting_in_words(result.setting)),
-                           fmt::format("{:.1f}", in_unit(result.setting, result.stated)),
-                           fmt::format("{:.1f}", in_unit(result.setting, result.calibrated)),
-                           fmt::format("{:.1f} mm", in_unit(result.setting, result.sigma)),
-                           result.off ? "off: measure it again" : ""},
-                          result.off});
-  }
+report::Section named_section(const grid::CompensationMap& map) {
+  std::vector<SettingRow> rows = settings_rows(map);
+  std::erase_if(rows, [](const SettingRow& row) { return !row.stated_sigma; });
   report::Section section{"The machine's settings", {}};
-  if (table.rows.empty()) {
+  if (rows.empty()) {
     section.blocks.push_back(
         report::Paragraph{"Nothing: the map joins the readings themselves and knows no machine."});
   } else {
-    section.blocks.push_back(std::move(table));
+    section.blocks.push_back(settings_table(rows));
   }
-  if (const auto* surface = std::get_if<grid::ModelSurface>(&contents.surface)) {
+  if (const auto* surface = std::get_if<grid::ModelSurface>(&map.contents().surface)) {
     section.blocks.push_back(report::Paragraph{
         fmt::format("Chain scales beside nominal: left {:+.3f} %, right {:+.3f} %.",
                     100.0 * surface->residual.scale.left,
@@ -145,7 +128,7 @@ report::Document certificate(const grid::CompensationMap& map, std::string_view 
   error_section.blocks.push_back(std::move(chart));
   page.sections.push_back(std::move(error_section));
   page.sections.push_back(measured_section(map));
-  page.sections.push_back(named_section(contents));
+  page.sections.push_back(named_section(map));
   page.sections.push_back(remaining_section(contents));
   page.provenance = provenance_of(source);
   return page;

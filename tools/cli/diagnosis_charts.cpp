@@ -151,34 +151,16 @@ Chart strip_chart(const Diagnosis& found,
 }  // namespace
 
 std::vector<report::ChartRow> arrow_charts(const Diagnosis& found) {
-  const std::vector<Arrow> before = arrows_of(found, &PointPicture::before_mm);
-  const std::vector<Arrow> after = arrows_of(found, &PointPicture::after_mm);
-  const Outline sheet = sheet_of(found);
-  const double coarse = report::magnification_of(sheet, before);
-  const double fine = report::magnification_of(sheet, after);
-  Chart first = report::arrows_chart(sheet, before, coarse, report::kBeforeColor);
-  first.title = "Before: the machine calibrated";
-  first.caption =
-      "From where the tool should be to where it was. Grey: one sigma of the noise at that mark. "
-      "Ringed: bad points." +
-      report::cut_off_at_frame(sheet, before, coarse);
-  if (found.causes.empty()) return {{{std::move(first)}}};
-  Chart second = report::arrows_chart(sheet, after, coarse, report::kAfterColor);
-  second.title = "After: with what was named, same scale";
-  second.caption =
-      "Arrows of the size of their grey ellipse, in all directions, are noise; neighbours that "
-      "point the same way are something not explained." +
-      report::cut_off_at_frame(sheet, after, coarse);
-  std::vector<report::ChartRow> rows = {{{std::move(first), std::move(second)}}};
-  if (fine >= 2.0 * coarse) {
-    Chart close = report::arrows_chart(sheet, after, fine, report::kAfterColor);
-    close.title = "After, under the magnifying glass";
-    close.caption = fmt::format("The same arrows, {:g} times larger.{}",
-                                fine / coarse,
-                                report::cut_off_at_frame(sheet, after, fine));
-    rows.push_back({{std::move(close)}});
-  }
-  return rows;
+  return report::arrow_rows(
+      sheet_of(found),
+      arrows_of(found, &PointPicture::before_mm),
+      found.causes.empty() ? std::vector<Arrow>{} : arrows_of(found, &PointPicture::after_mm),
+      {"Before: the machine calibrated",
+       "From where the tool should be to where it was. Grey: one sigma of the noise at that mark. "
+       "Ringed: bad points.",
+       "After: with what was named, same scale",
+       "Arrows of the size of their grey ellipse, in all directions, are noise; neighbours that "
+       "point the same way are something not explained."});
 }
 
 std::vector<Chart> strip_charts(const Diagnosis& found) {

@@ -3,7 +3,8 @@
 /// The pictures of a diagnosis' page. Residuals are measured less predicted; vermilion is before,
 /// blue is with the causes named.
 /// The places on the bed are drawn in diagnosis_charts.cpp, what the residuals follow in
-/// diagnosis_scatter_charts.cpp, bars and the matrix in diagnosis_bar_charts.cpp.
+/// diagnosis_scatter_charts.cpp, bars and the matrix in diagnosis_bar_charts.cpp; the sections that
+/// hold nothing else are put together in diagnosis_pictures.cpp.
 #pragma once
 
 #include <vector>
@@ -12,6 +13,14 @@
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
+
+/// The tool, or the distances, before and with the causes. Precondition of this and the next two:
+/// readings.
+[[nodiscard]] report::Section arrows_section(const grid::diagnosis::Diagnosis& found);
+/// What was measured, and what the cause and its rival make of it. Precondition: a cause is named.
+[[nodiscard]] report::Section signature_section(const grid::diagnosis::Diagnosis& found);
+/// Residuals against lengths, angles and visits.
+[[nodiscard]] report::Section residuals_section(const grid::diagnosis::Diagnosis& found);
 
 /// Arrows of the tool before and after, at one scale, and after once more where it is much smaller.
 [[nodiscard]] std::vector<report::ChartRow> arrow_charts(const grid::diagnosis::Diagnosis& found);

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "tools/cli/diagnosis_belts.hpp"
+#include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_checks.hpp"
 #include "tools/cli/diagnosis_gain.hpp"
-#include "tools/cli/diagnosis_pictures.hpp"
 #include "tools/cli/diagnosis_sections.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/diagnosis_pictures.hpp"
-
+// The sections of a diagnosis that are pictures.
 #include "tools/cli/diagnosis_charts.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/distance_charts.hpp"

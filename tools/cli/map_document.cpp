@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "tools/cli/map_pictures.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {

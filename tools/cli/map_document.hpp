@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "grid/map/compensation_map.hpp"
-#include "tools/report/document.hpp"
+#include "tools/report/map_pictures.hpp"
 
 namespace chaintrue::cli {
 
@@ -16,6 +16,9 @@ namespace chaintrue::cli {
 [[nodiscard]] report::Document map_document(const grid::CompensationMap& map,
                                             std::string_view source,
                                             report::Detail detail = report::Detail::page);
+
+/// What the pictures show.
+[[nodiscard]] report::MapPictures map_pictures(const grid::CompensationMap& map);
 
 /// Caution where a point was rejected or a setting is off.
 [[nodiscard]] report::Tone tone_of(const grid::MapContents& contents);

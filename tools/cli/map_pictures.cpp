@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/map_pictures.hpp"
-
+// What the pictures of a compensation map show.
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
 
 namespace chaintrue::cli {

@@ -129,4 +129,35 @@ Chart arrows_chart(const Outline& sheet,
   return chart;
 }
 
+std::vector<ChartRow> arrow_rows(const Outline& sheet,
+                                 const std::vector<Arrow>& before,
+                                 const std::vector<Arrow>& after,
+                                 const ArrowWords& words) {
+  const auto chart = [&sheet](const std::vector<Arrow>& arrows,
+                              double magnification,
+                              const char* color,
+                              const std::string& title,
+                              const std::string& caption) {
+    Chart drawn = arrows_chart(sheet, arrows, magnification, color);
+    drawn.title = title;
+    drawn.caption = caption + cut_off_at_frame(sheet, arrows, magnification);
+    return drawn;
+  };
+  const double coarse = magnification_of(sheet, before), fine = magnification_of(sheet, after);
+  std::vector<ChartRow> rows = {
+      {{chart(before, coarse, kBeforeColor, words.before, words.before_caption)}}};
+  if (after.empty()) return rows;
+  rows[0].charts.push_back(chart(after, coarse, kAfterColor, words.after, words.after_caption));
+  if (fine >= 2.0 * coarse) {
+    rows.push_back({{chart(
+        after,
+        fine,
+        kAfterColor,
+        "After, under the magnifying glass",
+        fmt::format(
+            "The same arrows, {:g} times larger.{}", fine / coarse, words.close_caption))}});
+  }
+  return rows;
+}
+
 }  // namespace chaintrue::report

@@ -66,4 +66,17 @@ struct Arrow {
                                            const std::vector<Arrow>& arrows,
                                            double magnification);
 
+/// What the pictures before and after say of themselves.
+struct ArrowWords {
+  std::string before, before_caption, after, after_caption;
+  /// After that the arrows are so many times larger.
+  std::string close_caption{};
+};
+/// Before and after at one scale, and after once more where it is much smaller; before alone where
+/// nothing comes after.
+[[nodiscard]] std::vector<ChartRow> arrow_rows(const Outline& sheet,
+                                               const std::vector<Arrow>& before,
+                                               const std::vector<Arrow>& after,
+                                               const ArrowWords& words);
+
 }  // namespace chaintrue::report

@@ -42,31 +42,18 @@ std::vector<Signal> signals_of_bed(const MapPictures& report) {
 
 Section before_after_section(const MapPictures& report) {
   Section section{"Before and after", {}};
-  const std::vector<Arrow> arrows_before = arrows_of(report, &ReportPoint::before);
-  const std::vector<Arrow> arrows_after = arrows_of(report, &ReportPoint::after);
-  const double coarse = magnification_of(report.sheet, arrows_before);
-  const double fine = magnification_of(report.sheet, arrows_after);
-  Chart before = arrows_chart(report.sheet, arrows_before, coarse, kBeforeColor);
-  before.title = "Before: " + report.before_what;
-  before.caption =
-      "Each arrow runs from where the tool should be to where it lands. Hover or tap a point for "
-      "its values." +
-      cut_off_at_frame(report.sheet, arrows_before, coarse);
-  Chart after = arrows_chart(report.sheet, arrows_after, coarse, kAfterColor);
-  after.title = "After: with the map, same scale";
-  after.caption = "What is left at the points that the map was made from." +
-                  cut_off_at_frame(report.sheet, arrows_after, coarse);
-  section.blocks.push_back(ChartRow{{std::move(before), std::move(after)}});
-  if (fine >= 2.0 * coarse) {
-    Chart close = arrows_chart(report.sheet, arrows_after, fine, kAfterColor);
-    close.title = "After, under the magnifying glass";
-    close.caption = fmt::format(
-        "The same arrows, {:g} times larger. Random directions are noise; neighbours that point "
-        "the same way would be "
-        "something that the map has missed.{}",
-        fine / coarse,
-        cut_off_at_frame(report.sheet, arrows_after, fine));
-    section.blocks.push_back(std::move(close));
+  for (ChartRow& row : arrow_rows(
+           report.sheet,
+           arrows_of(report, &ReportPoint::before),
+           arrows_of(report, &ReportPoint::after),
+           {"Before: " + report.before_what,
+            "Each arrow runs from where the tool should be to where it lands. Hover or tap a point "
+            "for its values.",
+            "After: with the map, same scale",
+            "What is left at the points that the map was made from.",
+            " Random directions are noise; neighbours that point the same way would be something "
+            "that the map has missed."})) {
+    section.blocks.emplace_back(std::move(row));
   }
   return section;
 }
