@@ -179,9 +179,9 @@ Section fitted_anchors_section(const BeltsFit& fit) {
                   {.heading = "stated", .is_number = true, .digits = 1, .width = 10},
                   {.heading = "differs", .is_number = true, .digits = 1, .has_sign = true, .width = 9},
                   {.heading = "rests on tl", .is_number = true, .width = 14},
-                  {.heading = "tr", .is_number = true, .width = 5},
-                  {.heading = "bl", .is_number = true, .width = 5},
-                  {.heading = "br", .is_number = true, .width = 5}},
+                  {.heading = "tr", .is_number = true, .page_heading = "on tr", .width = 5},
+                  {.heading = "bl", .is_number = true, .page_heading = "on bl", .width = 5},
+                  {.heading = "br", .is_number = true, .page_heading = "on br", .width = 5}},
       .caption = std::string(kAnchorsCaption) +
                  " Rests on: the share of its variance that comes of each belt's readings.",
       .is_headed = true};
