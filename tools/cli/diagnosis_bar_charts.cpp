@@ -17,6 +17,9 @@ using grid::diagnosis::Hypothesis;
 using report::Chart;
 using report::DataTable;
 
+namespace {
+
+/// The surest that the bars show; the rest is below a percent.
 std::vector<Hypothesis> leading_hypotheses(const Diagnosis& found) {
   constexpr double kLeast = 0.002;
   constexpr std::size_t kMost = 12;
@@ -27,6 +30,8 @@ std::vector<Hypothesis> leading_hypotheses(const Diagnosis& found) {
   }
   return leading;
 }
+
+}  // namespace
 
 Chart probability_chart(const Diagnosis& found) {
   Chart chart{.specification = "probability_bars",

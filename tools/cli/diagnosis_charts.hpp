@@ -40,8 +40,4 @@ namespace chaintrue::cli {
 /// The follow-up's places on the bed.
 [[nodiscard]] report::Chart next_points_chart(const grid::diagnosis::Diagnosis& found);
 
-/// The surest hypotheses that the bars and the first page show; the rest is below a percent.
-[[nodiscard]] std::vector<grid::diagnosis::Hypothesis> leading_hypotheses(
-    const grid::diagnosis::Diagnosis& found);
-
 }  // namespace chaintrue::cli

@@ -198,20 +198,13 @@ std::string left_over_sentence(const grid::diagnosis::LeftOver& left_over) {
   return text;
 }
 
-std::string_view what_stands_alone(const grid::diagnosis::Diagnosis& diagnosis) {
-  return diagnosis.causes.empty() ? "One explanation alone" : "A single right name";
-}
-
-std::string chance_in_a_cell(const grid::diagnosis::Diagnosis& diagnosis, std::size_t position) {
-  const NextMeasurement& next = diagnosis.next_measurements.at(position);
-  const bool tells_scale = diagnosis.belts && next.kind == MeasurementKind::distance;
-  return tells_scale ? "" : percent(next.raises_probability_to);
-}
-
 std::string chance_then(const grid::diagnosis::Diagnosis& diagnosis, std::size_t position) {
-  const std::string chance = chance_in_a_cell(diagnosis, position);
-  if (chance.empty()) return chance;
-  return fmt::format(" {} then has probability {}.", what_stands_alone(diagnosis), chance);
+  const NextMeasurement& next = diagnosis.next_measurements.at(position);
+  if (diagnosis.belts && next.kind == MeasurementKind::distance) return "";
+  return fmt::format(
+      " {} then has probability {}.",
+      diagnosis.causes.empty() ? "One explanation alone" : "A single right name",
+      percent(next.raises_probability_to));
 }
 
 std::vector<std::string> follow_ups_in_words(const grid::diagnosis::Diagnosis& diagnosis) {

@@ -54,18 +54,10 @@ namespace chaintrue::cli {
 /// A bad one is a distance, and no point.
 [[nodiscard]] bool is_distance(const grid::diagnosis::Diagnosis& found,
                                const grid::diagnosis::Outlier& bad);
-/// Of what the next measurements raise the probability: "A single right name", or "One explanation
-/// alone" where none is named.
-[[nodiscard]] std::string_view what_stands_alone(const grid::diagnosis::Diagnosis& diagnosis);
-
 /// " A single right name then has probability 95 %." of the next measurement with that position;
 /// nothing where it tells the scale of belts, which parts no causes.
 [[nodiscard]] std::string chance_then(const grid::diagnosis::Diagnosis& diagnosis,
                                       std::size_t position);
-/// The same in a cell of a table: "95 %".
-[[nodiscard]] std::string chance_in_a_cell(const grid::diagnosis::Diagnosis& diagnosis,
-                                           std::size_t position);
-
 /// The next measurements as sentences: what to do, where, and how well.
 [[nodiscard]] std::vector<std::string> follow_ups_in_words(
     const grid::diagnosis::Diagnosis& diagnosis);
