@@ -1,170 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/json_reader.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
+
+#include <algorithm>
 
 #include "grid/files/meanings.hpp"
 
 namespace chaintrue::grid::files {
-namespace {
-
-const Json kNull;
-
-/// What a text that stands in a number's place probably was meant to be.
-std::string_view hint_for_text(std::string_view text) {
-  if (looks_like_decimal_comma(text)) return ", with a decimal point and without quotes";
-  return number_of(text) ? ", without quotes" : "";
-}
-
-/// NaN, Infinity and 1e999 reach the fields as texts (json_text.hpp); they are shown as they stand
-/// in the file.
-std::string shown(const Json& value) {
-  const bool as_it_stands =
-      value.is_string() && is_beyond_double(value.get_ref<const std::string&>());
-  return as_it_stands ? value.get<std::string>() : compact_json(value);
-}
-
-}  // namespace
-
-std::string Cursor::pointer() const {
-  if (parent_ == nullptr) return {};
-  const std::string token =
-      parent_->json().is_array() ? fmt::format("{}", index_) : pointer_token(key_);
-  return parent_->pointer() + "/" + token;
-}
-
-Cursor Cursor::child(std::string_view key) const {
-  if (!json_->is_object()) return {kNull, this, key, 0};
-  const auto& members = json_->get_ref<const Json::object_t&>();
-  const auto found = std::find_if(
-      members.begin(), members.end(), [key](const auto& member) { return member.first == key; });
-  return {found == members.end() ? kNull : found->second, this, key, 0};
-}
-
-Cursor Cursor::element(std::size_t index) const { return {(*json_)[index], this, {}, index}; }
-
-bool Cursor::has(std::string_view key) const { return &child(key).json() != &kNull; }
-
-void Cursor::expect(std::string expected) const {
-  problems_->add(pointer(), shown(*json_), std::move(expected));
-}
-
-void Cursor::missing(std::string expected) const {
-  problems_->add(pointer(), "", std::move(expected));
-}
-
-std::optional<double> Cursor::number(const Range& range) const {
-  if (json_->is_number() && range.holds(json_->get<double>())) return json_->get<double>();
-  std::string expected = range.expected();
-  if (json_->is_string()) expected += hint_for_text(json_->get_ref<const std::string&>());
-  expect(std::move(expected));
-  return std::nullopt;
-}
-
-std::optional<int> Cursor::integer(int least, int most) const {
-  if (json_->is_number()) {
-    const double value = json_->get<double>();
-    if (value >= least && value <= most && value == std::floor(value))
-      return static_cast<int>(value);
-  }
-  expect(fmt::format("a whole number from {} to {}", least, most));
-  return std::nullopt;
-}
-
-std::optional<std::string> Cursor::text() const {
-  if (json_->is_string()) return json_->get<std::string>();
-  expect("a text");
-  return std::nullopt;
-}
-
-std::optional<bool> Cursor::boolean() const {
-  if (json_->is_boolean()) return json_->get<bool>();
-  expect("true or false");
-  return std::nullopt;
-}
-
-Value<double> number(Range range) {
-  return {[range](const Cursor& at) { return at.number(range); },
-          // A negative zero would come back as a zero: the same number, other bytes.
-          [](const double& value) { return Json(value + 0.0); },
-          {range.expected(), [range] { return number_schema(range); }}};
-}
-
-Value<int> integer(int least, int most) {
-  return {[least, most](const Cursor& at) { return at.integer(least, most); },
-          [](const int& value) { return Json(value); },
-          {fmt::format("a whole number from {} to {}", least, most), [least, most] {
-             return Json{{"type", "integer"}, {"minimum", least}, {"maximum", most}};
-           }}};
-}
-
-Value<bool> boolean() {
-  return {[](const Cursor& at) { return at.boolean(); },
-          [](const bool& value) { return Json(value); },
-          {"true or false", [] {
-             return Json{{"type", "boolean"}};
-           }}};
-}
-
-Value<std::string> text() {
-  return {[](const Cursor& at) { return at.text(); },
-          [](const std::string& value) { return Json(value); },
-          {"a text", [] {
-             return Json{{"type", "string"}};
-           }}};
-}
-
-Value<std::string> one_of(std::vector<std::string> names) {
-  std::vector<std::string> quoted;
-  for (const std::string& name : names) quoted.push_back(fmt::format("\"{}\"", name));
-  const std::string expected = quoted.size() == 1 ? quoted[0] : "one of " + joined(quoted);
-  return {[names, expected](const Cursor& at) -> std::optional<std::string> {
-            if (at.json().is_string()) {
-              const auto& word = at.json().get_ref<const std::string&>();
-              if (std::find(names.begin(), names.end(), word) != names.end()) return word;
-              const std::string meant = nearest(word, names);
-              at.expect(meant.empty() ? expected
-                                      : fmt::format("{}; \"{}\" is the nearest", expected, meant));
-            } else {
-              at.expect(expected);
-            }
-            return std::nullopt;
-          },
-          [](const std::string& value) { return Json(value); },
-          {expected, [names] {
-             return Json{{"enum", names}};
-           }}};
-}
-
-Json with_default(Json schema, const Json& value) {
-  const bool says_something = schema.contains("enum") || value.is_number() || value.is_boolean() ||
-                              (value.is_array() && !value.empty());
-  if (says_something) schema["default"] = value;
-  return schema;
-}
-
-Json number_schema(const Range& range) {
-  // Wider ranges only keep what is no measure of anything away from arithmetic.
-  constexpr double kWiderThanAnyMeaning = 1e9;
-  Json schema = {{"type", "number"}};
-  if (!range.unit.empty()) schema["unit"] = std::string(range.unit);
-  if (range.least > -kWiderThanAnyMeaning) schema["minimum"] = range.least;
-  if (range.most < kWiderThanAnyMeaning) schema["maximum"] = range.most;
-  return schema;
-}
-
-Json list_schema(const Json& element, std::size_t fewest) {
-  Json schema = {{"type", "array"}, {"items", element}};
-  if (fewest > 0) schema["minItems"] = fewest;
-  return schema;
-}
-
-Json dictionary_schema(const Json& element) {
-  return {{"type", "object"},
-          {"properties", {{"comment", {{"description", "Anything; not read."}}}}},
-          {"additionalProperties", element}};
-}
-
 namespace {
 
 /// The same, or null: how a key that may be absent may stand.
@@ -206,7 +49,7 @@ std::string what_takes(const Json& file_type) {
 
 }  // namespace
 
-bool KnownKeys::open(const Cursor& at, bool is_root) const {
+bool RecordTable::open(const Cursor& at, bool is_root) const {
   if (!at.json().is_object()) {
     at.expect(fmt::format("an object: {}", noun_));
     return false;
@@ -231,13 +74,57 @@ bool KnownKeys::open(const Cursor& at, bool is_root) const {
   return true;
 }
 
-Json KnownKeys::schema_of_part(const std::vector<KeySchema>& keys) const {
-  if (format_ == nullptr) return schema_of_keys(keys);
-  const std::string name = name_of(*format_);
-  return {{"$ref", fmt::format("{0}.schema.json#/definitions/{0}", name)}};
+void RecordTable::add_member(const std::string& key,
+                             bool is_required,
+                             Locate locate,
+                             std::shared_ptr<const MemberValue> value) {
+  Expected expected = value->expected();
+  add({key,
+       is_required,
+       std::move(expected),
+       [locate, value](const Cursor& at, void* object) { value->read(at, locate(object)); },
+       [locate, value](const void* object) {
+         // The member is looked for, and not changed, in what is only read.
+         return value->write(locate(const_cast<void*>(object)));
+       }});
 }
 
-Json KnownKeys::schema_of_keys(const std::vector<KeySchema>& keys) const {
+void RecordTable::add_defaulted(const std::string& key,
+                                Locate locate,
+                                std::shared_ptr<const MemberValue> value,
+                                Make make) {
+  add_member(key, false, locate, value);
+  fields_.back().expected.schema = [locate, value, make] {
+    const std::shared_ptr<void> object = make();
+    return with_default(value->expected().schema(),
+                        value->write(locate(object.get())).value_or(Json()));
+  };
+}
+
+void RecordTable::add_constant(const std::string& key, const std::string& word) {
+  const Value<std::string> value = one_of({word});
+  add({key,
+       true,
+       value.expected,
+       [read = value.read](const Cursor& at, void*) { (void)read(at); },
+       [word](const void*) { return std::optional<Json>(word); }});
+}
+
+Expected RecordTable::expected() const {
+  return {noun(), [this]() -> Json {
+            if (format_ == nullptr) return schema();
+            const std::string name = name_of(*format_);
+            return {{"$ref", fmt::format("{0}.schema.json#/definitions/{0}", name)}};
+          }};
+}
+
+Json RecordTable::schema() const {
+  Json schema = schema_of_keys();
+  for (const Json& rule : rules_) schema.update(rule);
+  return schema;
+}
+
+Json RecordTable::schema_of_keys() const {
   Json properties = Json::object();
   Json required = Json::array();
   if (format_ != nullptr) {
@@ -247,12 +134,13 @@ Json KnownKeys::schema_of_keys(const std::vector<KeySchema>& keys) const {
     properties["format_version"] = {{"enum", std::move(versions)}};
   }
   properties["comment"] = {{"description", "Anything; not read."}};
-  for (const KeySchema& key : keys) {
-    Json schema = key.is_required ? key.schema : or_null(key.schema);
-    if (const std::string meaning = meaning_of(noun_, key.key); !meaning.empty())
+  for (const Field& field : fields_) {
+    Json schema = field.expected.schema();
+    if (!field.is_required) schema = or_null(std::move(schema));
+    if (const std::string meaning = meaning_of(noun_, field.key); !meaning.empty())
       schema["description"] = meaning;
-    properties[key.key] = std::move(schema);
-    if (key.is_required) required.push_back(key.key);
+    properties[field.key] = std::move(schema);
+    if (field.is_required) required.push_back(field.key);
   }
   Json schema = {{"type", "object"}, {"title", noun_}, {"properties", std::move(properties)}};
   if (!required.empty()) schema["required"] = std::move(required);
@@ -260,24 +148,59 @@ Json KnownKeys::schema_of_keys(const std::vector<KeySchema>& keys) const {
   return schema;
 }
 
-std::vector<std::string> KnownKeys::report_unknown_keys(const Cursor& at) const {
+std::vector<std::string> RecordTable::report_unknown_keys(const Cursor& at) const {
   std::vector<std::string> probably_meant;
   for (const auto& [key, value] : at.json().items()) {
     const bool head = format_ != nullptr && (key == "file_type" || key == "format_version");
-    if (head || key == "comment" || std::find(keys_.begin(), keys_.end(), key) != keys_.end())
-      continue;
+    if (head || key == "comment" || has_key(key)) continue;
     std::vector<std::string> free;
-    for (const std::string& known : keys_) {
-      if (!at.has(known)) free.push_back(known);
+    for (const Field& field : fields_) {
+      if (!at.has(field.key)) free.push_back(field.key);
     }
-    std::string expected = fmt::format("a key that {} has ({})", noun_, joined(keys_));
+    std::string expected = fmt::format("a key that {} has ({})", noun_, joined(keys()));
     if (const std::string meant = nearest(key, free); !meant.empty()) {
       probably_meant.push_back(meant);
-      expected = fmt::format("\"{}\"? This key is unknown; {} has {}", meant, noun_, joined(keys_));
+      expected = fmt::format("\"{}\"? This key is unknown; {} has {}", meant, noun_, joined(keys()));
     }
     at.problems().add(at.pointer() + "/" + pointer_token(key), compact_json(value), expected);
   }
   return probably_meant;
+}
+
+bool RecordTable::has_key(const std::string& key) const {
+  return std::any_of(
+      fields_.begin(), fields_.end(), [&key](const Field& field) { return field.key == key; });
+}
+
+std::vector<std::string> RecordTable::keys() const {
+  std::vector<std::string> keys;
+  for (const Field& field : fields_) keys.push_back(field.key);
+  return keys;
+}
+
+bool RecordTable::read_fields(const Cursor& at, void* object, bool is_root) const {
+  if (!open(at, is_root)) return false;
+  const std::vector<std::string> probably_meant = report_unknown_keys(at);
+  for (const Field& field : fields_) {
+    const Cursor child = at.child(field.key);
+    if (!at.has(field.key) || (!field.is_required && child.json().is_null())) {
+      const bool misspelt = std::find(probably_meant.begin(), probably_meant.end(), field.key) !=
+                            probably_meant.end();
+      if (field.is_required && !misspelt) child.missing(field.expected);
+      continue;
+    }
+    field.read(child, object);
+  }
+  for (const Check& check : checks_) check(at, object);
+  return true;
+}
+
+Json RecordTable::write_fields(const void* object) const {
+  Json json = format_ != nullptr ? headed(*format_) : Json::object();
+  for (const Field& field : fields_) {
+    if (auto value = field.write(object)) json[field.key] = std::move(*value);
+  }
+  return json;
 }
 
 }  // namespace chaintrue::grid::files

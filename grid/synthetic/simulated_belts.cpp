@@ -18,7 +18,7 @@ using model::kBelts;
 namespace {
 
 /// Streams of the seed: what one draws does not depend on the others.
-enum BeltStream : std::uint64_t { kNoiseStream = 1, kBadStream = 2 };
+enum BeltStream : std::uint64_t { kNoiseStream = 1, kBadReadingStream = 2 };
 
 std::vector<model::BedPoint> commands_of(const model::BeltMachine& stated, const BeltsSpec& spec) {
   const auto& a = stated.anchors;
@@ -45,7 +45,7 @@ tl::expected<model::FramePoint, model::BeltFailure> place_of(const model::BeltMa
 }
 
 void spoil(const BeltsSpec& spec, MeasuredBelts& belts) {
-  Random random(spec.seed, kBadStream);
+  Random random(spec.seed, kBadReadingStream);
   std::vector<std::size_t> points(belts.points.size());
   std::iota(points.begin(), points.end(), std::size_t{0});
   random.shuffle(points);
