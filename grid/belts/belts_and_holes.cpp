@@ -47,12 +47,16 @@ struct Marginal {
   Eigen::VectorXd off_mm;   ///< r_b
   Eigen::MatrixXd inverse;  ///< V^-1
   double log_likelihood = 0.0;
+  std::vector<bool> counting;
 
   [[nodiscard]] double left_out_mm(Eigen::Index k) const {
     return (inverse.row(k) * off_mm)(0) / inverse(k, k);
   }
+  /// The tape's own and that of what the others predict; what kept a rejected distance from
+  /// counting is no part of it.
   [[nodiscard]] double left_out_sigma_mm(Eigen::Index k) const {
-    return 1.0 / std::sqrt(inverse(k, k));
+    const double added = counting[static_cast<std::size_t>(k)] ? 0.0 : belts::kRejectedMm2;
+    return std::sqrt(1.0 / inverse(k, k) - added);
   }
 };
 
@@ -61,6 +65,7 @@ Marginal marginal(const TapedFrame& frame,
                   const TapedNoise& noise,
                   const std::vector<bool>& counting) {
   Marginal result;
+  result.counting = counting;
   result.off_mm = frame.about_the_belts(at.rows, at.frame);
   const Eigen::Index count = result.off_mm.size();
   const Eigen::MatrixXd v =

@@ -9,9 +9,6 @@
 namespace chaintrue::grid::belts {
 namespace {
 
-/// Of a distance that was set aside nothing is known: it was taped to ten metres.
-constexpr double kNothingMm2 = 1e8;
-
 Eigen::VectorXd frame_vector(const FrameState& state) {
   Eigen::VectorXd x(kFrameUnknowns);
   x << state.anchors, state.log_scale;
@@ -93,7 +90,7 @@ Eigen::MatrixXd TapedFrame::covariance(const TapedRows& rows,
     }
   }
   for (Eigen::Index k = 0; k < count; ++k) {
-    if (!counting[static_cast<std::size_t>(k)]) covariance(k, k) += kNothingMm2;
+    if (!counting[static_cast<std::size_t>(k)]) covariance(k, k) += kRejectedMm2;
   }
   return covariance;
 }

@@ -12,6 +12,10 @@
 
 namespace chaintrue::grid::belts {
 
+/// Added to the variance of a rejected distance, mm^2: as of a tape read to ten metres, so that it
+/// weighs nothing.
+inline constexpr double kRejectedMm2 = 1e8;
+
 /// Size and reach of the displacement, and what the noise is more than was stated.
 struct TapedNoise {
   double factor = 1.0;

@@ -134,9 +134,26 @@ TEST(BeltsAndHoles, ADistanceReadWronglyIsSetAsideByItsEnds) {
   for (std::size_t i = 0; i < fit->holes.distances.size(); ++i) {
     EXPECT_EQ(fit->holes.distances[i].set_aside, i == 5) << fit->holes.distances[i].words;
   }
+  const BeltTapedDistance& rejected = fit->holes.distances[5];
   // Twelve, give or take the tape and what nine holes leave uncertain.
-  EXPECT_NEAR(
-      fit->holes.distances[5].left_out_mm, 12.0, 4.0 * fit->holes.distances[5].left_out_sigma_mm);
+  EXPECT_NEAR(rejected.left_out_mm, 12.0, 4.0 * rejected.left_out_sigma_mm);
+  // Sigma is that of a new reading: of the fit that never had the distance, when the same distance
+  // is read to what that fit predicts. There it counts, and moves nothing.
+  SimulatedHoles agreeing = set;
+  agreeing.holes.set.distances[5].distance_mm -= rejected.left_out_mm;
+  const auto counted = fit_belts_and_holes(agreeing.belts, {agreeing.holes});
+  ASSERT_TRUE(counted);
+  const BeltTapedDistance& same = counted->holes.distances[5];
+  ASSERT_FALSE(same.set_aside);
+  // The frame about which it is linearised is the same to what Newton leaves of it, some 1e-3 mm.
+  EXPECT_NEAR(same.left_out_mm, 0.0, 0.01);
+  // The noise's factor is chosen on a grid, with one distance more: the same step here.
+  ASSERT_EQ(counted->holes.noise_factor, fit->holes.noise_factor);
+  EXPECT_NEAR(rejected.left_out_sigma_mm, same.left_out_sigma_mm, 0.01 * same.left_out_sigma_mm);
+  // No less than a tape read to a millimetre, no more than a tape and nine holes of it.
+  const double tape_mm = set.holes.set.tape.sigma_mm * fit->holes.noise_factor;
+  EXPECT_GE(rejected.left_out_sigma_mm, tape_mm);
+  EXPECT_LT(rejected.left_out_sigma_mm, 5.0 * tape_mm);
 }
 
 TEST(BeltsAndHoles, TheSheetsEdgesLayTheFrame) {
