@@ -245,18 +245,29 @@ class Decider {
       }
     }
     std::sort(sure.begin(), sure.end());
-    const Grouped* home = nullptr;
-    for (const auto& [key, grouped] : groups_) {
-      const bool holds = std::includes(key.begin(), key.end(), sure.begin(), sure.end());
-      if (holds && (home == nullptr || grouped.probability > home->probability)) home = &grouped;
-    }
+    const Grouped* home = likeliest_with(sure);
     if (home == nullptr) return;
     leading_key_ = sure;
     result_.listed.clear();
     name_causes(*home);
+    keep_only(sure);
+  }
+
+  /// The likeliest group in which all of these act; empty where none does. `causes` ascending.
+  [[nodiscard]] const Grouped* likeliest_with(const Key& causes) const {
+    const Grouped* best = nullptr;
+    for (const auto& [key, grouped] : groups_) {
+      const bool holds = std::includes(key.begin(), key.end(), causes.begin(), causes.end());
+      if (holds && (best == nullptr || grouped.probability > best->probability)) best = &grouped;
+    }
+    return best;
+  }
+
+  /// Of what was taken into the model the causes of these classes alone.
+  void keep_only(const Key& causes) {
     std::erase_if(result_.regressors, [&](int k) {
       const auto own = class_of(system_.regressors[static_cast<std::size_t>(k)].cause);
-      return std::find(sure.begin(), sure.end(), own) == sure.end();
+      return std::find(causes.begin(), causes.end(), own) == causes.end();
     });
   }
 
@@ -270,13 +281,23 @@ class Decider {
       take(leading);
       return;
     }
-    const double top = result_.marginal.front().probability;
-    take(leading);
-    if (top >= enough_to_name()) {
+    const ClassProbability& top = result_.marginal.front();
+    if (top.probability >= enough_to_name()) {
+      // Over all groups another cause may be likelier than the one of the leading group: what is
+      // fitted is what is named.
+      const Key named = {top.index};
+      const auto alone = groups_.find(named);
+      const Grouped* own = leading_key_ == named  ? &leading
+                           : alone != groups_.end() ? &alone->second
+                                                    : likeliest_with(named);
+      take(*own);
+      keep_only(named);
+      leading_key_ = named;
       result_.verdict = Verdict::named;
-      result_.listed = {result_.marginal.front().index};
+      result_.listed = named;
       return;
     }
+    take(leading);
     result_.verdict = Verdict::named_set;
     // Which, given that one cause acts.
     std::vector<ClassProbability> alone;

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Verdicts from stated probabilities: the cause that is named is the cause that is fitted.
+#include "grid/diagnosis/decision.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+struct Weighed {
+  std::vector<int> causes;
+  double probability = 0.0;
+};
+
+/// A comparison of these sets, each beside a pattern, of causes that are a class each.
+Decision decided(const std::vector<Weighed>& sets, std::size_t causes) {
+  LinearisedSystem system;
+  std::vector<CauseClass> classes;
+  for (std::size_t k = 0; k < causes; ++k) {
+    const model::effects::Effect* effect = model::effects::catalogue()[k];
+    Regressor regressor;
+    regressor.cause = {effect, effect->sides.front()};
+    system.regressors.push_back(regressor);
+    classes.push_back({regressor.cause});
+  }
+  ModelComparison comparison;
+  comparison.marginalised_systems.resize(1);
+  for (const Weighed& own : sets) {
+    CandidateModel model;
+    model.regressors = own.causes;
+    model.discrepancy = 0;
+    model.log_weight = std::log(own.probability);
+    comparison.models.push_back(model);
+  }
+  return decide(system, comparison, {}, true, classes);
+}
+
+TEST(Decision, ANamedCauseIsTheOneThatIsFitted) {
+  // One cause is likeliest, and alone it is the first; with whatever else, the second is in most.
+  const Decision found = decided({{{0}, 0.35}, {{1}, 0.31}, {{1, 2}, 0.20}, {{1, 3, 4}, 0.10}}, 5);
+  ASSERT_EQ(found.verdict, Verdict::named);
+  EXPECT_EQ(found.listed, std::vector<std::size_t>{1});
+  EXPECT_EQ(found.regressors, std::vector<int>{1});
+}
+
+TEST(Decision, ANamedCauseThatNeverActsAloneIsFittedWithoutItsPartners) {
+  const Decision found = decided({{{0}, 0.34}, {{1, 2}, 0.31}, {{1, 3, 4}, 0.31}}, 5);
+  ASSERT_EQ(found.verdict, Verdict::named);
+  EXPECT_EQ(found.listed, std::vector<std::size_t>{1});
+  EXPECT_EQ(found.regressors, std::vector<int>{1});
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis
