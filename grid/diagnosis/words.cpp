@@ -189,7 +189,7 @@ void say_what_to_read_again(Diagnosis& d) {
   const std::vector<std::size_t> points = points_it_rests_on(d);
   if (points.size() != 1) return;
   const bool is_bad = std::any_of(d.outliers.begin(), d.outliers.end(), [&](const Outlier& b) {
-    return b.index == points.front();
+    return b.of == Observations::points && b.index == points.front();
   });
   if (is_bad) return;
   d.what_to_do.push_back(fmt::format(

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What to do, in words, of findings that are put together by hand.
+#include <gmock/gmock.h>
+
+#include "grid/diagnosis/findings.hpp"
+#include "tests/diagnosis/sessions.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+using testing_support::session_of;
+using testing_support::verdict_alone;
+
+TEST(Words, APointIsMeasuredAgainUnlessThatPointIsAnOutlier) {
+  const auto session = make_session(session_of({}, 1));
+  ASSERT_TRUE(session);
+  const auto analysis = analyse(*session, verdict_alone());
+  ASSERT_TRUE(analysis);
+  const auto what_to_do = [&](Observations kind) {
+    Diagnosis d;
+    d.points = point_pictures(*analysis);
+    d.distances.resize(6);
+    d.stability = Stability{};
+    Removal removal;
+    removal.index = 5;
+    removal.stands = false;
+    d.stability->removals.push_back(removal);
+    Outlier outlier;
+    outlier.of = kind;
+    outlier.index = 5;
+    d.outliers.push_back(outlier);
+    put_into_words(*analysis, d);
+    return d.what_to_do;
+  };
+  const auto again = Contains(HasSubstr("Measure point 6 again before anything else"));
+  EXPECT_THAT(what_to_do(Observations::points), Not(again));
+  // The sixth distance is no point.
+  EXPECT_THAT(what_to_do(Observations::distances), again);
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis
