@@ -17,21 +17,26 @@ struct Unit {
   std::string_view parameter;
   double factor;
   std::string_view words;  ///< {} the number
+  /// Of a negative value, {} its absolute value; empty where `words` bear a sign.
+  std::string_view negative{};
 };
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 constexpr std::array kUnits = {
     Unit{"scale", 100.0, "{} %"},
-    Unit{"elongation", 100.0, "links {} % longer"},
+    Unit{"elongation", 100.0, "links {} % longer", "links {} % shorter"},
     Unit{"angle_rad", 1000.0, "{} mm a metre"},
-    Unit{"relative_weight", 100.0, "by {} % of its weight"},
+    Unit{"relative_weight", 100.0, "{} % heavier", "{} % lighter"},
     Unit{"compliance_per_n", 1e6, "{} millionths a newton"},
     Unit{"flexibility_mm_per_n", 1.0, "{} mm a newton"},
-    Unit{"force_n", 1.0, "{} N, positive to the right"},
-    Unit{"offset_mm", 1.0, "radius {} mm larger"},
+    Unit{"force_n", 1.0, "{} N to the right", "{} N to the left"},
+    Unit{"offset_mm", 1.0, "radius {} mm larger", "radius {} mm smaller"},
     Unit{"slope_mm_per_rad", 1.0 / kDegrees, "{} mm a degree"},
-    Unit{"knee_rad", kDegrees, "sets in at {} degrees below the horizontal"},
+    Unit{"knee_rad",
+         kDegrees,
+         "sets in at {} degrees below the horizontal",
+         "sets in at {} degrees above the horizontal"},
     Unit{"phase_rad", kDegrees, "phase {} degrees"},
     Unit{"rate_mm_per_visit", 1.0, "{} mm a visit"},
     Unit{"links", 1.0, "{} links"},
@@ -49,10 +54,10 @@ struct BeltUnit {
 };
 
 constexpr std::array kBeltUnits = {
-    BeltUnit{"belt_stretch", {"elongation", 100.0, "{} % longer when pulled"}},
-    BeltUnit{"belt_scale", {"scale", 100.0, "{} % more belt a turn"}},
-    BeltUnit{"belt_zero", {"offset_mm", 1.0, "{} mm too much read"}},
-    BeltUnit{"anchor_height", {"offset_mm", 1.0, "{} mm higher"}},
+    BeltUnit{"belt_stretch", {"elongation", 100.0, "{} % longer when pulled", "{} % shorter when pulled"}},
+    BeltUnit{"belt_scale", {"scale", 100.0, "{} % more belt a turn", "{} % less belt a turn"}},
+    BeltUnit{"belt_zero", {"offset_mm", 1.0, "{} mm too much read", "{} mm too little read"}},
+    BeltUnit{"anchor_height", {"offset_mm", 1.0, "{} mm higher", "{} mm lower"}},
     BeltUnit{"", {"give_mm", 1.0, "{} mm when pulled"}},
     BeltUnit{"", {"teeth", 1.0, "{} teeth"}},
     BeltUnit{"", {"direction_rad", kDegrees, "{} degrees from x towards y"}},
@@ -79,10 +84,12 @@ namespace {
 std::string worded(const Unit& unit, const ParameterEstimate& estimate) {
   const bool whole = unit.parameter == "links" || unit.parameter == "teeth" ||
                      (unit.parameter.ends_with("visit") && !unit.parameter.starts_with("rate"));
+  const bool reversed = estimate.value < 0.0 && !unit.negative.empty();
+  const double value = reversed ? -estimate.value : estimate.value;
   const std::string number =
-      whole ? fmt::format("{:g}", estimate.value)
-            : with_sigma(unit.factor * estimate.value, unit.factor * estimate.sigma);
-  return fmt::format(fmt::runtime(unit.words), number);
+      whole ? fmt::format("{:g}", value)
+            : with_sigma(unit.factor * value, unit.factor * estimate.sigma);
+  return fmt::format(fmt::runtime(reversed ? unit.negative : unit.words), number);
 }
 
 }  // namespace

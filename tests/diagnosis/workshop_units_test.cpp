@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sizes in words: of every effect of both machines, at a positive and at a negative size.
+#include "grid/diagnosis/workshop_units.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+
+#include "model/belts/effects/belt_effect.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<const model::effects::Effect*> all_effects() {
+  std::vector<const model::effects::Effect*> all(model::effects::catalogue().begin(),
+                                                 model::effects::catalogue().end());
+  for (const model::belts::BeltEffect* effect : model::belts::belt_effects())
+    all.push_back(&model::belts::described(*effect));
+  return all;
+}
+
+TEST(WorkshopUnits, NoMinusSignIsBesideAWordThatHasADirection) {
+  constexpr std::array kDirected = {"longer", "shorter", "larger",  "smaller", "higher", "lower",
+                                    "more",   "less",    "much",    "little",  "heavier",
+                                    "lighter", "below",  "above",   "left",    "right"};
+  for (const model::effects::Effect* effect : all_effects()) {
+    for (const model::effects::EffectParameter& parameter : effect->parameters) {
+      // A tenth of what it may be: a number with digits that words show.
+      const double size = parameter.integer ? 2.0 : 0.1 * parameter.upper;
+      const auto words = [&](double value) {
+        return in_workshop_units({effect, effect->sides.front()},
+                                 {std::string(parameter.name), value, 0.02 * size});
+      };
+      const std::string positive = words(size);
+      const std::string negative = words(-size);
+      EXPECT_NE(positive, negative) << effect->id << " " << parameter.name;
+      EXPECT_THAT(positive, Not(HasSubstr("-0"))) << effect->id;
+      for (const char* const word : kDirected) {
+        const bool directed = negative.find(word) != std::string::npos ||
+                              positive.find(word) != std::string::npos;
+        // The one minus sign left is that of "+-".
+        if (directed) {
+          std::string bare = negative;
+          if (const auto sign = bare.find("+-"); sign != std::string::npos) bare.erase(sign, 2);
+          EXPECT_THAT(bare, Not(HasSubstr("-"))) << effect->id << " " << parameter.name;
+        }
+      }
+    }
+  }
+}
+
+std::string worded(std::string_view effect, const char* parameter, double value, double sigma) {
+  for (const model::effects::Effect* own : all_effects()) {
+    if (own->id == effect)
+      return in_workshop_units({own, own->sides.front()}, {parameter, value, sigma});
+  }
+  return "";
+}
+
+TEST(WorkshopUnits, TheSignChoosesTheWord) {
+  EXPECT_EQ(worded("chain_pitch_error", "elongation", 0.00122, 0.00012),
+            "links 0.122 +- 0.012 % longer");
+  EXPECT_EQ(worded("chain_pitch_error", "elongation", -0.00122, 0.00012),
+            "links 0.122 +- 0.012 % shorter");
+  EXPECT_EQ(worded("sprocket_radius", "offset_mm", -0.4, 0.0), "radius 0.4 mm smaller");
+  EXPECT_EQ(worded("side_pull", "force_n", -1.5, 0.0), "1.5 N to the left");
+  EXPECT_EQ(worded("belt_scale", "scale", -0.004, 0.0), "0.4 % less belt a turn");
+  EXPECT_EQ(worded("belt_zero", "offset_mm", -3.0, 0.0), "3 mm too little read");
+  EXPECT_EQ(worded("anchor_height", "offset_mm", -12.0, 0.0), "12 mm lower");
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::diagnosis
