@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "grid/diagnosis/constants.hpp"
@@ -29,8 +31,76 @@ double circular(double difference, const EffectParameter& p) {
   return turns ? std::remainder(difference, 2.0 * std::numbers::pi) : difference;
 }
 
+/// What a cause adds, whitened, changes with its place, per unit of the place; empty where the
+/// machine cannot have such an effect.
+std::optional<Eigen::VectorXd> by_place(const Analysis& a,
+                                        const Regressor& own,
+                                        std::size_t which) {
+  // Of a radian: central differences of a wave are right to h^2 / 6, rounding to 1e-16 / h.
+  constexpr double kStep = 1e-3;
+  std::vector<double> values = own.values;
+  values[which] = own.values[which] + kStep;
+  const auto above = signature(a.session, a.state, a.system, own.cause, values);
+  values[which] = own.values[which] - kStep;
+  const auto below = signature(a.session, a.state, a.system, own.cause, values);
+  if (!above || !below) return std::nullopt;
+  return (*above - *below) / (2.0 * kStep);
+}
+
+/// From a continuous place to the nearest other one that was tried.
+double step_of_places(const Analysis& a, const Regressor& own, std::size_t which) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Regressor& other : a.system.regressors) {
+    if (!(other.cause == own.cause)) continue;
+    const double step = std::abs(other.values[which] - own.values[which]);
+    if (step > 0.0) least = std::min(least, step);
+  }
+  return std::isfinite(least) ? least : 0.0;
+}
+
+/// Of a continuous place by the curvature of the likelihood, settings and all coefficients of the
+/// fit free; 0 where there is no derivative.
+double fitted_place_sigma(const Analysis& a,
+                          int column,
+                          std::size_t which,
+                          const Estimate& fitted,
+                          double coefficient) {
+  const Regressor& own = regressor(a, column);
+  const EffectParameter& place = own.cause.effect->parameters[which];
+  const auto slope = by_place(a, own, which);
+  if (!slope) return 0.0;
+  const MarginalisedSystem& marginalised = marginalised_system(a);
+  const LinearisedSystem& system = a.system;
+  const Eigen::Index settings = system.setting.size();
+  const auto free = static_cast<Eigen::Index>(fitted.free.size());
+  Eigen::MatrixXd design(static_cast<Eigen::Index>(marginalised.kept.size()), settings + free + 1);
+  Eigen::VectorXd sigma(settings + free + 1);
+  design.leftCols(settings) = system.by_setting(marginalised.kept, Eigen::all);
+  sigma.head(settings) = system.sigma;
+  for (Eigen::Index k = 0; k < free; ++k) {
+    const int other = fitted.regressors[fitted.free[static_cast<std::size_t>(k)]];
+    design.col(settings + k) = system.g.column(marginalised.kept, other);
+    sigma(settings + k) = kWideSignalToNoise / std::max(marginalised.g.col(other).norm(), 1e-12);
+  }
+  design.col(settings + free) = coefficient * (*slope)(marginalised.kept);
+  // Beforehand any value between the bounds is as likely.
+  sigma(settings + free) =
+      std::min(place.upper - place.lower, 2.0 * std::numbers::pi) / std::sqrt(12.0);
+  if (a.noise) a.noise->llt.matrixL().solveInPlace(design);
+  const Eigen::MatrixXd scaled = design * sigma.asDiagonal();
+  Eigen::MatrixXd normal = scaled.transpose() * scaled / fitted.noise_square;
+  normal.diagonal().array() += 1.0;
+  const Eigen::Index last = settings + free;
+  const Eigen::VectorXd column_of_inverse =
+      normal.llt().solve(Eigen::VectorXd::Unit(last + 1, last));
+  // Beside a discrepancy the place is the best of those tried (relinearise.cpp), off by up to half a
+  // step either way.
+  const double step = a.noise ? step_of_places(a, own, which) : 0.0;
+  return std::hypot(sigma(last) * std::sqrt(column_of_inverse(last)), step / std::sqrt(12.0));
+}
+
 /// How well the data say where a cause sets in: the scatter of that parameter over the models.
-double place_sigma(const Analysis& a, int column, std::size_t which) {
+double place_scatter(const Analysis& a, int column, std::size_t which) {
   const Regressor& own = regressor(a, column);
   const EffectParameter& place = own.cause.effect->parameters[which];
   double weight = 0.0;
@@ -48,25 +118,33 @@ double place_sigma(const Analysis& a, int column, std::size_t which) {
   return weight > 0.0 ? std::sqrt(square / weight) : 0.0;
 }
 
+Eigen::Index position_of(const Estimate& e, int column) {
+  const auto found = std::find(e.regressors.begin(), e.regressors.end(), column);
+  return static_cast<Eigen::Index>(found - e.regressors.begin());
+}
+
 std::vector<ParameterEstimate> parameters(const Analysis& a,
                                           int column,
-                                          double coefficient,
-                                          double sigma) {
+                                          const Estimate& fitted) {
   const Regressor& d = regressor(a, column);
+  const Eigen::Index at = position_of(fitted, column);
+  const double coefficient = fitted.coefficient(at);
+  const double sigma = fitted.coefficient_sigma(at);
   std::vector<ParameterEstimate> result;
   const auto& described = d.cause.effect->parameters;
   result.push_back({std::string(described.front().name),
                     size_at(d, coefficient),
                     std::abs(size_slope(d, coefficient)) * sigma});
   for (std::size_t k = 1; k < described.size(); ++k) {
-    result.push_back({std::string(described[k].name), d.values[k], place_sigma(a, column, k)});
+    // The models hold a continuous place at a few values only: where one of them has all the weight
+    // their scatter says nothing of how far the place may lie from it.
+    const double width =
+        described[k].integer ? 0.0 : fitted_place_sigma(a, column, k, fitted, coefficient);
+    result.push_back({std::string(described[k].name),
+                      d.values[k],
+                      std::max(place_scatter(a, column, k), width)});
   }
   return result;
-}
-
-Eigen::Index position_of(const Estimate& e, int column) {
-  const auto found = std::find(e.regressors.begin(), e.regressors.end(), column);
-  return static_cast<Eigen::Index>(found - e.regressors.begin());
 }
 
 double marginal(const Analysis& a, std::size_t index) {
@@ -96,7 +174,7 @@ Cause describe(const Analysis& a, std::size_t index) {
     set.push_back(column);
     const Estimate fitted = estimate_with(a, set);
     const Eigen::Index at = position_of(fitted, column);
-    auto found = parameters(a, column, fitted.coefficient(at), fitted.coefficient_sigma(at));
+    auto found = parameters(a, column, fitted);
     if (member == members.front()) {
       const double length = marginalised_system(a).g.col(column).norm();
       cause.signal_to_noise = std::abs(fitted.coefficient(at)) * length;
