@@ -206,7 +206,7 @@ std::string in_words(const AnchorsHypothesis& h) {
                        model::words(*h.belt),
                        h.size_mm);
   }
-  if (h.what == "bad_point") return fmt::format("point {} is wrong by itself", h.point);
+  if (h.what == "bad_point") return fmt::format("point {} is wrong by itself", h.point + 1);
   return "something has changed that follows no known pattern";
 }
 
@@ -225,7 +225,7 @@ void tell(AnchorsCheck& check) {
     check.sentence = fmt::format(
         "Measure point {} again ({:.0f} %): it is wrong by itself, and says nothing of the "
         "anchors.",
-        first.point,
+        first.point + 1,
         percent);
   } else {
     check.sentence = fmt::format("Find the anchors again ({:.0f} %): {}.", percent, why);

@@ -31,7 +31,7 @@ bool is_pulled(const BeltPoint& point, model::Belt belt) {
 }
 
 std::string words_of(const BeltEnd& end) {
-  if (const auto* index = std::get_if<std::size_t>(&end)) return fmt::format("point {}", *index);
+  if (const auto* index = std::get_if<std::size_t>(&end)) return fmt::format("point {}", *index + 1);
   if (const auto* belt = std::get_if<model::Belt>(&end)) {
     return fmt::format("the {} anchor", model::words(*belt));
   }

@@ -69,8 +69,8 @@ std::string repeated_pulls_in_words(const MeasuredBelts& belts) {
     fmt::format_to(std::back_inserter(text),
                    "{} points {} and {} {:.3f} +- {:.3f} %",
                    &pull == &found.front() ? "" : ",",
-                   pull.first,
-                   pull.second,
+                   pull.first + 1,
+                   pull.second + 1,
                    100.0 * pull.share,
                    100.0 * pull.sigma);
   }

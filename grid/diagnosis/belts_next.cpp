@@ -167,7 +167,7 @@ void add_revisits(const BeltsAnalysis& a, Gathering& gathering, std::vector<Cand
     if (!gathering.add(at, point.pulled)) continue;
     all.push_back(candidate_of(
         MeasurementKind::revisit,
-        fmt::format("point {} once more", k),
+        fmt::format("point {} once more", k + 1),
         point.commanded.value_or(model::BedPoint{std::round(at.x_mm - centre.x_mm) + 0.0,
                                                  std::round(at.y_mm - centre.y_mm) + 0.0}),
         point.pulled.value_or(std::vector<Belt>{}),

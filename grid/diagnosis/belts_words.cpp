@@ -41,11 +41,11 @@ std::vector<std::string> bad_belts(const Diagnosis& d) {
     result.push_back(bad.belt
                          ? fmt::format("the {} belt at point {}{}, read {:.1f} mm too {}",
                                        model::words(*bad.belt),
-                                       bad.index,
+                                       bad.index + 1,
                                        or_else(bad),
                                        std::abs(bad.off_mm),
                                        bad.off_mm > 0.0 ? "long" : "short")
-                         : fmt::format("point {}, where more than one belt disagrees", bad.index));
+                         : fmt::format("point {}, where more than one belt disagrees", bad.index + 1));
   }
   return result;
 }

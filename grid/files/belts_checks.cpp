@@ -175,7 +175,7 @@ void check_belt_distances(const MeasuredBelts& belts,
       if (index != nullptr && *index >= belts.points.size()) {
         problems.add(place(key),
                      fmt::format("{}", *index),
-                     fmt::format("a point of this file, 0 to {}", belts.points.size() - 1));
+                     fmt::format("a point of this file, counted from 0: 0 to {}", belts.points.size() - 1));
       }
       if (std::holds_alternative<CutHole>(end) && !belts.machine.anchors_known) {
         problems.add(

@@ -91,7 +91,7 @@ TEST(AnchorsCheck, OneBadReadingIsNamedByItsPointAndSaysNothingOfTheAnchors) {
   for (const AnchorsCheck& check : checks(kNothing, spoilt)) {
     EXPECT_EQ(check.hypotheses.front().what, "bad_point") << check.sentence;
     EXPECT_EQ(check.hypotheses.front().point, 4U);
-    EXPECT_THAT(check.sentence, HasSubstr("Measure point 4 again"));
+    EXPECT_THAT(check.sentence, HasSubstr("Measure point 5 again"));
   }
 }
 

@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
     PlaceSigma,
     testing::Values(Case{"sprocket_eccentricity",
                          "phase_rad",
-                         {"sprocket_eccentricity", "left", {{"amplitude_mm", 0.5}, {"phase_rad", 1.3}}},
+                         {"sprocket_eccentricity", "left", {{"amplitude_mm", 2.0}, {"phase_rad", 1.3}}},
                          0.0},
                     Case{"sprocket_eccentricity",
                          "phase_rad",

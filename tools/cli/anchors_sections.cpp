@@ -49,7 +49,7 @@ void say_bad_readings(const BeltsFit& fit, Section& section) {
     say(section,
         fmt::format("Set aside: the {} belt at point {}, {:.1f} mm {} than all others make it{}.",
                     model::words(bad.belt),
-                    bad.point,
+                    bad.point + 1,
                     std::abs(bad.off_mm),
                     bad.off_mm > 0.0 ? "longer" : "shorter",
                     is_whole ? fmt::format(", {:.0f} whole turn{} of the encoder",
@@ -61,7 +61,7 @@ void say_bad_readings(const BeltsFit& fit, Section& section) {
     say(section,
         fmt::format("Point {} is bad as a whole: fewer than three of its readings agree. Measure "
                     "it again or leave it out.",
-                    point));
+                    point + 1));
   }
 }
 
@@ -218,7 +218,7 @@ Section places_section(const BeltsFit& fit) {
   for (std::size_t k = 0; k < fit.places.size(); ++k) {
     const grid::FittedPlace& place = fit.places[k];
     report::Row& row = table.rows.emplace_back();
-    row.cells = {static_cast<double>(k), place.at.x_mm, place.at.y_mm};
+    row.cells = {static_cast<double>(k + 1), place.at.x_mm, place.at.y_mm};
     for (const Belt belt : kBelts) {
       const auto& residual = place.belts[belt];
       row.cells.emplace_back(fmt::format("{:+.2f}{}", residual.off_mm, residual.counts ? ' ' : '*'));

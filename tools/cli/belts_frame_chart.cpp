@@ -91,7 +91,7 @@ DataTable strokes_table(const BeltsFindings& found,
       const double off = (place.*which)[belt];
       // A bad reading's stroke would leave the picture.
       const double longest = 4.0 * kLongestStroke * width_mm(found) / magnification(found);
-      table.rows.push_back({fmt::format("point {}", k),
+      table.rows.push_back({fmt::format("point {}", k + 1),
                             place.at.x_mm,
                             place.at.y_mm,
                             x / away,

@@ -50,7 +50,7 @@ report::Document check_document(const grid::AnchorsCheck& check) {
   Table table = table_of("One belt is off by", false);
   for (std::size_t k = 0; k < check.places.size(); ++k) {
     table.rows.push_back(
-        {{fmt::format("point {}", k), check.places[k].rms_mm, check.places[k].sigma_mm}});
+        {{fmt::format("point {}", k + 1), check.places[k].rms_mm, check.places[k].sigma_mm}});
   }
   return document_of(check, std::move(table));
 }

@@ -247,10 +247,10 @@ std::string share_percent(double share) {
 
 std::string bad_belt_in_words(const grid::diagnosis::Outlier& bad) {
   if (!bad.belt)
-    return fmt::format("point {} as a whole: more than one of its belts disagrees", bad.index);
+    return fmt::format("point {} as a whole: more than one of its belts disagrees", bad.index + 1);
   std::string text = fmt::format("the {} belt at point {}: read {:.1f} mm too {} ({:.1f} sigmas)",
                                  model::words(*bad.belt),
-                                 bad.index,
+                                 bad.index + 1,
                                  std::abs(bad.off_mm),
                                  bad.off_mm > 0.0 ? "long" : "short",
                                  bad.distance);
