@@ -33,9 +33,9 @@ double circular(double difference, const EffectParameter& p) {
 
 /// What a cause adds, whitened, changes with its place, per unit of the place; empty where the
 /// machine cannot have such an effect.
-std::optional<Eigen::VectorXd> by_place(const Analysis& a,
-                                        const Regressor& own,
-                                        std::size_t which) {
+std::optional<Eigen::VectorXd> slope_by_place(const Analysis& a,
+                                              const Regressor& own,
+                                              std::size_t which) {
   // Of a radian: central differences of a wave are right to h^2 / 6, rounding to 1e-16 / h.
   constexpr double kStep = 1e-3;
   std::vector<double> values = own.values;
@@ -67,7 +67,7 @@ double fitted_place_sigma(const Analysis& a,
                           double coefficient) {
   const Regressor& own = regressor(a, column);
   const EffectParameter& place = own.cause.effect->parameters[which];
-  const auto slope = by_place(a, own, which);
+  const auto slope = slope_by_place(a, own, which);
   if (!slope) return 0.0;
   const MarginalisedSystem& marginalised = marginalised_system(a);
   const LinearisedSystem& system = a.system;
