@@ -11,13 +11,13 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-struct Weighed {
+struct SetOfCauses {
   std::vector<int> causes;
   double probability = 0.0;
 };
 
 /// A comparison of these sets, each beside a pattern, of causes that are a class each.
-Decision decided(const std::vector<Weighed>& sets, std::size_t causes) {
+Decision decided(const std::vector<SetOfCauses>& sets, std::size_t causes) {
   LinearisedSystem system;
   std::vector<CauseClass> classes;
   for (std::size_t k = 0; k < causes; ++k) {
@@ -29,7 +29,7 @@ Decision decided(const std::vector<Weighed>& sets, std::size_t causes) {
   }
   ModelComparison comparison;
   comparison.marginalised_systems.resize(1);
-  for (const Weighed& own : sets) {
+  for (const SetOfCauses& own : sets) {
     CandidateModel model;
     model.regressors = own.causes;
     model.discrepancy = 0;
