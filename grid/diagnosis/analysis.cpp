@@ -17,9 +17,9 @@ namespace {
 constexpr int kCalibrations = 8;
 constexpr double kSettledMm = 1e-4;
 
-DiagnosisFailure unreachable(const Session& session, const observation::Unreachable& failure) {
-  const SessionPlace& place = session.places[failure.place];
-  const SessionPart& part = session.parts[place.part];
+DiagnosisFailure unreachable(const ObservationSet& session, const observation::Unreachable& failure) {
+  const NumberedPlace& place = session.places[failure.place];
+  const ObservationPart& part = session.parts[place.part];
   return {DiagnosisFailure::Reason::point_unreachable,
           fmt::format("{} {} at ({:.1f}, {:.1f}) mm: {}",
                       part.observation->kind().place,
@@ -29,7 +29,7 @@ DiagnosisFailure unreachable(const Session& session, const observation::Unreacha
                       model::explain(failure.reason))};
 }
 
-DiagnosisFailure impossible(const Session& session, const model::MachineProblem& problem) {
+DiagnosisFailure impossible(const ObservationSet& session, const model::MachineProblem& problem) {
   const std::string_view units = session.units_word();
   return {DiagnosisFailure::Reason::contradictory_settings,
           fmt::format("no machine near the stated one fits these {}: calibrating leads to {} = "
@@ -42,7 +42,7 @@ DiagnosisFailure impossible(const Session& session, const model::MachineProblem&
 }
 
 /// The largest of the settings' moves as it shows at the tool: a turn of the sheet at its edge.
-double move_mm(const Session& session, const Eigen::VectorXd& change) {
+double move_mm(const ObservationSet& session, const Eigen::VectorXd& change) {
   const double to_edge_mm = 0.5 * session.stated.bed.width_mm;
   double most = 0.0;
   for (std::size_t k = 0; k < session.settings.size(); ++k) {
@@ -55,7 +55,7 @@ double move_mm(const Session& session, const Eigen::VectorXd& change) {
 
 /// Settings moved to where the readings put them, no effect at work.
 tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
-  const Session& session = a.session;
+  const ObservationSet& session = a.session;
   State state = stated_state(session);
   Steps projected = a.options.steps;
   projected.project_settings = true;
@@ -105,7 +105,7 @@ void drop_invisible(const MarginalisedSystem& marginalised, Analysis& a) {
 }
 
 /// What is fitted is the member that gives its class the name: settings and sizes belong together.
-void speak_of_leaders(const LinearisedSystem& system,
+void speak_of_leaders(const RegressorSystem& system,
                       const ModelComparison& comparison,
                       Decision& decision) {
   for (int& k : decision.regressors) {
@@ -129,7 +129,7 @@ void speak_of_leaders(const LinearisedSystem& system,
 
 }  // namespace
 
-bool can_be_seen(const LinearisedSystem& system,
+bool can_be_seen(const RegressorSystem& system,
                  const MarginalisedSystem& marginalised,
                  const CauseId& cause) {
   double most = 0.0;
@@ -142,7 +142,7 @@ bool can_be_seen(const LinearisedSystem& system,
   return most >= kLeastReach;
 }
 
-Decision decide_for_leaders(const LinearisedSystem& system,
+Decision decide_for_leaders(const RegressorSystem& system,
                                    const ModelComparison& comparison,
                                    const std::vector<bool>& excluded,
                                    bool seen) {
@@ -192,7 +192,7 @@ tl::expected<void, DiagnosisFailure> linearise_anew(const std::vector<Refinement
 
 }  // namespace
 
-tl::expected<Analysis, DiagnosisFailure> analyse(Session session,
+tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
                                                  const DiagnosisOptions& options) {
   Analysis a;
   a.session = std::move(session);

@@ -15,12 +15,12 @@ namespace chaintrue::grid::diagnosis {
 
 /// Everything that the parts of an answer look at.
 struct Analysis {
-  Session session;
+  ObservationSet session;
   DiagnosisOptions options;
   bool settled = true;  ///< calibrating came to rest
   State state;          ///< settings about which the system is linear; no effect named is in it
   Candidates candidates;
-  LinearisedSystem system;
+  RegressorSystem system;
   ModelComparison comparison;
   NullDistribution null;
   double score = 0.0;          ///< of the strongest single effect, log Bayes factor against nothing
@@ -34,7 +34,7 @@ struct Analysis {
 };
 
 /// decide(), what is fitted being the member that gives its class the name.
-[[nodiscard]] Decision decide_for_leaders(const LinearisedSystem& system,
+[[nodiscard]] Decision decide_for_leaders(const RegressorSystem& system,
                                                  const ModelComparison& comparison,
                                                  const std::vector<bool>& excluded,
                                                  bool seen);
@@ -44,7 +44,7 @@ struct Analysis {
 void decide_for(bool seen, Analysis& analysis);
 
 /// Whether a cause could show at some size that it may have, the settings free.
-[[nodiscard]] bool can_be_seen(const LinearisedSystem& system,
+[[nodiscard]] bool can_be_seen(const RegressorSystem& system,
                                const MarginalisedSystem& marginalised,
                                const CauseId& cause);
 
@@ -52,7 +52,7 @@ void decide_for(bool seen, Analysis& analysis);
 void test_significance(Analysis& analysis);
 
 /// Fails in words where the machine cannot be where it was measured.
-[[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(Session session,
+[[nodiscard]] tl::expected<Analysis, DiagnosisFailure> analyse(ObservationSet session,
                                                                const DiagnosisOptions& options);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/diagnosis/as_delivered.hpp"
 
-#include "grid/diagnosis/session.hpp"
+#include "grid/diagnosis/observations.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
-Eigen::VectorXd as_delivered(const Session& session, const LinearisedSystem& stated) {
+Eigen::VectorXd as_delivered(const ObservationSet& session, const RegressorSystem& stated) {
   Eigen::VectorXd e = stated.e;
   for (const SystemUnit& unit : stated.units) {
     if (!unit.reads_chains) continue;
     const std::size_t number = unit.places.front().place;
-    const SessionPart& part = session.parts[session.places[number].part];
+    const ObservationPart& part = session.parts[session.places[number].part];
     const observation::Place& place = part.observation->places()[number - part.first_place];
     if (!place.commanded) continue;
     const Eigen::Vector2d beside(place.commanded->x_mm - place.mark.x_mm,
                                  place.commanded->y_mm - place.mark.y_mm);
-    e.segment<2>(unit.first_row) = unit.whitening * (stated.places[number].by_mark * beside);
+    e.segment<2>(unit.first_row) = unit.whitening * (stated.places[number].state.by_mark * beside);
   }
   return e;
 }

@@ -7,11 +7,11 @@
 
 #include <Eigen/Core>
 
-#include "grid/diagnosis/linearised_system.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 /// As `stated.e`, whitened; `stated` is the session's linearised where everything is as stated.
-[[nodiscard]] Eigen::VectorXd as_delivered(const Session& session, const LinearisedSystem& stated);
+[[nodiscard]] Eigen::VectorXd as_delivered(const ObservationSet& session, const RegressorSystem& stated);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -32,7 +32,7 @@ constexpr int kPasses = 3;
 
 /// Nothing, each cause alone at its best place, and what was found before.
 std::vector<std::vector<int>> hypotheses_of(const BeltsAnalysis& a) {
-  const LinearisedSystem& system = a.linear.system;
+  const RegressorSystem& system = a.linear.system;
   const std::vector<bool> none(system.units.size(), false);
   const MarginalisedSystem marginalised = marginalise(system, none, a.analysis.options.steps);
   const NoiseDensity noise(system.noise_dof, static_cast<Eigen::Index>(marginalised.kept.size()));

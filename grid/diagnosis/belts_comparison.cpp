@@ -39,7 +39,7 @@ Choice choice_of(Look look, std::size_t rows) {
 }
 
 /// Adds of each cause the places that explain most of `e`.
-void add_best(const LinearisedSystem& system,
+void add_best(const RegressorSystem& system,
               const Eigen::MatrixXd& g,
               const Eigen::VectorXd& e,
               std::set<int>& chosen) {
@@ -67,7 +67,7 @@ void add_best(const LinearisedSystem& system,
 
 /// The best of each cause's places, once the anchors have taken their share, and once one of what
 /// leads has taken its own.
-std::vector<int> columns_to_try(const LinearisedSystem& system, const MarginalisedSystem& space) {
+std::vector<int> columns_to_try(const RegressorSystem& system, const MarginalisedSystem& space) {
   std::set<int> chosen;
   const Eigen::MatrixXd all = space.g.dense();
   add_best(system, all, space.e, chosen);
@@ -212,7 +212,7 @@ class BeltCauseSearch {
         .regressors[static_cast<std::size_t>(equations_.columns[static_cast<std::size_t>(i)])];
   }
 
-  const LinearisedSystem& system_;
+  const RegressorSystem& system_;
   std::size_t number_;
   int discrepancy_ = -1;
   const MarginalisedSystem& space_;
@@ -237,7 +237,7 @@ void sort_and_sum(ModelComparison& comparison) {
 void compare_belts(const std::vector<std::vector<bool>>& sets, Look look, BeltsAnalysis& a) {
   ModelComparison& comparison = a.analysis.comparison;
   comparison = {};
-  const LinearisedSystem& system = a.linear.system;
+  const RegressorSystem& system = a.linear.system;
   for (const auto& set : sets)
     comparison.marginalised_systems.push_back(marginalise(system, set, a.analysis.options.steps));
   std::vector<std::pair<double, std::size_t>> best;

@@ -200,7 +200,7 @@ class Foretelling {
         to_come_(pattern_rows_of(next, a.sigma_mm)) {}
 
   void foretell(Alternative& h) const {
-    const LinearisedSystem& system = a_.linear.system;
+    const RegressorSystem& system = a_.linear.system;
     Eigen::VectorXd e = system.e(space_.kept);
     h.mean = Eigen::VectorXd::Zero(next_.by_anchor.rows());
     std::vector<Eigen::Index> free;

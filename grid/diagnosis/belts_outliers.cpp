@@ -26,7 +26,7 @@ class BeltOutlierSearch {
  public:
   BeltOutlierSearch(const BeltsSystem& system, const std::vector<int>& set)
       : system_(system), count_(system.checks.size()), left_(count_, Eigen::Matrix2d::Identity()) {
-    const LinearisedSystem& own = system.system;
+    const RegressorSystem& own = system.system;
     e_ = own.e;
     std::vector<int> free;
     for (const int k : set) {

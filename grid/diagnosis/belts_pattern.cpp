@@ -102,7 +102,7 @@ void integrate_pattern(BeltsAnalysis& a) {
   const std::vector<PatternRow> rows = pattern_rows(a, space.kept);
   const PatternNoise pattern =
       beside_pattern(pattern_covariance(rows, rows, kernel), space.root, decision.best_discrepancy);
-  LinearisedSystem& system = own.system;
+  RegressorSystem& system = own.system;
   const auto whiten = [&](auto&& columns) {
     Eigen::MatrixXd kept = columns(space.kept, Eigen::all);
     pattern.root.matrixL().solveInPlace(kept);

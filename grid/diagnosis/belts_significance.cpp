@@ -14,7 +14,7 @@ void test_significance_of_belts(BeltsAnalysis& a) {
   BeltsSystem about_anchors =
       system_of(a.belts, {a.alone, {}}, own.candidates.testable, a.sigma_mm);
   turn_to(a.suspects, a.sigma_mm, about_anchors);
-  const LinearisedSystem& system = about_anchors.system;
+  const RegressorSystem& system = about_anchors.system;
   const std::vector<bool>& bad =
       own.comparison.marginalised_systems[own.comparison.best().marginalised].outliers;
   const MarginalisedSystem marginalised = marginalise(system, bad, own.options.steps);

@@ -235,7 +235,7 @@ BeltsSystem system_of(const MeasuredBelts& belts,
   Columns columns(belts, state, result);
   for (const CauseId& cause : causes) columns.add(cause);
   columns.finish();
-  LinearisedSystem& system = result.system;
+  RegressorSystem& system = result.system;
   system.setting = Eigen::VectorXd::Zero(belts::kAnchorUnknowns);
   system.expected_change = system.setting;
   system.sigma = Eigen::VectorXd::Constant(belts::kAnchorUnknowns, kAnchorSigmaMm);
@@ -244,7 +244,7 @@ BeltsSystem system_of(const MeasuredBelts& belts,
   for (std::size_t u = 0; u < 2 * count; ++u) {
     SystemUnit unit;
     unit.first_row = static_cast<Eigen::Index>(u);
-    unit.sigma = sigma_mm;
+    unit.whitening = estimation::UnitWhitening::projected(Eigen::MatrixXd::Identity(1, 1), sigma_mm);
     system.units.push_back(std::move(unit));
     system.unit_of_row.push_back(static_cast<int>(u));
   }
@@ -262,7 +262,7 @@ void turn_to(const Suspects& suspects, double sigma_mm, BeltsSystem& result) {
     turn << along, Eigen::Vector2d(-along.y(), along.x());
     q = (q * turn).eval();
   }
-  LinearisedSystem& system = result.system;
+  RegressorSystem& system = result.system;
   system.e = checked(result.checks, result.residual_mm) / sigma_mm;
   system.by_setting = checked(result.checks, result.by_anchor) / sigma_mm;
   system.g = Eigen::MatrixXd(checked(result.checks, result.by_cause_mm) / sigma_mm);

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "grid/diagnosis/belts_beside.hpp"
-#include "grid/diagnosis/linearised_system.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -45,7 +45,7 @@ struct BeltsCandidates {
                                       const Eigen::MatrixXd& readings);
 
 struct BeltsSystem {
-  LinearisedSystem system;
+  RegressorSystem system;
   std::vector<Eigen::Matrix<double, 4, 2>> checks;  ///< Q_k, the first column u as above
   Eigen::VectorXd residual_mm;                      ///< 4 N, read less what the state makes of it
   Eigen::MatrixXd by_anchor;                        ///< 4 N x 5

@@ -24,7 +24,7 @@ struct Scouted {
 
 class Scout {
  public:
-  Scout(const LinearisedSystem& system,
+  Scout(const RegressorSystem& system,
         const NormalEquations& plain,
         const std::vector<std::vector<int>>& leading,
         const ModelCollector& collector)
@@ -86,7 +86,7 @@ class Scout {
            collector_.log_prior_of(set, discrepancy);
   }
 
-  const LinearisedSystem& system_;
+  const RegressorSystem& system_;
   const NormalEquations& plain_;
   const std::vector<std::vector<int>>& leading_;
   const ModelCollector& collector_;
@@ -97,7 +97,7 @@ class Scout {
 /// The sets beside one discrepancy, each weighed in full.
 class BesideSearch {
  public:
-  BesideSearch(const LinearisedSystem& system,
+  BesideSearch(const RegressorSystem& system,
                NormalEquations equations,
                int discrepancy,
                ModelCollector& collector)
@@ -155,7 +155,7 @@ class BesideSearch {
         .regressors[static_cast<std::size_t>(equations_.columns[static_cast<std::size_t>(i)])];
   }
 
-  const LinearisedSystem& system_;
+  const RegressorSystem& system_;
   NormalEquations equations_;
   int discrepancy_;
   ModelCollector& collector_;
@@ -166,7 +166,7 @@ class BesideSearch {
 /// Counts the places of each cause in a list that is sorted by score.
 class PlacesOfCauses {
  public:
-  PlacesOfCauses(const LinearisedSystem& system, int most) : system_(system), most_(most) {}
+  PlacesOfCauses(const RegressorSystem& system, int most) : system_(system), most_(most) {}
 
   /// Whether this one is among the first `most` of its cause, or ties with the last of these.
   [[nodiscard]] bool takes(int regressor, double score) {
@@ -186,13 +186,13 @@ class PlacesOfCauses {
     int count = 0;
     double last_score = 0.0;
   };
-  const LinearisedSystem& system_;
+  const RegressorSystem& system_;
   int most_;
   std::vector<Taken> taken_;
 };
 
 /// Of each cause its best places alone.
-std::vector<int> worth_trying(const LinearisedSystem& system, const Scouted& scouted) {
+std::vector<int> worth_trying(const RegressorSystem& system, const Scouted& scouted) {
   PlacesOfCauses places(system, 2);
   std::vector<int> result;
   for (const auto& [weight, k] : scouted.singles) {
@@ -203,7 +203,7 @@ std::vector<int> worth_trying(const LinearisedSystem& system, const Scouted& sco
 }
 
 /// Of each cause the places that fit best where nothing acts beside it, and all that lead.
-std::vector<int> columns_to_scout(const LinearisedSystem& system,
+std::vector<int> columns_to_scout(const RegressorSystem& system,
                                   const NormalEquations& plain,
                                   const std::vector<std::vector<int>>& leading) {
   PlacesOfCauses places(system, 4);
@@ -243,7 +243,7 @@ std::vector<int> worth_searching(std::vector<Scouted> scouted) {
 
 }  // namespace
 
-std::vector<double> search_beside_discrepancies(const LinearisedSystem& system,
+std::vector<double> search_beside_discrepancies(const RegressorSystem& system,
                                                 MarginalisedSystem& marginalised,
                                                 const ComparisonOptions& options,
                                                 const NormalEquations& plain,

@@ -17,7 +17,7 @@ namespace chaintrue::grid::diagnosis {
 /// the best sets of two and more of these, best first; `kernels`: those to try. Models go to the
 /// collector. Notes the traces in the marginalised system. Returns of each of `kernels` the largest
 /// weight that it was seen to have.
-std::vector<double> search_beside_discrepancies(const LinearisedSystem& system,
+std::vector<double> search_beside_discrepancies(const RegressorSystem& system,
                                                 MarginalisedSystem& marginalised,
                                                 const ComparisonOptions& options,
                                                 const NormalEquations& plain,

@@ -15,7 +15,7 @@ namespace {
 
 /// The most telling regressor of each cause: the longest, and the nearest to the data among those
 /// of a cause with places.
-std::vector<std::pair<CauseId, int>> leading_regressors(const LinearisedSystem& system,
+std::vector<std::pair<CauseId, int>> leading_regressors(const RegressorSystem& system,
                                                         const MarginalisedSystem& marginalised) {
   std::vector<std::pair<CauseId, int>> result;
   double best = -1.0;
@@ -69,7 +69,7 @@ struct Grouped {
 
 class Decider {
  public:
-  Decider(const LinearisedSystem& system,
+  Decider(const RegressorSystem& system,
           const ModelComparison& comparison,
           const std::vector<bool>& excluded,
           std::vector<CauseClass> classes)
@@ -346,7 +346,7 @@ class Decider {
     return 0.0;
   }
 
-  const LinearisedSystem& system_;
+  const RegressorSystem& system_;
   const ModelComparison& comparison_;
   const std::vector<bool>& excluded_;
   std::map<Key, Grouped> groups_;
@@ -356,7 +356,7 @@ class Decider {
 
 /// An orthonormal basis of what the settings can do. Distances hardly feel some of them, and what
 /// no setting does within reason does not count.
-Eigen::MatrixXd range_of_settings(const LinearisedSystem& system, const Eigen::MatrixXd& columns) {
+Eigen::MatrixXd range_of_settings(const RegressorSystem& system, const Eigen::MatrixXd& columns) {
   constexpr double kFelt = 1e-4;
   if (system.nuisances == 0) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
@@ -370,7 +370,7 @@ Eigen::MatrixXd range_of_settings(const LinearisedSystem& system, const Eigen::M
 
 }  // namespace
 
-std::vector<CauseClass> classes_of(const LinearisedSystem& system,
+std::vector<CauseClass> classes_of(const RegressorSystem& system,
                                    const MarginalisedSystem& marginalised) {
   // Free settings: what a class shares must not hang on how well the settings were stated.
   const Eigen::LLT<Eigen::MatrixXd> noise = nuisance_noise(system, marginalised.kept);
@@ -409,7 +409,7 @@ std::vector<CauseClass> classes_of(const LinearisedSystem& system,
   return classes;
 }
 
-Decision decide(const LinearisedSystem& system,
+Decision decide(const RegressorSystem& system,
                 const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
                 bool seen) {
@@ -421,7 +421,7 @@ Decision decide(const LinearisedSystem& system,
       classes_of(system, comparison.marginalised_systems[comparison.best().marginalised]));
 }
 
-Decision decide(const LinearisedSystem& system,
+Decision decide(const RegressorSystem& system,
                 const ModelComparison& comparison,
                 const std::vector<bool>& excluded,
                 bool seen,

@@ -15,7 +15,7 @@ namespace chaintrue::grid::diagnosis {
 /// Causes that these data cannot separate, however strong; the one that gives the class its name
 /// first: a cause in the machine before one on the paper.
 using CauseClass = std::vector<CauseId>;
-[[nodiscard]] std::vector<CauseClass> classes_of(const LinearisedSystem& system,
+[[nodiscard]] std::vector<CauseClass> classes_of(const RegressorSystem& system,
                                                  const MarginalisedSystem& marginalised);
 
 struct ClassProbability {
@@ -46,13 +46,13 @@ struct Decision {
 };
 
 /// `seen`: the strongest effect is beyond what noise does (family-wise).
-[[nodiscard]] Decision decide(const LinearisedSystem& system,
+[[nodiscard]] Decision decide(const RegressorSystem& system,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool seen);
 /// The same with the classes known: of the comparison's marginalised systems nothing but the points
 /// set aside is asked.
-[[nodiscard]] Decision decide(const LinearisedSystem& system,
+[[nodiscard]] Decision decide(const RegressorSystem& system,
                               const ModelComparison& comparison,
                               const std::vector<bool>& excluded,
                               bool seen,

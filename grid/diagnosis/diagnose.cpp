@@ -55,7 +55,7 @@ constexpr WorkStep kComparing{"the causes against each other", 1, kWorkSteps};
 constexpr WorkStep kLeavingOut{"the name without each reading", 2, kWorkSteps};
 constexpr WorkStep kPlanning{"what to measure next", 4, kWorkSteps};
 
-Observations observations_of(const Session& session) {
+Observations observations_of(const ObservationSet& session) {
   if (!session.has_distances()) return Observations::points;
   return session.reads_chains() ? Observations::both : Observations::distances;
 }
@@ -82,7 +82,7 @@ void state_input(const Measured& measured, Diagnosis& d) {
 
 tl::expected<Diagnosis, DiagnosisFailure> diagnose(const Measured& measured,
                                                    const DiagnosisOptions& options) {
-  auto session = make_session(measured);
+  auto session = observations_of(measured);
   if (!session) return tl::unexpected(session.error());
   if (const auto slip = suspected_slip(*session)) return tl::unexpected(*slip);
   tell(options.progress, kComparing);

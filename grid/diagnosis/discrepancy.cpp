@@ -115,7 +115,7 @@ struct PlacedUnit {
   const std::vector<DiscrepancyPlace>& places;
 };
 
-std::vector<DiscrepancyPlace> places_of(const LinearisedSystem& system) {
+std::vector<DiscrepancyPlace> places_of(const RegressorSystem& system) {
   std::vector<DiscrepancyPlace> places;
   for (const SystemPlace& place : system.places) places.push_back(discrepancy_place(place));
   return places;
@@ -125,10 +125,11 @@ Eigen::Matrix2d between_units(const DiscrepancyKernel& kernel,
                               const PlacedUnit& a,
                               const PlacedUnit& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  for (const SeenPlace& i : a.unit.places) {
-    for (const SeenPlace& j : b.unit.places) {
-      sum += i.by_chain * discrepancy_block(kernel, a.places[i.place], b.places[j.place]) *
-             j.by_chain.transpose();
+  for (const observation::PlaceColumns& i : a.unit.places) {
+    for (const observation::PlaceColumns& j : b.unit.places) {
+      sum.topLeftCorner(a.unit.rows, b.unit.rows) +=
+          i.by_chain * discrepancy_block(kernel, a.places[i.place], b.places[j.place]) *
+          j.by_chain.transpose();
     }
   }
   return sum;
@@ -176,7 +177,7 @@ double log_share_of_discrepancy(int discrepancy) {
 }
 
 DiscrepancyPlace discrepancy_place(const SystemPlace& place) {
-  const model::Pose& pose = place.reading.pose;
+  const model::Pose& pose = place.state.reading.pose;
   return {{place.mark.x_mm,
            place.mark.y_mm,
            pose.lengths.left_mm,
@@ -185,7 +186,7 @@ DiscrepancyPlace discrepancy_place(const SystemPlace& place) {
            pose.chains.right.angle_rad,
            pose.chains.left.tension_at_sprocket_n,
            pose.chains.right.tension_at_sprocket_n},
-          place.by_mark,
+          place.state.by_mark,
           place.bed};
 }
 
@@ -251,8 +252,8 @@ Eigen::Matrix2d discrepancy_block(const DiscrepancyKernel& kernel,
   return sum / static_cast<double>(kernel.fields.size());
 }
 
-Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& to,
-                                       const LinearisedSystem& from,
+Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
+                                       const RegressorSystem& from,
                                        const std::vector<Eigen::Index>& kept,
                                        const DiscrepancyKernel& kernel) {
   const std::vector<DiscrepancyPlace> there = places_of(to);
@@ -268,7 +269,7 @@ Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& to,
   return c;
 }
 
-Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& system,
+Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
                                        const std::vector<Eigen::Index>& kept,
                                        const DiscrepancyKernel& kernel) {
   const std::vector<DiscrepancyPlace> places = places_of(system);

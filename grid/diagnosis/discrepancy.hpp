@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "grid/diagnosis/constants.hpp"
-#include "grid/diagnosis/linearised_system.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -120,13 +120,13 @@ struct FieldArgument {
 
 /// Covariance of all whitened rows of `to` with these of `from`, for s = 1: rows(to) x kept. Rows
 /// that see no place stay 0.
-[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& to,
-                                                     const LinearisedSystem& from,
+[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& to,
+                                                     const RegressorSystem& from,
                                                      const std::vector<Eigen::Index>& kept,
                                                      const DiscrepancyKernel& kernel);
 
 /// Covariance of these whitened rows, for s = 1.
-[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const LinearisedSystem& system,
+[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(const RegressorSystem& system,
                                                      const std::vector<Eigen::Index>& kept,
                                                      const DiscrepancyKernel& kernel);
 

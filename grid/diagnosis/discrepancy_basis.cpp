@@ -58,7 +58,7 @@ struct Components {
   Eigen::MatrixXd first, second;  ///< N x r
 };
 
-Components components_of(const LinearisedSystem& system,
+Components components_of(const RegressorSystem& system,
                          const MarginalisedSystem& marginalised,
                          const DiscrepancyField& field,
                          const std::vector<DiscrepancyPlace>& places) {
@@ -70,8 +70,8 @@ Components components_of(const LinearisedSystem& system,
                     Eigen::MatrixXd::Zero(n, factor.cols())};
   for (const auto& [row, number] : units_in(system, marginalised.kept)) {
     const SystemUnit& unit = system.units[number];
-    for (const SeenPlace& seen : unit.places) {
-      const Eigen::Matrix2d entry = seen.by_chain * field_entry(field, places[seen.place]);
+    for (const observation::PlaceColumns& seen : unit.places) {
+      const auto entry = (seen.by_chain * field_entry(field, places[seen.place])).eval();
       const auto at = static_cast<Eigen::Index>(seen.place);
       for (Eigen::Index k = 0; k < unit.rows; ++k) {
         result.first.row(row + k) += entry(k, 0) * factor.row(at);
@@ -114,7 +114,7 @@ Eigen::MatrixXd gram(const Block& a, const Block& b) {
 /// Fields that several kernels share.
 class DiscrepancyBasis::Fields {
  public:
-  Fields(const LinearisedSystem& system, const MarginalisedSystem& marginalised)
+  Fields(const RegressorSystem& system, const MarginalisedSystem& marginalised)
       : system_(system), marginalised_(marginalised) {
     for (const SystemPlace& place : system.places) places_.push_back(discrepancy_place(place));
   }
@@ -150,7 +150,7 @@ class DiscrepancyBasis::Fields {
   }
 
  private:
-  const LinearisedSystem& system_;
+  const RegressorSystem& system_;
   const MarginalisedSystem& marginalised_;
   std::vector<DiscrepancyPlace> places_;
   std::deque<Products> all_;  ///< blocks point into it
@@ -161,7 +161,7 @@ struct DiscrepancyBasis::Kernel {
   Eigen::Tridiagonalization<Eigen::MatrixXd> tridiagonal;
 };
 
-DiscrepancyBasis::DiscrepancyBasis(const LinearisedSystem& system,
+DiscrepancyBasis::DiscrepancyBasis(const RegressorSystem& system,
                                    MarginalisedSystem& marginalised,
                                    const std::vector<std::size_t>& kernels)
     : marginalised_(marginalised),

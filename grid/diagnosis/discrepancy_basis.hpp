@@ -29,7 +29,7 @@ class DiscrepancyBasis {
  public:
   /// Of these kernels (numbers in discrepancy_kernels()). Notes their traces in the marginalised
   /// system. Both references must outlive this.
-  DiscrepancyBasis(const LinearisedSystem& system,
+  DiscrepancyBasis(const RegressorSystem& system,
                    MarginalisedSystem& marginalised,
                    const std::vector<std::size_t>& kernels);
   ~DiscrepancyBasis();

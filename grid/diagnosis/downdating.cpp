@@ -29,7 +29,7 @@ using FactorisationKey = std::pair<std::size_t, int>;  ///< marginalised system,
 /// The models that may lead once some points are gone: the best, and in each marginalised system of
 /// these nothing, and every cause alone at its best place.
 std::map<FactorisationKey, std::vector<CandidateModel>> followed(
-    const LinearisedSystem& system, const ModelComparison& comparison) {
+    const RegressorSystem& system, const ModelComparison& comparison) {
   std::map<FactorisationKey, double> share;
   for (const CandidateModel& model : comparison.models) {
     share[{model.marginalised, model.discrepancy}] += comparison.probability(model);
@@ -84,7 +84,7 @@ void clear_unseen_columns(const NormalEquations& before, NormalEquations& equati
 }
 
 /// Rows of these units in a marginalised system.
-std::vector<Eigen::Index> rows_of(const LinearisedSystem& system,
+std::vector<Eigen::Index> rows_of(const RegressorSystem& system,
                                   const MarginalisedSystem& marginalised,
                                   const std::vector<std::size_t>& units) {
   std::vector<Eigen::Index> result;

@@ -48,8 +48,8 @@ std::array<model::MarkPoint, 3> corner(const MarkedArea& area, bool right, bool 
 
 /// The corners of the marked area as linear systems, those that the machine reaches.
 struct Corner {
-  Session session;
-  LinearisedSystem system;
+  ObservationSet session;
+  RegressorSystem system;
 };
 
 std::vector<Corner> corners_of(const Analysis& a) {
@@ -59,7 +59,7 @@ std::vector<Corner> corners_of(const Analysis& a) {
   for (const bool right : {false, true}) {
     for (const bool top : {false, true}) {
       const auto marks = corner(area, right, top);
-      Session session = session_at(a, {marks.begin(), marks.end()});
+      ObservationSet session = session_at(a, {marks.begin(), marks.end()});
       if (session.places.size() != marks.size()) continue;
       auto system = linearise(session, a.state, a.options.steps);
       if (system) result.push_back({std::move(session), std::move(*system)});

@@ -43,24 +43,24 @@ Solution solve(const Unknowns& unknowns,
 }
 
 /// From what is left in the rows. Of the kept ones (1 + s^2 K)^-1 says it: left - s^2 K w = w.
-void take_discrepancy_out(const LinearisedSystem& system,
+void take_discrepancy_out(const RegressorSystem& system,
                           const MarginalisedSystem& marginalised,
                           Estimate& estimate) {
   estimate.left_beside_discrepancy(marginalised.kept) = estimate.discrepancy_weights;
   for (std::size_t u = 0; u < system.units.size(); ++u) {
     if (!marginalised.outliers[u]) continue;
     const SystemUnit& unit = system.units[u];
-    for (const SeenPlace& seen : unit.places) {
+    for (const observation::PlaceColumns& seen : unit.places) {
       const DiscrepancyPlace place = discrepancy_place(system.places[seen.place]);
       estimate.left_beside_discrepancy.segment(unit.first_row, unit.rows) -=
-          (seen.by_chain * discrepancy_at(system, marginalised, estimate, place)).head(unit.rows);
+          seen.by_chain * discrepancy_at(system, marginalised, estimate, place);
     }
   }
 }
 
 }  // namespace
 
-Estimate estimate(const LinearisedSystem& system,
+Estimate estimate(const RegressorSystem& system,
                   const MarginalisedSystem& marginalised,
                   const std::vector<int>& regressors,
                   int discrepancy) {
@@ -70,7 +70,7 @@ Estimate estimate(const LinearisedSystem& system,
                   discrepancy_noise(system, marginalised, discrepancy).get());
 }
 
-std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const LinearisedSystem& system,
+std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const RegressorSystem& system,
                                                           const MarginalisedSystem& marginalised,
                                                           int discrepancy) {
   if (discrepancy < 0) return nullptr;
@@ -84,7 +84,7 @@ std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(const LinearisedSystem
   return noise;
 }
 
-Estimate estimate(const LinearisedSystem& system,
+Estimate estimate(const RegressorSystem& system,
                   const MarginalisedSystem& marginalised,
                   const std::vector<int>& regressors,
                   const DiscrepancyNoise* noise) {
@@ -175,7 +175,7 @@ Estimate estimate(const LinearisedSystem& system,
   return result;
 }
 
-Eigen::Vector2d discrepancy_at(const LinearisedSystem& system,
+Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
                                const MarginalisedSystem& marginalised,
                                const Estimate& estimate,
                                const DiscrepancyPlace& place) {
@@ -184,24 +184,24 @@ Eigen::Vector2d discrepancy_at(const LinearisedSystem& system,
   for (const auto& [at, number] : units_in(system, marginalised.kept)) {
     const SystemUnit& unit = system.units[number];
     const auto weights = estimate.discrepancy_weights.segment(at, unit.rows);
-    for (const SeenPlace& seen : unit.places) {
+    for (const observation::PlaceColumns& seen : unit.places) {
       mm += discrepancy_block(estimate.discrepancy.kernel,
                               place,
                               discrepancy_place(system.places[seen.place])) *
-            seen.by_chain.topRows(unit.rows).transpose() * weights;
+            seen.by_chain.transpose() * weights;
     }
   }
   return estimate.discrepancy.sigma_mm * estimate.discrepancy.sigma_mm * mm;
 }
 
-Eigen::VectorXd left_of_machine(const LinearisedSystem& system,
+Eigen::VectorXd left_of_machine(const RegressorSystem& system,
                                 const Estimate& estimate,
                                 const Eigen::VectorXd& left) {
   if (system.nuisances == 0) return left;
   return left + nuisance_columns(system) * estimate.setting_change.tail(system.nuisances);
 }
 
-Eigen::Vector2d error_of_unit(const LinearisedSystem& system,
+Eigen::Vector2d error_of_unit(const RegressorSystem& system,
                               const Eigen::VectorXd& whitened,
                               std::size_t unit) {
   const SystemUnit& own = system.units[unit];
@@ -209,23 +209,23 @@ Eigen::Vector2d error_of_unit(const LinearisedSystem& system,
   return own.reads_chains ? tool_shift(system.places[own.places.front().place], mm) : mm;
 }
 
-Eigen::Matrix2d noise_of_unit_mm2(const LinearisedSystem& system, std::size_t unit) {
+Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit) {
   const SystemUnit& own = system.units[unit];
   Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();
   if (!own.reads_chains) {
     const Eigen::RowVectorXd nuisance =
         nuisance_columns(system).row(own.first_row) *
         system.sigma.tail(system.nuisances).asDiagonal();
-    noise(0, 0) = std::pow(own.sigma, 2) * (1.0 + nuisance.squaredNorm());
+    noise(0, 0) = std::pow(own.sigma(), 2) * (1.0 + nuisance.squaredNorm());
     return noise;
   }
   const Eigen::Matrix2d to_tool =
-      system.places[own.places.front().place].by_mark.inverse() * own.whitening.inverse();
+      system.places[own.places.front().place].state.by_mark.inverse() * own.whitening.inverse();
   return to_tool * to_tool.transpose();
 }
 
 Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm) {
-  return place.by_mark.inverse() * chain_mm;
+  return place.state.by_mark.inverse() * chain_mm;
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -33,7 +33,7 @@ struct Estimate {
 
 /// `regressors` and `discrepancy` as the model has them. A coefficient that would leave its bounds
 /// stays at the bound.
-[[nodiscard]] Estimate estimate(const LinearisedSystem& system,
+[[nodiscard]] Estimate estimate(const RegressorSystem& system,
                                 const MarginalisedSystem& marginalised,
                                 const std::vector<int>& regressors,
                                 int discrepancy);
@@ -45,31 +45,31 @@ struct DiscrepancyNoise {
 };
 /// Null for no discrepancy.
 [[nodiscard]] std::shared_ptr<const DiscrepancyNoise> discrepancy_noise(
-    const LinearisedSystem& system, const MarginalisedSystem& marginalised, int discrepancy);
-[[nodiscard]] Estimate estimate(const LinearisedSystem& system,
+    const RegressorSystem& system, const MarginalisedSystem& marginalised, int discrepancy);
+[[nodiscard]] Estimate estimate(const RegressorSystem& system,
                                 const MarginalisedSystem& marginalised,
                                 const std::vector<int>& regressors,
                                 const DiscrepancyNoise* noise);
 
 /// What the model discrepancy adds to either chain at a place [mm]; zero where the estimate has
 /// none.
-[[nodiscard]] Eigen::Vector2d discrepancy_at(const LinearisedSystem& system,
+[[nodiscard]] Eigen::Vector2d discrepancy_at(const RegressorSystem& system,
                                              const MarginalisedSystem& marginalised,
                                              const Estimate& estimate,
                                              const DiscrepancyPlace& place);
 
 /// `left` with what the nuisances took put back: what the machine leaves. For points `left` itself.
-[[nodiscard]] Eigen::VectorXd left_of_machine(const LinearisedSystem& system,
+[[nodiscard]] Eigen::VectorXd left_of_machine(const RegressorSystem& system,
                                               const Estimate& estimate,
                                               const Eigen::VectorXd& left);
 
 /// What a person would see of a unit's whitened residual, mm: a shift of the tool where chains were
 /// read; of a distance how much longer it was read, and nothing.
-[[nodiscard]] Eigen::Vector2d error_of_unit(const LinearisedSystem& system,
+[[nodiscard]] Eigen::Vector2d error_of_unit(const RegressorSystem& system,
                                             const Eigen::VectorXd& whitened,
                                             std::size_t unit);
 /// The covariance of that which noise as stated makes.
-[[nodiscard]] Eigen::Matrix2d noise_of_unit_mm2(const LinearisedSystem& system, std::size_t unit);
+[[nodiscard]] Eigen::Matrix2d noise_of_unit_mm2(const RegressorSystem& system, std::size_t unit);
 
 /// A chain residual as a shift of the tool [mm]: where it truly was less where the model has it.
 [[nodiscard]] Eigen::Vector2d tool_shift(const SystemPlace& place, const Eigen::Vector2d& chain_mm);

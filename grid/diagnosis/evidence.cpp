@@ -69,7 +69,7 @@ double log_price_of_outlier(Eigen::Index rows) {
              std::log(2.0 * std::numbers::pi * kOutlierSpread * kOutlierSpread);
 }
 
-double log_price_of_outliers(const LinearisedSystem& system, const std::vector<bool>& outliers) {
+double log_price_of_outliers(const RegressorSystem& system, const std::vector<bool>& outliers) {
   std::array<double, 2> set_aside{};
   for (std::size_t u = 0; u < outliers.size(); ++u) {
     if (outliers[u]) set_aside[static_cast<std::size_t>(system.units[u].rows - 1)] += 1.0;
@@ -77,7 +77,7 @@ double log_price_of_outliers(const LinearisedSystem& system, const std::vector<b
   return set_aside[0] * log_price_of_outlier(1) + set_aside[1] * log_price_of_outlier(2);
 }
 
-MarginalisedSystem marginalise(const LinearisedSystem& system,
+MarginalisedSystem marginalise(const RegressorSystem& system,
                                const std::vector<bool>& outliers,
                                const Steps& steps) {
   MarginalisedSystem marginalised;
@@ -103,7 +103,7 @@ MarginalisedSystem marginalise(const LinearisedSystem& system,
   return marginalised;
 }
 
-Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const LinearisedSystem& system,
+Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const RegressorSystem& system,
                                            const std::vector<Eigen::Index>& kept) {
   if (system.nuisances == 0) return {};
   const Eigen::MatrixXd scaled =
@@ -113,7 +113,7 @@ Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const LinearisedSystem& system,
   return Eigen::LLT<Eigen::MatrixXd>(covariance);
 }
 
-double square_in_noise(const LinearisedSystem& system,
+double square_in_noise(const RegressorSystem& system,
                        const std::vector<Eigen::Index>& kept,
                        const Eigen::VectorXd& column) {
   Eigen::VectorXd own = column(kept);
@@ -121,7 +121,7 @@ double square_in_noise(const LinearisedSystem& system,
   return own.squaredNorm();
 }
 
-double length_in_noise(const LinearisedSystem& system,
+double length_in_noise(const RegressorSystem& system,
                        const std::vector<Eigen::Index>& kept,
                        const Eigen::VectorXd& column) {
   return std::sqrt(square_in_noise(system, kept, column));

@@ -4,7 +4,7 @@
 /// their sizes, the settings and the noise.
 ///
 /// Notation
-///   e, g_k   whitened rows (linearised_system.hpp), those of points set aside taken out
+///   e, g_k   whitened rows (regressor_system.hpp), those of points set aside taken out
 ///   N        how many rows are kept
 ///   V        I + A diag(sigma^2) A': their covariance with the settings unknown but for what is
 ///            stated, in units of the noise's square.  e <- V^-1/2 (e - A (stated - value))
@@ -68,20 +68,20 @@ struct MarginalisedSystem {
 /// Prior and density of one unit of so many rows set aside, as a natural logarithm.
 [[nodiscard]] double log_price_of_outlier(Eigen::Index rows);
 /// Of all these units.
-[[nodiscard]] double log_price_of_outliers(const LinearisedSystem& system,
+[[nodiscard]] double log_price_of_outliers(const RegressorSystem& system,
                                            const std::vector<bool>& outliers);
-[[nodiscard]] MarginalisedSystem marginalise(const LinearisedSystem& system,
+[[nodiscard]] MarginalisedSystem marginalise(const RegressorSystem& system,
                                              const std::vector<bool>& outliers,
                                              const Steps& steps);
 /// Square root of the kept rows' covariance with the nuisances unknown but for their sigmas: the
 /// noise as a person sees it. Empty where there are none.
-[[nodiscard]] Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const LinearisedSystem& system,
+[[nodiscard]] Eigen::LLT<Eigen::MatrixXd> nuisance_noise(const RegressorSystem& system,
                                                          const std::vector<Eigen::Index>& kept);
 /// Square, and length, of a column's kept rows in units of that noise.
-[[nodiscard]] double square_in_noise(const LinearisedSystem& system,
+[[nodiscard]] double square_in_noise(const RegressorSystem& system,
                                      const std::vector<Eigen::Index>& kept,
                                      const Eigen::VectorXd& column);
-[[nodiscard]] double length_in_noise(const LinearisedSystem& system,
+[[nodiscard]] double length_in_noise(const RegressorSystem& system,
                                      const std::vector<Eigen::Index>& kept,
                                      const Eigen::VectorXd& column);
 /// R^-1 of a column of all rows.

@@ -24,7 +24,7 @@ bool hangs_on_visits(const Analysis& a) {
 }
 
 /// Places over the rectangle that the marks span, in the middle of cells of equal size.
-Session over_the_area(const Analysis& a) {
+ObservationSet over_the_area(const Analysis& a) {
   const MarkedArea area = marked_area(a.session);
   const auto between = [](double low, double high, int i, int n) {
     return low + (high - low) * (i + 0.5) / n;
@@ -40,7 +40,7 @@ Session over_the_area(const Analysis& a) {
 }
 
 /// Drop and doubt of the tool's, or a distance's, error over some units.
-ExpectedGain over_units(const LinearisedSystem& there,
+ExpectedGain over_units(const RegressorSystem& there,
                         const Eigen::VectorXd& moved,
                         const Eigen::MatrixXd& design,
                         const Eigen::MatrixXd& covariance) {
@@ -50,13 +50,13 @@ ExpectedGain over_units(const LinearisedSystem& there,
     const Eigen::MatrixXd by_unknown = design.middleRows(unit.first_row, unit.rows);
     if (unit.reads_chains) {
       const Eigen::Matrix2d to_tool =
-          there.places[unit.places.front().place].by_mark.inverse() * unit.whitening.inverse();
+          there.places[unit.places.front().place].state.by_mark.inverse() * unit.whitening.inverse();
       const Eigen::MatrixXd tool = to_tool * by_unknown;
       drop += (to_tool * moved.segment<2>(unit.first_row)).squaredNorm();
       doubt += (tool * covariance * tool.transpose()).trace();
     } else {
       drop += unit.unwhitened(moved).squaredNorm();
-      doubt += std::pow(unit.sigma, 2) *
+      doubt += std::pow(unit.sigma(), 2) *
                by_unknown.row(0).dot(covariance * by_unknown.row(0).transpose());
     }
   }
@@ -92,7 +92,7 @@ MarginalisedSystem without_slips(const Analysis& a, const MarginalisedSystem& ma
 
 ExpectedGain expected_gain(const Analysis& a) {
   if (!a.session.reads_chains()) return gain_of_distances(a);
-  const Session area = hangs_on_visits(a) ? a.session : over_the_area(a);
+  const ObservationSet area = hangs_on_visits(a) ? a.session : over_the_area(a);
   const auto there = linearise(area, a.state, a.options.steps);
   if (!there || area.units.empty()) return {};
   const std::vector<int>& causes = a.decision.regressors;

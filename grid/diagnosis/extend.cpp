@@ -8,7 +8,7 @@
 namespace chaintrue::grid::diagnosis {
 
 void extend(const Analysis& a, Diagnosis& diagnosis) {
-  const Session& session = a.session;
+  const ObservationSet& session = a.session;
   const bool scale_read =
       std::any_of(session.readings().begin(), session.readings().end(), [](const ExtraReading& r) {
         return r.what == "link_pitch_mm" || r.what == "tape_error_mm_per_m";

@@ -304,7 +304,7 @@ std::vector<Bound> bounds(const Analysis& a, std::vector<NotTestable>& not_testa
 }
 
 std::vector<CalibratedSetting> settings_found(const Analysis& a) {
-  const Session& session = a.session;
+  const ObservationSet& session = a.session;
   std::vector<CalibratedSetting> result;
   for (std::size_t k = 0; k < session.settings.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
@@ -328,7 +328,7 @@ std::vector<CalibratedSetting> settings_found(const Analysis& a) {
 namespace {
 
 /// What all others together know of a unit of one row leaves it as far off as this.
-Outlier outlying_distance(const Analysis& a, const SessionUnit& own, const SystemUnit& unit) {
+Outlier outlying_distance(const Analysis& a, const NumberedUnit& own, const SystemUnit& unit) {
   const Eigen::Index row = unit.first_row;
   // All that the others know of its holes is in the prediction, with what they leave open.
   const Eigen::RowVectorXd by_setting = a.system.by_setting.row(row);
@@ -338,12 +338,12 @@ Outlier outlying_distance(const Analysis& a, const SessionUnit& own, const Syste
   Outlier outlier;
   outlier.of = Observations::distances;
   outlier.index = own.index;
-  outlier.off_mm = off * unit.sigma;
+  outlier.off_mm = off * unit.sigma();
   outlier.distance = std::abs(off) / std::sqrt(variance);
   return outlier;
 }
 
-Outlier outlying_point(const Analysis& a, const SessionUnit& own, const SystemUnit& unit) {
+Outlier outlying_point(const Analysis& a, const NumberedUnit& own, const SystemUnit& unit) {
   const Eigen::Vector2d chains = unit.unwhitened(a.estimate.left_beside_discrepancy);
   Outlier outlier;
   outlier.index = own.index;

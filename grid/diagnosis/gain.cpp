@@ -41,7 +41,7 @@ std::vector<std::size_t> border(const Analysis& a, bool of_the_bed) {
   Extent y;
   const auto counts = [&](const SystemUnit& unit) { return unit.reads_chains == of_the_bed; };
   for (const SystemUnit& unit : a.system.units) {
-    for (const SeenPlace& seen : unit.places) {
+    for (const observation::PlaceColumns& seen : unit.places) {
       if (!counts(unit)) continue;
       x.take(a.system.places[seen.place].mark.x_mm);
       y.take(a.system.places[seen.place].mark.y_mm);
@@ -51,7 +51,7 @@ std::vector<std::size_t> border(const Analysis& a, bool of_the_bed) {
   for (std::size_t u = 0; u < a.system.units.size(); ++u) {
     const SystemUnit& unit = a.system.units[u];
     const bool outside =
-        std::any_of(unit.places.begin(), unit.places.end(), [&](const SeenPlace& seen) {
+        std::any_of(unit.places.begin(), unit.places.end(), [&](const observation::PlaceColumns& seen) {
           const model::MarkPoint& mark = a.system.places[seen.place].mark;
           return std::max(x.share(mark.x_mm), y.share(mark.y_mm)) > kBorderShare;
         });
@@ -88,7 +88,7 @@ struct Delivered {
 
 Delivered delivered(const Analysis& a, const std::vector<std::size_t>& units) {
   Delivered result;
-  const Session& session = a.session;
+  const ObservationSet& session = a.session;
   const auto stated = linearise(session, stated_state(session), {});
   if (!stated) return result;
   constexpr auto kOfMachine = static_cast<Eigen::Index>(model::kMachineSettings.size());
@@ -152,7 +152,7 @@ Extension extension_of(const Analysis& a, const Errors& errors) {
   return {&errors.calibrated, &errors.surface_only, false, true};
 }
 
-std::string scheme_of(const Session& session, const HeldOutBlocks& blocks, bool naming_repeated) {
+std::string scheme_of(const ObservationSet& session, const HeldOutBlocks& blocks, bool naming_repeated) {
   return fmt::format(
       "{}, each held out in turn, {}",
       blocks.of_the_bed ? fmt::format("{} blocks of the bed", blocks.units.size())

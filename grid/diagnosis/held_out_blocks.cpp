@@ -9,12 +9,12 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 /// Blocks of the bed over all marks at which chains were read; none where they are too few.
-HeldOutBlocks blocks_of_the_bed(const Session& session) {
+HeldOutBlocks blocks_of_the_bed(const ObservationSet& session) {
   std::vector<LengthPoint> points;
   std::vector<std::size_t> units;
   for (const auto& [part, readings] : parts_of<observation::ChainLengthReadings>(session)) {
     for (std::size_t i = 0; i < readings->places().size(); ++i) {
-      const SessionPlace& place = session.places[part->first_place + i];
+      const NumberedPlace& place = session.places[part->first_place + i];
       points.push_back({place.index, place.mark, place.lengths});
       units.push_back(part->first_unit + i);
     }
@@ -29,7 +29,7 @@ HeldOutBlocks blocks_of_the_bed(const Session& session) {
 }
 
 /// Each hole with all distances that end there; none where too few distances would be left.
-HeldOutBlocks blocks_by_hole(const Session& session) {
+HeldOutBlocks blocks_by_hole(const ObservationSet& session) {
   HeldOutBlocks result;
   for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
     const MeasuredHoles& set = tape->set();
@@ -51,7 +51,7 @@ HeldOutBlocks blocks_by_hole(const Session& session) {
 
 }  // namespace
 
-HeldOutBlocks held_out_blocks(const Session& session) {
+HeldOutBlocks held_out_blocks(const ObservationSet& session) {
   constexpr std::size_t kFewestBlocks = 3;
   for (const auto& blocks : {blocks_of_the_bed(session), blocks_by_hole(session)}) {
     if (blocks.units.size() >= kFewestBlocks) return blocks;

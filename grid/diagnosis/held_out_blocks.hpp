@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "grid/diagnosis/session.hpp"
+#include "grid/diagnosis/observations.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -17,6 +17,6 @@ struct HeldOutBlocks {
 };
 
 /// What is held out tells of the tool where chains were read at marks enough, else of distances.
-[[nodiscard]] HeldOutBlocks held_out_blocks(const Session& session);
+[[nodiscard]] HeldOutBlocks held_out_blocks(const ObservationSet& session);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -47,14 +47,14 @@ struct Coordinate {
 };
 
 constexpr Coordinate kCoordinates[] = {
-    {"angle_left", [](const SystemPlace& s) { return s.reading.pose.chains.left.angle_rad; }},
-    {"angle_right", [](const SystemPlace& s) { return s.reading.pose.chains.right.angle_rad; }},
-    {"length_left", [](const SystemPlace& s) { return s.reading.pose.lengths.left_mm; }},
-    {"length_right", [](const SystemPlace& s) { return s.reading.pose.lengths.right_mm; }},
+    {"angle_left", [](const SystemPlace& s) { return s.state.reading.pose.chains.left.angle_rad; }},
+    {"angle_right", [](const SystemPlace& s) { return s.state.reading.pose.chains.right.angle_rad; }},
+    {"length_left", [](const SystemPlace& s) { return s.state.reading.pose.lengths.left_mm; }},
+    {"length_right", [](const SystemPlace& s) { return s.state.reading.pose.lengths.right_mm; }},
     {"tension_left",
-     [](const SystemPlace& s) { return s.reading.pose.chains.left.tension_at_sprocket_n; }},
+     [](const SystemPlace& s) { return s.state.reading.pose.chains.left.tension_at_sprocket_n; }},
     {"tension_right",
-     [](const SystemPlace& s) { return s.reading.pose.chains.right.tension_at_sprocket_n; }},
+     [](const SystemPlace& s) { return s.state.reading.pose.chains.right.tension_at_sprocket_n; }},
     {"x", [](const SystemPlace& p) { return p.mark.x_mm; }},
     {"y", [](const SystemPlace& p) { return p.mark.y_mm; }},
     {"order", [](const SystemPlace& p) { return static_cast<double>(p.order); }},

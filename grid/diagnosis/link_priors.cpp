@@ -22,7 +22,7 @@ double log_strength_density(double signal_to_noise) {
 
 }  // namespace
 
-void share_out_links(const MarginalisedSystem& marginalised, LinearisedSystem& system) {
+void share_out_links(const MarginalisedSystem& marginalised, RegressorSystem& system) {
   std::size_t first = 0;
   while (first < system.regressors.size()) {
     std::size_t last = first;

@@ -11,6 +11,6 @@ namespace chaintrue::grid::diagnosis {
 /// their odds. A whole number leaves no size free whose prior could say how strong causes usually
 /// are, so the visits carry it: density of the strength at each, as for any other cause.
 /// `marginalised` sets no point aside.
-void share_out_links(const MarginalisedSystem& marginalised, LinearisedSystem& system);
+void share_out_links(const MarginalisedSystem& marginalised, RegressorSystem& system);
 
 }  // namespace chaintrue::grid::diagnosis

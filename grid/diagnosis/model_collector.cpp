@@ -17,7 +17,7 @@ bool compatible(const Regressor& a, const Regressor& b) {
   return a.cause.side != b.cause.side && !joint(a.cause.side) && !joint(b.cause.side);
 }
 
-ModelCollector::ModelCollector(const LinearisedSystem& system,
+ModelCollector::ModelCollector(const RegressorSystem& system,
                                const MarginalisedSystem& marginalised,
                                std::size_t number,
                                const ComparisonOptions& options)

@@ -27,7 +27,7 @@ struct WeighedSet {
 class ModelCollector {
  public:
   /// `number` is the marginalised system's in its comparison; the references must outlive this.
-  ModelCollector(const LinearisedSystem& system,
+  ModelCollector(const RegressorSystem& system,
                  const MarginalisedSystem& marginalised,
                  std::size_t number,
                  const ComparisonOptions& options);
@@ -43,7 +43,7 @@ class ModelCollector {
   [[nodiscard]] std::vector<CandidateModel> take();
 
  private:
-  const LinearisedSystem& system_;
+  const RegressorSystem& system_;
   const MarginalisedSystem& marginalised_;
   std::size_t number_;
   const ComparisonOptions& options_;

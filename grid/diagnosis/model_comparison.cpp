@@ -29,7 +29,7 @@ double prior_of_count(std::size_t causes, bool beside_discrepancy) {
 }
 
 /// Nothing, and each cause alone at its best place.
-std::vector<std::vector<int>> first_hypotheses(const LinearisedSystem& system,
+std::vector<std::vector<int>> first_hypotheses(const RegressorSystem& system,
                                                const std::vector<bool>& excluded,
                                                const ComparisonOptions& options) {
   const MarginalisedSystem marginalised = marginalise(system, excluded, options.steps);
@@ -73,7 +73,7 @@ double log_prior(const std::vector<Regressor>& regressors,
          std::lgamma(1.0 + static_cast<double>(lasting));
 }
 
-SingleScores single_scores(const LinearisedSystem& system,
+SingleScores single_scores(const RegressorSystem& system,
                            const MarginalisedSystem& marginalised,
                            const NoiseDensity& noise,
                            const Eigen::VectorXd& e,
@@ -123,7 +123,7 @@ namespace {
 
 /// Of the best model's outliers those that are off by just what a whole number of links does:
 /// each set of outliers once more without one of them.
-std::vector<std::vector<bool>> sets_without_links(const LinearisedSystem& system,
+std::vector<std::vector<bool>> sets_without_links(const RegressorSystem& system,
                                                   const std::vector<bool>& excluded,
                                                   const ModelComparison& comparison) {
   const CandidateModel& best = comparison.best();
@@ -186,7 +186,7 @@ std::vector<std::size_t> by_weight(const std::vector<std::size_t>& kernels,
 
 class Comparer {
  public:
-  Comparer(const LinearisedSystem& system,
+  Comparer(const RegressorSystem& system,
            const std::vector<bool>& excluded,
            const ComparisonOptions& options)
       : system_(system), excluded_(excluded), options_(options) {
@@ -231,7 +231,7 @@ class Comparer {
     if (first) comparison_.kernels = by_weight(kernels, weight);
   }
 
-  const LinearisedSystem& system_;
+  const RegressorSystem& system_;
   const std::vector<bool>& excluded_;
   const ComparisonOptions& options_;
   ModelComparison comparison_;
@@ -245,7 +245,7 @@ std::vector<std::size_t> leading_kernels(const ModelComparison& comparison) {
   return leading;
 }
 
-ModelComparison compare_models(const LinearisedSystem& system,
+ModelComparison compare_models(const RegressorSystem& system,
                                const std::vector<bool>& excluded,
                                const ComparisonOptions& options) {
   Comparer comparer(system, excluded, options);

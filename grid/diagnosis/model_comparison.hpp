@@ -47,7 +47,7 @@ struct ComparisonOptions {
 };
 
 /// Points already known not to count (held out) are `excluded`.
-[[nodiscard]] ModelComparison compare_models(const LinearisedSystem& system,
+[[nodiscard]] ModelComparison compare_models(const RegressorSystem& system,
                                              const std::vector<bool>& excluded,
                                              const ComparisonOptions& options);
 
@@ -69,7 +69,7 @@ struct SingleScores {
   std::vector<double> log_factor;
   std::vector<int> best_regressor;
 };
-[[nodiscard]] SingleScores single_scores(const LinearisedSystem& system,
+[[nodiscard]] SingleScores single_scores(const RegressorSystem& system,
                                          const MarginalisedSystem& marginalised,
                                          const NoiseDensity& noise,
                                          const Eigen::VectorXd& e,

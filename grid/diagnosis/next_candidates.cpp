@@ -95,7 +95,7 @@ class PointCandidates {
         fmt::format("point {} once more, coming from the other side", middle.index + 1));
   }
 
-  const Session& session_;
+  const ObservationSet& session_;
   std::size_t part_;
   const observation::ChainLengthReadings& own_;
   model::ReadingModel model_;
@@ -106,7 +106,7 @@ class PointCandidates {
 };
 
 /// Readings of the machine that nobody took.
-std::optional<CandidateReadings> candidate_readings(const Session& session) {
+std::optional<CandidateReadings> candidate_readings(const ObservationSet& session) {
   const std::vector<ExtraReading>& taken = session.readings();
   std::vector<ExtraReading> readings;
   for (const MachineReading& r : kReadings) {

@@ -23,7 +23,7 @@ struct Candidate {
 /// The session's unknowns are those of what was measured, in its order; those of holes that are not
 /// cut yet come after them.
 struct NextCandidates {
-  Session session;
+  ObservationSet session;
   std::vector<Candidate> all;
 };
 

@@ -17,7 +17,7 @@ constexpr int kBlock = 250;  // draws at a time
 
 }  // namespace
 
-SingleScore::SingleScore(const LinearisedSystem& system,
+SingleScore::SingleScore(const RegressorSystem& system,
                          const MarginalisedSystem& marginalised,
                          double noise_dof)
     : marginalised_(marginalised), dof_(noise_dof) {

@@ -21,7 +21,7 @@ namespace chaintrue::grid::diagnosis {
 /// product; a regressor of the wrong sign has no score.
 class SingleScore {
  public:
-  SingleScore(const LinearisedSystem& system,
+  SingleScore(const RegressorSystem& system,
               const MarginalisedSystem& marginalised,
               double noise_dof);
   /// The largest over all regressors of a cause, in the order of `causes()`; `e` like

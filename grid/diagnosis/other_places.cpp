@@ -7,20 +7,20 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 /// The first part at whose marks chains were read.
-std::size_t chain_part(const Session& session) {
+std::size_t chain_part(const ObservationSet& session) {
   const auto found = std::find_if(session.parts.begin(),
                                   session.parts.end(),
-                                  [](const SessionPart& part) { return part.reads_chains(); });
+                                  [](const ObservationPart& part) { return part.reads_chains(); });
   return static_cast<std::size_t>(found - session.parts.begin());
 }
 
-const observation::ChainLengthReadings& readings_of(const Session& session, std::size_t part) {
+const observation::ChainLengthReadings& readings_of(const ObservationSet& session, std::size_t part) {
   return dynamic_cast<const observation::ChainLengthReadings&>(*session.parts[part].observation);
 }
 
 }  // namespace
 
-MarkedArea marked_area(const Session& session) {
+MarkedArea marked_area(const ObservationSet& session) {
   const auto& places = readings_of(session, chain_part(session)).places();
   MarkedArea area{places.front().mark, places.front().mark};
   for (const observation::Place& place : places) {
@@ -31,8 +31,8 @@ MarkedArea marked_area(const Session& session) {
   return area;
 }
 
-Session session_at(const Analysis& a, const std::vector<model::MarkPoint>& marks) {
-  const Session& session = a.session;
+ObservationSet session_at(const Analysis& a, const std::vector<model::MarkPoint>& marks) {
+  const ObservationSet& session = a.session;
   const std::size_t part = chain_part(session);
   const observation::ChainLengthReadings& own = readings_of(session, part);
   const model::ReadingModel model(a.state.machine);

@@ -15,11 +15,11 @@ struct MarkedArea {
   model::MarkPoint low;
   model::MarkPoint high;
 };
-[[nodiscard]] MarkedArea marked_area(const Session& session);
+[[nodiscard]] MarkedArea marked_area(const ObservationSet& session);
 
 /// A session with a point at each of these marks that the machine can reach, in no order of visits.
 /// Precondition: as above.
-[[nodiscard]] Session session_at(const Analysis& analysis,
+[[nodiscard]] ObservationSet session_at(const Analysis& analysis,
                                  const std::vector<model::MarkPoint>& marks);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -30,7 +30,7 @@ class Seen {
   [[nodiscard]] auto taken() const { return taken_.leftCols(count_); }
 
  public:
-  Seen(const MarginalisedSystem& marginalised, const LinearisedSystem& system)
+  Seen(const MarginalisedSystem& marginalised, const RegressorSystem& system)
       : root_(&marginalised.root),
         e_(marginalised.e),
         u_(root_->solve(e_)),
@@ -112,7 +112,7 @@ class Seen {
 
 Seen seen_by(Seen seen,
              const MarginalisedSystem& marginalised,
-             const LinearisedSystem& system,
+             const RegressorSystem& system,
              const std::vector<int>& set) {
   for (const int k : set) {
     if (system.regressors[static_cast<std::size_t>(k)].fixed) seen.subtract(marginalised.g.col(k));
@@ -132,7 +132,7 @@ struct Worst {
   double drop = -1.0;
 };
 
-Worst worst_of(const Seen& seen, const LinearisedSystem& system, const FreeUnits& free) {
+Worst worst_of(const Seen& seen, const RegressorSystem& system, const FreeUnits& free) {
   Worst worst;
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < free.size(); ++k) {
@@ -150,7 +150,7 @@ Worst worst_of(const Seen& seen, const LinearisedSystem& system, const FreeUnits
 
 /// Mean shifts one after the other; the best of the nested sets.
 Found search(Seen seen,
-             const LinearisedSystem& system,
+             const RegressorSystem& system,
              const MarginalisedSystem& marginalised,
              double log_prior) {
   FreeUnits free = units_in(system, marginalised.kept);
@@ -179,7 +179,7 @@ Found search(Seen seen,
 
 }  // namespace
 
-std::vector<std::vector<bool>> outlier_sets(const LinearisedSystem& system,
+std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
                                             const std::vector<bool>& excluded,
                                             const std::vector<std::vector<int>>& hypotheses,
                                             const Steps& steps) {

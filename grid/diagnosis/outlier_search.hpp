@@ -12,7 +12,7 @@ namespace chaintrue::grid::diagnosis {
 /// Flags per unit, the most probable set first; units that are excluded beforehand stay flagged in
 /// all of them. `hypotheses` are sets of regressors.
 [[nodiscard]] std::vector<std::vector<bool>> outlier_sets(
-    const LinearisedSystem& system,
+    const RegressorSystem& system,
     const std::vector<bool>& excluded,
     const std::vector<std::vector<int>>& hypotheses,
     const Steps& steps);

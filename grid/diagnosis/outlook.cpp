@@ -67,7 +67,7 @@ std::vector<Group> groups_of(const Analysis& a) {
 /// C. Rasmussen and C. Williams, Gaussian Processes for Machine Learning (2006), equation 2.41.
 /// \returns a square root of the last.
 Eigen::MatrixXd add_discrepancy(const Analysis& a,
-                                const LinearisedSystem& system,
+                                const RegressorSystem& system,
                                 const Estimate& fitted,
                                 Eigen::VectorXd& mean,
                                 Eigen::MatrixXd& design) {
@@ -95,8 +95,8 @@ Eigen::MatrixXd add_discrepancy(const Analysis& a,
 
 /// What an alternative expects of every candidate.
 void predict(const Analysis& a,
-             const Session& next,
-             const LinearisedSystem& system,
+             const ObservationSet& next,
+             const RegressorSystem& system,
              Alternative& h) {
   const Estimate fitted =
       estimate(a.system, marginalised_system(a), h.regressors, h.discrepancy);
@@ -204,7 +204,7 @@ Eigen::MatrixXd square_root(const Eigen::MatrixXd& matrix) {
   return ldlt.transpositionsP().transpose() * result;
 }
 
-std::optional<std::vector<Alternative>> alternatives_about(const Analysis& a, const Session& next) {
+std::optional<std::vector<Alternative>> alternatives_about(const Analysis& a, const ObservationSet& next) {
   const auto system = linearise(next, a.state, {});
   if (!system) return std::nullopt;
   std::vector<Alternative> alternatives = leading_alternatives(a);

@@ -48,7 +48,7 @@ struct Alternative {
 /// many; where it names none, those of none and of one, with and without a discrepancy. Nothing
 /// where a place of `next` cannot be reached.
 [[nodiscard]] std::optional<std::vector<Alternative>> alternatives_about(const Analysis& analysis,
-                                                                         const Session& next);
+                                                                         const ObservationSet& next);
 
 /// The same before anything is foretold: without means and spreads.
 [[nodiscard]] std::vector<Alternative> leading_alternatives(const Analysis& analysis);

@@ -44,7 +44,7 @@ PointPicture picture_of(const Analysis& a, const Residuals& residuals, std::size
   const SystemUnit& unit = a.system.units[u];
   const std::size_t at = unit.places.front().place;
   const SystemPlace& state = a.system.places[at];
-  const SessionPlace& place = a.session.places[at];
+  const NumberedPlace& place = a.session.places[at];
   PointPicture p;
   p.index = place.index;
   p.mark = place.mark;
@@ -58,12 +58,12 @@ PointPicture picture_of(const Analysis& a, const Residuals& residuals, std::size
   p.best_mm = unit.unwhitened(residuals.best);
   p.rival_mm = unit.unwhitened(residuals.rival);
   p.lengths = place.lengths;
-  const model::Pose& pose = state.reading.pose;
+  const model::Pose& pose = state.state.reading.pose;
   draw_pose(pose, p);
   if (!state.ordered) return p;
   const bool first = at == a.session.parts[place.part].first_place;
   const auto direction_of = [&](double now, double then) { return now < then ? -1 : 1; };
-  const auto& last = first ? pose.lengths : a.system.places[at - 1].reading.pose.lengths;
+  const auto& last = first ? pose.lengths : a.system.places[at - 1].state.reading.pose.lengths;
   p.direction_left = first ? 1 : direction_of(pose.lengths.left_mm, last.left_mm);
   p.direction_right = first ? 1 : direction_of(pose.lengths.right_mm, last.right_mm);
   return p;

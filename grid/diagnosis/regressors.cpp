@@ -28,12 +28,12 @@ model::Machine with_effect(model::Machine machine,
 }
 
 /// What such a machine would give to be read, all rows.
-std::optional<Eigen::VectorXd> predicted(const Session& session,
+std::optional<Eigen::VectorXd> predicted(const ObservationSet& session,
                                          const State& state,
                                          const model::Machine& machine) {
   const model::ReadingModel model(machine);
   Eigen::VectorXd all(session.rows);
-  for (const SessionPart& part : session.parts) {
+  for (const ObservationPart& part : session.parts) {
     const auto own = part.observation->predicted({model, state.sheet_of(part)});
     if (!own) return std::nullopt;
     all.segment(part.first_row, own->size()) = *own;
@@ -48,7 +48,7 @@ Eigen::Vector2d added_at(const SystemPlace& place,
                          const std::vector<double>& values) {
   Eigen::Vector2d mm = Eigen::Vector2d::Zero();
   if (cause.effect->misread != nullptr && !place.ordered) return mm;
-  const model::Pose& pose = place.reading.pose;
+  const model::Pose& pose = place.state.reading.pose;
   for (const model::Side side : model::kSides) {
     if (!model::effects::acts_on(cause.side, side)) continue;
     const Eigen::Index row = row_of(side);
@@ -67,7 +67,7 @@ Eigen::Vector2d added_at(const SystemPlace& place,
 
 /// The whitened column of an effect that is added to a chain, or to what is written down: the poses
 /// stay.
-Eigen::VectorXd added(const LinearisedSystem& system,
+Eigen::VectorXd added(const RegressorSystem& system,
                       const model::Sprocket& sprocket,
                       CauseId cause,
                       const std::vector<double>& values) {
@@ -77,8 +77,8 @@ Eigen::VectorXd added(const LinearisedSystem& system,
   }
   Eigen::VectorXd column = Eigen::VectorXd::Zero(system.e.size());
   for (const SystemUnit& unit : system.units) {
-    for (const SeenPlace& seen : unit.places) {
-      column.segment(unit.first_row, unit.rows) += (seen.by_chain * mm[seen.place]).head(unit.rows);
+    for (const observation::PlaceColumns& seen : unit.places) {
+      column.segment(unit.first_row, unit.rows) += seen.by_chain * mm[seen.place];
     }
   }
   return column;
@@ -95,7 +95,7 @@ const EffectParameter* place_parameter(const Effect& effect) {
 
 /// Places where an effect may set in: visits, angles between those of the places, phases of a
 /// turn.
-std::vector<double> places(const LinearisedSystem& system, CauseId cause) {
+std::vector<double> places(const RegressorSystem& system, CauseId cause) {
   const EffectParameter& place = *place_parameter(*cause.effect);
   std::vector<double> result;
   if (place.integer) {
@@ -113,7 +113,7 @@ std::vector<double> places(const LinearisedSystem& system, CauseId cause) {
   std::vector<double> angles;
   for (const SystemPlace& own : system.places) {
     const auto side = cause.side == EffectSide::left ? model::Side::left : model::Side::right;
-    angles.push_back(own.reading.pose.chains[side].angle_rad);
+    angles.push_back(own.state.reading.pose.chains[side].angle_rad);
   }
   std::sort(angles.begin(), angles.end());
   const auto last = static_cast<double>(angles.size() - 1);
@@ -130,7 +130,7 @@ bool is_odd(const Regressor& regressor) { return regressor.power < 1.5; }
 
 class Builder {
  public:
-  Builder(const Session& session, const State& state, LinearisedSystem& system)
+  Builder(const ObservationSet& session, const State& state, RegressorSystem& system)
       : session_(session), state_(state), system_(system) {}
 
   void add(CauseId cause, const std::vector<Refinement>& refinements) {
@@ -209,16 +209,16 @@ class Builder {
     }
   }
 
-  const Session& session_;
+  const ObservationSet& session_;
   const State& state_;
-  LinearisedSystem& system_;
+  RegressorSystem& system_;
   bool refined_ = false;
 };
 
 /// Why none of the observations can show this cause; empty where one can.
-std::string untestable(const Session& session, CauseId cause) {
+std::string untestable(const ObservationSet& session, CauseId cause) {
   std::string reason;
-  for (const SessionPart& part : session.parts) {
+  for (const ObservationPart& part : session.parts) {
     if (!part.observation->may_slip()) continue;
     const std::string own = part.observation->untestable(*cause.effect, cause.side);
     if (own.empty()) return "";
@@ -229,7 +229,7 @@ std::string untestable(const Session& session, CauseId cause) {
 
 }  // namespace
 
-Candidates candidates(const Session& session) {
+Candidates candidates(const ObservationSet& session) {
   Candidates result;
   for (const Effect* effect : model::effects::catalogue()) {
     for (const EffectSide side : effect->sides) {
@@ -250,9 +250,9 @@ Candidates candidates(const Session& session) {
   return result;
 }
 
-std::optional<Eigen::VectorXd> signature(const Session& session,
+std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
                                          const State& state,
-                                         const LinearisedSystem& system,
+                                         const RegressorSystem& system,
                                          CauseId cause,
                                          const std::vector<double>& values) {
   if (cause.effect->add != nullptr || cause.effect->misread != nullptr) {
@@ -266,20 +266,20 @@ std::optional<Eigen::VectorXd> signature(const Session& session,
   return whitened(system, *with - *without);
 }
 
-void add_regressors(const Session& session,
+void add_regressors(const ObservationSet& session,
                     const State& state,
                     const std::vector<CauseId>& causes,
                     const std::vector<Refinement>& refinements,
-                    LinearisedSystem& system) {
+                    RegressorSystem& system) {
   if (system.g.cols() == 0) system.g = RegressorColumns(session.rows);
   Builder builder(session, state, system);
   for (const CauseId& cause : causes) builder.add(cause, refinements);
 }
 
-bool renew_regressors(const Session& session,
+bool renew_regressors(const ObservationSet& session,
                       const State& state,
                       const std::vector<Regressor>& regressors,
-                      LinearisedSystem& system) {
+                      RegressorSystem& system) {
   system.regressors = regressors;
   system.g = RegressorColumns(session.rows);
   for (Regressor& d : system.regressors) {

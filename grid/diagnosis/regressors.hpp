@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grid/diagnosis/diagnosis.hpp"
-#include "grid/diagnosis/linearised_system.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
@@ -18,7 +18,7 @@ struct Candidates {
   std::vector<NotTestable> not_testable;
 };
 /// An effect that one of the observations can show is testable.
-[[nodiscard]] Candidates candidates(const Session& session);
+[[nodiscard]] Candidates candidates(const ObservationSet& session);
 
 /// Sizes at which secants are taken where the usual one is not wanted, and extra places.
 struct Refinement {
@@ -28,22 +28,22 @@ struct Refinement {
 };
 
 /// Appends the regressors of all these causes.
-void add_regressors(const Session& session,
+void add_regressors(const ObservationSet& session,
                     const State& state,
                     const std::vector<CauseId>& causes,
                     const std::vector<Refinement>& refinements,
-                    LinearisedSystem& system);
+                    RegressorSystem& system);
 
 /// Regressors anew about another state, at their values. False where such a machine cannot be.
-[[nodiscard]] bool renew_regressors(const Session& session,
+[[nodiscard]] bool renew_regressors(const ObservationSet& session,
                                     const State& state,
                                     const std::vector<Regressor>& regressors,
-                                    LinearisedSystem& system);
+                                    RegressorSystem& system);
 
 /// The whitened column of an effect of these values; empty where such a machine cannot be.
-[[nodiscard]] std::optional<Eigen::VectorXd> signature(const Session& session,
+[[nodiscard]] std::optional<Eigen::VectorXd> signature(const ObservationSet& session,
                                                        const State& state,
-                                                       const LinearisedSystem& system,
+                                                       const RegressorSystem& system,
                                                        CauseId cause,
                                                        const std::vector<double>& values);
 

@@ -27,7 +27,7 @@ bool has_continuous_place(const Regressor& regressor) {
   return parameters.size() > 1 && !parameters.back().integer;
 }
 
-Reach reach(const LinearisedSystem& system, const Regressor& own) {
+Reach reach(const RegressorSystem& system, const Regressor& own) {
   Reach result;
   for (const Regressor& d : system.regressors) {
     if (!(d.cause == own.cause)) continue;
@@ -43,9 +43,9 @@ Reach reach(const LinearisedSystem& system, const Regressor& own) {
 
 class Round {
  public:
-  Round(const Session& session,
+  Round(const ObservationSet& session,
         const State& state,
-        const LinearisedSystem& system,
+        const RegressorSystem& system,
         MarginalisedSystem marginalised,
         int discrepancy)
       : session_(session), state_(state), system_(system), marginalised_(std::move(marginalised)) {
@@ -156,9 +156,9 @@ class Round {
     Eigen::VectorXd e_;
   };
 
-  const Session& session_;
+  const ObservationSet& session_;
   const State& state_;
-  const LinearisedSystem& system_;
+  const RegressorSystem& system_;
   MarginalisedSystem marginalised_;
   Estimate estimate_;
 };
@@ -166,8 +166,8 @@ class Round {
 }  // namespace
 
 Relinearised relinearise(const Analysis& a) {
-  const Session& session = a.session;
-  const LinearisedSystem& system = a.system;
+  const ObservationSet& session = a.session;
+  const RegressorSystem& system = a.system;
   const MarginalisedSystem& marginalised =
       a.comparison.marginalised_systems[a.decision.marginalised];
   const int discrepancy = a.decision.discrepancy_left ? a.decision.best_discrepancy : -1;

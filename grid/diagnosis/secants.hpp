@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// A regressor's power and bounds from secants: how its signature grows with its size
-/// (linearised_system.hpp), and which coefficients its parameter's range leaves.
+/// (regressor_system.hpp), and which coefficients its parameter's range leaves.
 #pragma once
 
 #include <Eigen/Core>
 
-#include "grid/diagnosis/linearised_system.hpp"
+#include "grid/diagnosis/regressor_system.hpp"
 
 namespace chaintrue::grid::diagnosis {
 

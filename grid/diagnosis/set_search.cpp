@@ -17,7 +17,7 @@ namespace {}  // namespace
 
 class SetSearch::Search {
  public:
-  Search(const LinearisedSystem& system,
+  Search(const RegressorSystem& system,
          MarginalisedSystem& marginalised,
          std::size_t number,
          const ComparisonOptions& options)
@@ -225,7 +225,7 @@ class SetSearch::Search {
 
   static constexpr double kLeastSquare = 1e-8;
 
-  const LinearisedSystem& system_;
+  const RegressorSystem& system_;
   MarginalisedSystem& marginalised_;
   const ComparisonOptions& options_;
   ModelCollector collector_;
@@ -233,7 +233,7 @@ class SetSearch::Search {
   std::vector<WeighedSet> scored_;
 };
 
-SetSearch::SetSearch(const LinearisedSystem& system,
+SetSearch::SetSearch(const RegressorSystem& system,
                      MarginalisedSystem& marginalised,
                      std::size_t number,
                      const ComparisonOptions& options)

@@ -16,7 +16,7 @@ class SetSearch {
  public:
   /// `number` is the marginalised system's in its comparison; all references must outlive the
   /// search.
-  SetSearch(const LinearisedSystem& system,
+  SetSearch(const RegressorSystem& system,
             MarginalisedSystem& marginalised,
             std::size_t number,
             const ComparisonOptions& options);

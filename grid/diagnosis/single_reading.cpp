@@ -18,7 +18,7 @@ struct MadeBy {
   std::size_t unit = 0;
 };
 
-std::optional<MadeBy> made_by(const Session& session, const Stability& stability) {
+std::optional<MadeBy> made_by(const ObservationSet& session, const Stability& stability) {
   const Removal* most = nullptr;
   for (const Removal& removal : stability.removals) {
     const bool one =
@@ -37,7 +37,7 @@ std::optional<MadeBy> made_by(const Session& session, const Stability& stability
   return std::nullopt;
 }
 
-std::string refusal_words(const Session& session,
+std::string refusal_words(const ObservationSet& session,
                           const MadeBy& reading,
                           const CauseId& cause,
                           double probability) {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kFarOffMm = 50.0;  // ten times what settings and effects do together
 constexpr double kMends = 0.2;      // of the misfit may be left
 
-using Read = SessionPlace (*)(SessionPlace);
+using Read = NumberedPlace (*)(NumberedPlace);
 
 struct Slip {
   std::string_view words;
@@ -26,28 +26,28 @@ constexpr double kMmPerInch = 25.4;
 
 constexpr Slip kSlips[] = {
     {"the two chains' columns look exchanged",
-     [](SessionPlace p) {
+     [](NumberedPlace p) {
        std::swap(p.lengths.left_mm, p.lengths.right_mm);
        return p;
      }},
     {"the x axis looks turned round; positive x is to the right",
-     [](SessionPlace p) {
+     [](NumberedPlace p) {
        p.mark.x_mm = -p.mark.x_mm;
        return p;
      }},
     {"the y axis looks turned round; positive y is up the sheet",
-     [](SessionPlace p) {
+     [](NumberedPlace p) {
        p.mark.y_mm = -p.mark.y_mm;
        return p;
      }},
     {"the lengths look like inches",
-     [](SessionPlace p) {
+     [](NumberedPlace p) {
        p.lengths.left_mm *= kMmPerInch;
        p.lengths.right_mm *= kMmPerInch;
        return p;
      }},
     {"the marks look like inches",
-     [](SessionPlace p) {
+     [](NumberedPlace p) {
        p.mark.x_mm *= kMmPerInch;
        p.mark.y_mm *= kMmPerInch;
        return p;
@@ -55,13 +55,13 @@ constexpr Slip kSlips[] = {
 };
 
 /// Root mean square of what the stated machine leaves; nothing where it cannot reach a point.
-std::optional<double> misfit_mm(const Session& session, Read read) {
+std::optional<double> misfit_mm(const ObservationSet& session, Read read) {
   const model::ReadingModel model(session.stated);
   double sum = 0.0;
   double count = 0.0;
-  for (const SessionPlace& place : session.places) {
+  for (const NumberedPlace& place : session.places) {
     if (!session.parts[place.part].reads_chains()) continue;
-    const SessionPlace p = read(place);
+    const NumberedPlace p = read(place);
     const auto reading = model.at(model::laid_as_bed(p.mark));
     if (!reading) return std::nullopt;
     sum += std::pow(p.lengths.left_mm - reading->lengths.left_mm, 2) +
@@ -90,12 +90,12 @@ std::optional<DiagnosisFailure> suspected_hook(const MeasuredHoles& set) {
 
 }  // namespace
 
-std::optional<DiagnosisFailure> suspected_slip(const Session& session) {
+std::optional<DiagnosisFailure> suspected_slip(const ObservationSet& session) {
   for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
     if (auto hook = suspected_hook(tape->set())) return hook;
   }
   if (!session.reads_chains()) return std::nullopt;
-  const auto plain = misfit_mm(session, [](SessionPlace p) { return p; });
+  const auto plain = misfit_mm(session, [](NumberedPlace p) { return p; });
   if (plain && *plain < kFarOffMm) return std::nullopt;
   for (const Slip& slip : kSlips) {
     const auto mended = misfit_mm(session, slip.mended);

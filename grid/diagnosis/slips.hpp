@@ -6,12 +6,12 @@
 
 #include <optional>
 
-#include "grid/diagnosis/session.hpp"
+#include "grid/diagnosis/observations.hpp"
 
 namespace chaintrue::grid::diagnosis {
 
 /// Where the points are far off what the stated machine says and one such slip mends that: what to
 /// look at. Nothing where none does.
-[[nodiscard]] std::optional<DiagnosisFailure> suspected_slip(const Session& session);
+[[nodiscard]] std::optional<DiagnosisFailure> suspected_slip(const ObservationSet& session);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -17,7 +17,7 @@ constexpr std::size_t kFewestOnLine = 3;  // on average
 constexpr double kMostOdds = 700.0;
 
 /// Units that read the chains at one mark.
-std::vector<std::size_t> units_at_marks(const Session& session) {
+std::vector<std::size_t> units_at_marks(const ObservationSet& session) {
   std::vector<std::size_t> result;
   for (std::size_t u = 0; u < session.units.size(); ++u) {
     if (session.parts[session.units[u].part].reads_chains()) result.push_back(u);
@@ -25,13 +25,13 @@ std::vector<std::size_t> units_at_marks(const Session& session) {
   return result;
 }
 
-const model::MarkPoint& mark_of(const Session& session, std::size_t unit) {
-  const SessionPart& part = session.parts[session.units[unit].part];
+const model::MarkPoint& mark_of(const ObservationSet& session, std::size_t unit) {
+  const ObservationPart& part = session.parts[session.units[unit].part];
   return session.places[part.first_place + unit - part.first_unit].mark;
 }
 
 /// Runs of points along a coordinate; empty where the marks do not lie in lines.
-std::vector<LeftOut> lines_along(const Session& session,
+std::vector<LeftOut> lines_along(const ObservationSet& session,
                                  Removal::What what,
                                  double model::MarkPoint::*coordinate) {
   const auto at = [&](std::size_t u) { return mark_of(session, u).*coordinate; };
@@ -61,7 +61,7 @@ void add_by_index(std::vector<LeftOut> more, std::vector<LeftOut>& groups) {
 }
 
 /// Each distance, and each hole with all distances that end there.
-void add_distances_and_holes(const Session& session, std::vector<LeftOut>& groups) {
+void add_distances_and_holes(const ObservationSet& session, std::vector<LeftOut>& groups) {
   std::vector<LeftOut> distances;
   std::vector<LeftOut> holes;
   for (const auto& [part, tape] : parts_of<observation::TapeDistances>(session)) {
@@ -132,7 +132,7 @@ double probability_of(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)
 
 }  // namespace
 
-std::vector<LeftOut> groups_to_leave_out(const Session& session) {
+std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session) {
   std::vector<LeftOut> groups;
   std::vector<LeftOut> points;
   for (const std::size_t u : units_at_marks(session)) {

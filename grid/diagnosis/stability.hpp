@@ -29,7 +29,7 @@ struct LeftOut {
 };
 /// Every point, then the columns from the left, then the rows from below, then every distance and
 /// every hole; those that would leave too few units are missing.
-[[nodiscard]] std::vector<LeftOut> groups_to_leave_out(const Session& session);
+[[nodiscard]] std::vector<LeftOut> groups_to_leave_out(const ObservationSet& session);
 
 /// Whether what is named of all points is named in `without` too.
 [[nodiscard]] bool still_named(const Decision& all, const Decision& without);

@@ -18,7 +18,7 @@ constexpr double kSlip = 6.0;  // sigmas: a point so far off does not place the 
 /// Residuals with the placement of the sheet, and nothing else, fitted: whitened rows of points.
 class Placed {
  public:
-  explicit Placed(const LinearisedSystem& system) : system_(system) {
+  explicit Placed(const RegressorSystem& system) : system_(system) {
     const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
     by_sheet_ = system.by_setting.rightCols(system.setting.size() - machine);
     sigma_ = system.sigma.tail(system.sigma.size() - machine);
@@ -48,7 +48,7 @@ class Placed {
   }
 
  private:
-  const LinearisedSystem& system_;
+  const RegressorSystem& system_;
   Eigen::MatrixXd by_sheet_;
   Eigen::VectorXd sigma_;
 };
@@ -56,9 +56,9 @@ class Placed {
 /// What a model of the first session leaves of the second, its sheet not yet placed.
 Eigen::VectorXd left_of(const Analysis& a,
                         const Estimate& model,
-                        const Session& to,
+                        const ObservationSet& to,
                         const State& state,
-                        const LinearisedSystem& system) {
+                        const RegressorSystem& system) {
   const auto machine = static_cast<Eigen::Index>(model::kMachineSettings.size());
   Eigen::VectorXd left =
       system.e - system.by_setting.leftCols(machine) * model.setting_change.head(machine);
@@ -82,9 +82,9 @@ Eigen::VectorXd left_of(const Analysis& a,
   return left;
 }
 
-std::vector<std::size_t> block_numbers(const Session& session) {
+std::vector<std::size_t> block_numbers(const ObservationSet& session) {
   std::vector<LengthPoint> points;
-  for (const SessionPlace& p : session.places) points.push_back({p.index, p.mark, p.lengths});
+  for (const NumberedPlace& p : session.places) points.push_back({p.index, p.mark, p.lengths});
   std::vector<std::size_t> number(points.size(), 0);
   const auto blocks = spatial_blocks(points);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -93,8 +93,8 @@ std::vector<std::size_t> block_numbers(const Session& session) {
   return number;
 }
 
-HeldOut summary(const Session& to,
-                const LinearisedSystem& system,
+HeldOut summary(const ObservationSet& to,
+                const RegressorSystem& system,
                 const Eigen::VectorXd& left,
                 std::uint64_t seed) {
   std::vector<Eigen::Vector2d> tool;
@@ -104,7 +104,7 @@ HeldOut summary(const Session& to,
   return summarise(tool, block_numbers(to), seed);
 }
 
-double floor_of(const LinearisedSystem& system) {
+double floor_of(const RegressorSystem& system) {
   double sum = 0.0;
   for (std::size_t u = 0; u < system.units.size(); ++u) sum += noise_of_unit_mm2(system, u).trace();
   return std::sqrt(sum / static_cast<double>(system.units.size()));
@@ -115,7 +115,7 @@ double floor_of(const LinearisedSystem& system) {
 tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
                                                   const Diagnosis& diagnosis,
                                                   const MeasuredGrid& to) {
-  const auto first = make_session(from);
+  const auto first = observations_of(from);
   if (!first) return tl::unexpected(first.error());
   // The second grid is seen by the first one's machine, whatever its file says.
   MeasuredGrid other = to;
@@ -125,7 +125,7 @@ tl::expected<Transfer, DiagnosisFailure> transfer(const MeasuredGrid& from,
     other.noise = StatedNoise{own.noise().length_mm, own.noise().position_mm, own.noise_dof()};
   }
   other.readings.clear();
-  auto second = make_session(other);
+  auto second = observations_of(other);
   if (!second) return tl::unexpected(second.error());
   DiagnosisOptions options;
   options.seed = diagnosis.seed;

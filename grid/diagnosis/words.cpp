@@ -252,7 +252,7 @@ void say_what_to_do(Diagnosis& d) {
   }
 }
 
-std::string not_proved(const Session& session, const Diagnosis& d) {
+std::string not_proved(const ObservationSet& session, const Diagnosis& d) {
   std::string text;
   if (!d.causes.empty()) {
     const Cause& lead = d.causes.front();
@@ -290,7 +290,7 @@ std::string not_proved(const Session& session, const Diagnosis& d) {
 }  // namespace
 
 void put_into_words(const Analysis& a, Diagnosis& d) {
-  const Session& session = a.session;
+  const ObservationSet& session = a.session;
   if (!a.settled) {
     d.notes.emplace_back(
         "Calibrating had not come to rest after its last pass: the settings are uncertain by more "

@@ -239,7 +239,7 @@ void Estimator::fill_units(Estimate& estimate) const {
   for (std::size_t u = 0; u < problem_->units().size(); ++u) {
     const SystemUnit& unit = problem_->units()[u];
     const auto at = static_cast<Eigen::Index>(u);
-    const Eigen::MatrixXd back = unwhitening_of(unit.whitening);
+    const auto back = unit.whitening.inverse();
     const Eigen::MatrixXd rows = problem_->design().middleRows(unit.first_row, unit.rows);
     UnitEstimate own{unit.observation, unit.unit, weights_[at], distances_[at], {}, {}, {}, {}};
     own.residual =
@@ -253,7 +253,7 @@ void Estimator::fill_units(Estimate& estimate) const {
     const auto residuals = left_out.residuals(group);
     for (std::size_t k = 0; k < group.size(); ++k) {
       estimate.units[group[k]].left_out_with_group =
-          unwhitening_of(problem_->units()[group[k]].whitening) * residuals[k];
+          problem_->units()[group[k]].whitening.inverse() * residuals[k];
     }
   }
 }

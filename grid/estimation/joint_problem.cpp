@@ -64,7 +64,11 @@ double length_of(model::ChainLengths lengths, Side side) { return lengths[side];
 }  // namespace
 
 JointProblem::JointProblem(const EstimationInput& input, bool has_surface)
-    : input_(input), has_surface_(has_surface), basis_(basis_for(input, has_surface)) {
+    : input_(input),
+      set_(observation_set(input.machine, input.observations)),
+      layout_(set_, {}),
+      has_surface_(has_surface),
+      basis_(basis_for(input, has_surface)) {
   for (const auto& observation : input.observations)
     places_move_ = places_move_ || !is_linear_in_correction(*observation);
 }
@@ -83,26 +87,22 @@ EstimationFailure JointProblem::unreachable(std::size_t observation,
 }
 
 State JointProblem::stated() const {
-  const Unknowns unknowns(input_.machine, input_.observations, {});
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(basis_.size());
-  return {Eigen::VectorXd::Zero(unknowns.total()), {basis_, {0.0, 0.0}, {nothing, nothing}}};
+  return {Eigen::VectorXd::Zero(layout_.total()), {basis_, {0.0, 0.0}, {nothing, nothing}}};
 }
 
 tl::expected<void, EstimationFailure> JointProblem::linearise(const State& state) {
-  // Sheets and settings keep their place among the unknowns but for the surface's columns, which
-  // the places decide.
-  const Unknowns layout(input_.machine, input_.observations, {});
   const std::vector<SurfaceCorrection> corrections = corrections_of(state);
-  const model::ReadingModel model(layout.machine_at(state.settings));
+  const model::ReadingModel model(layout_.machine_at(state.settings));
   std::vector<ObservedFrom> from;
   for (std::size_t k = 0; k < input_.observations.size(); ++k) {
     const bool about_none =
         is_linear_in_correction(*input_.observations[k]) && !input_.fixed_weights;
     from.push_back(
-        {{model, layout.sheet_at(state.settings, k), about_none ? nullptr : &corrections[k]},
-         state.settings(layout.columns_of(k))});
+        {{model, layout_.sheet_at(state.settings, k), about_none ? nullptr : &corrections[k]},
+         state.settings(layout_.columns_of(k))});
   }
-  const auto system = estimation::linearise(input_.observations, from);
+  const auto system = estimation::linearise(set_, from);
   if (!system) return tl::unexpected(unreachable(system.error().observation, system.error().place));
   std::vector<MarkPoint> marks;
   for (const SystemPlace& place : system->places) {
@@ -119,11 +119,10 @@ tl::expected<void, EstimationFailure> JointProblem::linearise(const State& state
 }
 
 std::vector<SurfaceCorrection> JointProblem::corrections_of(const State& state) const {
-  const Unknowns layout(input_.machine, input_.observations, {});
-  const model::SheetPlacement first = layout.sheet_at(state.settings, 0);
+  const model::SheetPlacement first = layout_.sheet_at(state.settings, 0);
   std::vector<SurfaceCorrection> corrections{SurfaceCorrection(state.surface)};
   for (std::size_t k = 1; k < input_.observations.size(); ++k)
-    corrections.emplace_back(state.surface, first, layout.sheet_at(state.settings, k));
+    corrections.emplace_back(state.surface, first, layout_.sheet_at(state.settings, k));
   return corrections;
 }
 
@@ -136,7 +135,7 @@ void JointProblem::observe(std::vector<MarkPoint> places) {
     observed_.emplace(basis_, input_.bending_order, surface_marks_);
     surface = {observed_->polynomials(), observed_->bends()};
   }
-  unknowns_.emplace(input_.machine, input_.observations, surface);
+  unknowns_.emplace(set_, surface);
 }
 
 /// e f + s, as the state has it.
@@ -152,52 +151,54 @@ Eigen::Vector2d JointProblem::correction_at(std::size_t place,
 void JointProblem::fill_design(const LinearisedSystem& system, const State& state) {
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(system.response.size(), unknowns_->total());
   Eigen::VectorXd response = system.response;
-  design.leftCols(unknowns_->settings()) = system.by_setting.leftCols(unknowns_->settings());
-  Eigen::Index sheet = unknowns_->settings();
-  Eigen::Index nuisance = 0;
-  for (std::size_t k = 0; k < input_.observations.size(); ++k) {
-    if (k > 0 && unknowns_->sheet(k) >= 0) {
-      design.middleCols<3>(unknowns_->sheet(k)) = system.by_setting.middleCols<3>(sheet);
-      sheet += 3;
+  design(Eigen::all, unknowns_->of_set()) = system.by_setting;
+  for (const auto* units : {&system.units, &system.certain}) {
+    for (const SystemUnit& unit : *units) {
+      add_chain_columns(system, unit, state, design, response);
     }
-    const Eigen::Index count = input_.observations[k]->nuisance_sigma().size();
-    design.middleCols(unknowns_->nuisance(k), count) =
-        system.by_nuisance.middleCols(nuisance, count);
-    nuisance += count;
   }
-  units_.clear();
   std::vector<Eigen::Index> rows;
-  std::vector<Eigen::Index> sure_rows;
-  for (const SystemUnit& unit : system.units) {
-    auto own = design.middleRows(unit.first_row, unit.rows);
-    const Observation& observation = *input_.observations[unit.observation];
-    for (const observation::PlaceColumns& place : unit.places) {
-      const SystemPlace& at = system.places[place.place];
-      for (const Side side : model::kSides) {
-        const Eigen::VectorXd by_chain = place.by_chain.col(row_of(side));
-        own.col(unknowns_->scale(side)) += by_chain * length_of(at.state.reading.lengths, side);
-        if (!has_surface_) continue;
-        const auto row = static_cast<Eigen::Index>(place.place);
-        own.middleCols(unknowns_->polynomial(side), observed_->polynomials()) +=
-            by_chain * observed_->polynomial_rows().row(row);
-        own.middleCols(unknowns_->bend(side), observed_->bends()) +=
-            by_chain * observed_->bend_rows().row(row);
-      }
-      if (!is_linear_in_correction(observation) || input_.fixed_weights)
-        response.segment(unit.first_row, unit.rows) +=
-            place.by_chain * correction_at(place.place, at, state);
-    }
-    auto& list = observation.may_slip() ? rows : sure_rows;
-    if (observation.may_slip()) {
-      units_.push_back(unit);
-      units_.back().first_row = static_cast<Eigen::Index>(rows.size());
-    }
+  std::vector<Eigen::Index> certain_rows;
+  const auto take = [](const SystemUnit& unit, std::vector<Eigen::Index>& list) {
     for (Eigen::Index i = 0; i < unit.rows; ++i) list.push_back(unit.first_row + i);
+  };
+  units_ = system.units;
+  for (SystemUnit& unit : units_) {
+    const auto first = static_cast<Eigen::Index>(rows.size());
+    take(unit, rows);
+    unit.first_row = first;
   }
+  for (const SystemUnit& unit : system.certain) take(unit, certain_rows);
   design_ = design(rows, Eigen::all);
   response_ = response(rows);
-  sure_design_ = design(sure_rows, Eigen::all);
-  sure_response_ = response(sure_rows);
+  sure_design_ = design(certain_rows, Eigen::all);
+  sure_response_ = response(certain_rows);
+}
+
+/// The scales' and the surface's columns of a unit.
+void JointProblem::add_chain_columns(const LinearisedSystem& system,
+                                     const SystemUnit& unit,
+                                     const State& state,
+                                     Eigen::MatrixXd& design,
+                                     Eigen::VectorXd& response) const {
+  auto own = design.middleRows(unit.first_row, unit.rows);
+  const Observation& observation = *input_.observations[unit.observation];
+  for (const observation::PlaceColumns& place : unit.places) {
+    const SystemPlace& at = system.places[place.place];
+    for (const Side side : model::kSides) {
+      const Eigen::VectorXd by_chain = place.by_chain.col(row_of(side));
+      own.col(unknowns_->scale(side)) += by_chain * length_of(at.state.reading.lengths, side);
+      if (!has_surface_) continue;
+      const auto row = static_cast<Eigen::Index>(place.place);
+      own.middleCols(unknowns_->polynomial(side), observed_->polynomials()) +=
+          by_chain * observed_->polynomial_rows().row(row);
+      own.middleCols(unknowns_->bend(side), observed_->bends()) +=
+          by_chain * observed_->bend_rows().row(row);
+    }
+    if (!is_linear_in_correction(observation) || input_.fixed_weights)
+      response.segment(unit.first_row, unit.rows) +=
+          place.by_chain * correction_at(place.place, at, state);
+  }
 }
 
 /// d(corrected lengths at a mark)/d(unknowns), 2 x total.
@@ -286,11 +287,10 @@ Eigen::MatrixXd JointProblem::covariance(const interp::PenalisedFit& fit) const 
 State JointProblem::state_of(const interp::PenalisedFit& fit) const {
   const Eigen::VectorXd all = coefficients(fit);
   State state = stated();
-  const Unknowns layout(input_.machine, input_.observations, {});
   state.settings.head(unknowns_->settings()) = all.head(unknowns_->settings());
   for (std::size_t k = 1; k < input_.observations.size(); ++k) {
-    if (layout.sheet(k) >= 0)
-      state.settings.segment<3>(layout.sheet(k)) = all.segment<3>(unknowns_->sheet(k));
+    if (layout_.sheet(k) >= 0)
+      state.settings.segment<3>(layout_.sheet(k)) = all.segment<3>(unknowns_->sheet(k));
   }
   for (const Side side : model::kSides) {
     state.surface.scale[side] = all[unknowns_->scale(side)];

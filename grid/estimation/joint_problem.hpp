@@ -66,6 +66,11 @@ class JointProblem {
  private:
   void observe(std::vector<model::MarkPoint> places);
   void fill_design(const LinearisedSystem& system, const State& state);
+  void add_chain_columns(const LinearisedSystem& system,
+                         const SystemUnit& unit,
+                         const State& state,
+                         Eigen::MatrixXd& design,
+                         Eigen::VectorXd& response) const;
   void eliminate_free_directions(const LinearisedSystem& system,
                                  const std::vector<ObservedFrom>& from,
                                  const State& state);
@@ -81,6 +86,8 @@ class JointProblem {
   void add_surface_prior(interp::PenalisedProblem& problem, const Eigen::VectorXd& weights) const;
 
   const EstimationInput& input_;
+  ObservationSet set_;
+  Unknowns layout_;  ///< without a surface's columns, which the places decide
   bool has_surface_;
   bool places_move_ = false;
   interp::BsplineBasis basis_;

@@ -1,117 +1,151 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/linearised_system.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <cmath>
-
-#include "grid/estimation/unknowns.hpp"
-
 namespace chaintrue::grid::estimation {
 namespace {
 
 using observation::Linearisation;
 using observation::Observation;
 
-/// The system's own columns of an observation's settings.
-std::vector<Eigen::Index> columns_of(const std::vector<model::Setting>& settings,
-                                     Eigen::Index first_of_sheet) {
-  std::vector<Eigen::Index> columns;
-  for (std::size_t s = 0; s < settings.size(); ++s) {
-    columns.push_back(model::is_of_sheet(settings[s])
-                          ? first_of_sheet + model::sheet_column(settings[s])
-                          : static_cast<Eigen::Index>(s));
+class Assembly {
+ public:
+  explicit Assembly(const ObservationSet& set) : set_(set) {
+    const Eigen::Index columns = set.stated_value.size();
+    system_.e.resize(set.rows);
+    system_.response.resize(set.rows);
+    system_.by_setting = Eigen::MatrixXd::Zero(set.rows, columns);
+    system_.nuisances = set.nuisances();
+    system_.unit_of_row.assign(static_cast<std::size_t>(set.rows), -1);
   }
-  return columns;
-}
 
-/// Where an observation's rows, columns and places begin.
-struct Offsets {
-  Eigen::Index row = 0;
-  Eigen::Index sheet = static_cast<Eigen::Index>(model::kMachineSettings.size());
-  Eigen::Index nuisance = 0;
+  /// `predicted` is f.
+  void add(std::size_t number,
+           const Linearisation& line,
+           const Eigen::VectorXd& predicted,
+           const Eigen::VectorXd& settings) {
+    const ObservationPart& part = set_.parts[number];
+    const Observation& observation = *part.observation;
+    add_places(number, line);
+    const auto columns = set_.columns_of(part);
+    for (std::size_t u = 0; u < line.units.size(); ++u) {
+      const observation::Unit& rows = observation.units()[u];
+      const Eigen::VectorXd residual = observation.measured().segment(rows.first_row, rows.rows) -
+                                       predicted.segment(rows.first_row, rows.rows);
+      const Eigen::MatrixXd by_setting = line.by_setting.middleRows(rows.first_row, rows.rows);
+      SystemUnit unit;
+      unit.observation = number;
+      unit.unit = u;
+      unit.first_row = part.first_row + rows.first_row;
+      unit.rows = rows.rows;
+      unit.whitening = UnitWhitening(line.units[u].covariance);
+      unit.reads_chains = part.reads_chains();
+      const UnitWhitening& w = unit.whitening;
+      const auto own = Eigen::seqN(unit.first_row, unit.rows);
+      system_.e(own) = w * residual;
+      system_.response(own) = w * (residual + by_setting * settings).eval();
+      system_.by_setting(own, columns) = w * by_setting;
+      system_.by_setting(own, part.nuisance_columns) =
+          w * line.by_nuisance.middleRows(rows.first_row, rows.rows);
+      for (const observation::PlaceColumns& place : line.units[u].places)
+        unit.places.push_back({part.first_place + place.place, w * place.by_chain});
+      take(std::move(unit), observation.may_slip());
+    }
+  }
+
+  LinearisedSystem finish() { return std::move(system_); }
+
+ private:
+  void add_places(std::size_t number, const Linearisation& line) {
+    const ObservationPart& part = set_.parts[number];
+    for (std::size_t i = 0; i < line.places.size(); ++i) {
+      const NumberedPlace& place = set_.places[part.first_place + i];
+      system_.places.push_back({number,
+                                i,
+                                line.places[i],
+                                place.mark,
+                                place.order,
+                                part.reads_chains() && part.observation->ordered(),
+                                set_.stated.bed});
+    }
+  }
+
+  void take(SystemUnit unit, bool may_slip) {
+    if (!may_slip) {
+      system_.certain.push_back(std::move(unit));
+      return;
+    }
+    for (Eigen::Index k = 0; k < unit.rows; ++k) {
+      system_.unit_of_row[static_cast<std::size_t>(unit.first_row + k)] =
+          static_cast<int>(system_.units.size());
+    }
+    system_.units.push_back(std::move(unit));
+  }
+
+  const ObservationSet& set_;
+  LinearisedSystem system_;
 };
-
-void append(LinearisedSystem& system,
-            const Observation& observation,
-            std::size_t number,
-            const Linearisation& line,
-            const ObservedFrom& from,
-            const Offsets& offsets) {
-  const std::size_t first_place = system.places.size();
-  for (std::size_t i = 0; i < line.places.size(); ++i)
-    system.places.push_back({number, i, line.places[i]});
-  const auto columns = columns_of(settings_of(observation), offsets.sheet);
-  const Eigen::Index nuisances = line.by_nuisance.cols();
-  for (std::size_t u = 0; u < line.units.size(); ++u) {
-    const observation::Unit& rows = observation.units()[u];
-    const Eigen::VectorXd residual = observation.measured().segment(rows.first_row, rows.rows) -
-                                     line.predicted.segment(rows.first_row, rows.rows);
-    const Eigen::MatrixXd by_setting = line.by_setting.middleRows(rows.first_row, rows.rows);
-    SystemUnit unit{number,
-                    u,
-                    offsets.row + rows.first_row,
-                    rows.rows,
-                    whitening_of(line.units[u].covariance),
-                    {}};
-    const Eigen::MatrixXd& w = unit.whitening;
-    system.residual.segment(unit.first_row, unit.rows) = w * residual;
-    system.response.segment(unit.first_row, unit.rows) =
-        w * (residual + by_setting * from.settings);
-    system.by_setting(Eigen::seqN(unit.first_row, unit.rows), columns) = w * by_setting;
-    system.by_nuisance.block(unit.first_row, offsets.nuisance, unit.rows, nuisances) =
-        w * line.by_nuisance.middleRows(rows.first_row, rows.rows);
-    for (const observation::PlaceColumns& place : line.units[u].places)
-      unit.places.push_back({first_place + place.place, w * place.by_chain});
-    system.units.push_back(std::move(unit));
-  }
-}
 
 }  // namespace
 
-Eigen::MatrixXd whitening_of(const Eigen::MatrixXd& covariance) {
-  const Eigen::Index n = covariance.rows();
-  if (n == 1) return Eigen::MatrixXd::Constant(1, 1, 1.0 / std::sqrt(covariance(0, 0)));
-  if (n == 2) {
-    const Eigen::Matrix2d lower = Eigen::Matrix2d(covariance).llt().matrixL();
-    return lower.inverse();
-  }
-  return Eigen::MatrixXd(covariance.llt().matrixL())
-      .triangularView<Eigen::Lower>()
-      .solve(Eigen::MatrixXd::Identity(n, n));
+Eigen::Vector2d SystemUnit::whitened(const Eigen::VectorXd& all) const {
+  Eigen::Vector2d result = Eigen::Vector2d::Zero();
+  result.head(rows) = whitening * segment(all);
+  return result;
 }
 
-Eigen::MatrixXd unwhitening_of(const Eigen::MatrixXd& whitening) {
-  const Eigen::Index n = whitening.rows();
-  if (n == 1) return whitening.cwiseInverse();
-  if (n == 2) return Eigen::Matrix2d(whitening).inverse();
-  return whitening.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));
+Eigen::Vector2d SystemUnit::unwhitened(const Eigen::VectorXd& all) const {
+  Eigen::Vector2d result = Eigen::Vector2d::Zero();
+  result.head(rows) = whitening.inverse() * segment(all);
+  return result;
 }
 
-tl::expected<LinearisedSystem, UnreachablePlace> linearise(
-    const observation::Observations& observations, const std::vector<ObservedFrom>& from) {
-  Offsets total;
-  for (const auto& observation : observations) {
-    total.row += observation->rows();
-    total.sheet += observation->sheet() ? 3 : 0;
-    total.nuisance += observation->nuisance_sigma().size();
-  }
-  LinearisedSystem system;
-  system.residual.resize(total.row);
-  system.response.resize(total.row);
-  system.by_setting = Eigen::MatrixXd::Zero(total.row, total.sheet);
-  system.by_nuisance = Eigen::MatrixXd::Zero(total.row, total.nuisance);
-  Offsets offsets;
-  for (std::size_t k = 0; k < observations.size(); ++k) {
-    const Observation& observation = *observations[k];
+Eigen::Index LinearisedSystem::observed_rows() const {
+  Eigen::Index rows = e.size();
+  for (const SystemUnit& unit : certain) rows -= unit.rows;
+  return rows;
+}
+
+tl::expected<LinearisedSystem, UnreachablePlace> linearise(const ObservationSet& set,
+                                                           const std::vector<ObservedFrom>& from,
+                                                           Prediction prediction) {
+  Assembly assembly(set);
+  for (std::size_t k = 0; k < set.parts.size(); ++k) {
+    const Observation& observation = *set.parts[k].observation;
     const auto line = observation.linearise(from[k].view, settings_of(observation));
     if (!line) return tl::unexpected(UnreachablePlace{k, line.error()});
-    append(system, observation, k, *line, from[k], offsets);
-    offsets.row += observation.rows();
-    offsets.sheet += observation.sheet() ? 3 : 0;
-    offsets.nuisance += observation.nuisance_sigma().size();
+    if (prediction == Prediction::place_by_place) {
+      assembly.add(k, *line, line->predicted, from[k].settings);
+      continue;
+    }
+    const auto predicted = observation.predicted(from[k].view);
+    if (!predicted) return tl::unexpected(UnreachablePlace{k, predicted.error()});
+    assembly.add(k, *line, *predicted, from[k].settings);
   }
-  return system;
+  return assembly.finish();
+}
+
+Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all) {
+  for (const auto* units : {&system.units, &system.certain}) {
+    for (const SystemUnit& unit : *units) {
+      const Eigen::Vector2d own = unit.whitened(all);
+      all.segment(unit.first_row, unit.rows) = own.head(unit.rows);
+    }
+  }
+  return all;
+}
+
+std::vector<std::pair<Eigen::Index, std::size_t>> units_in(const LinearisedSystem& system,
+                                                           const std::vector<Eigen::Index>& kept) {
+  std::vector<std::pair<Eigen::Index, std::size_t>> result;
+  for (std::size_t a = 0; a < kept.size(); ++a) {
+    const int unit = system.unit_of_row[static_cast<std::size_t>(kept[a])];
+    if (unit < 0) continue;
+    const auto number = static_cast<std::size_t>(unit);
+    if (system.units[number].first_row == kept[a]) {
+      result.emplace_back(static_cast<Eigen::Index>(a), number);
+    }
+  }
+  return result;
 }
 
 }  // namespace chaintrue::grid::estimation

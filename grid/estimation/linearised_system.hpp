@@ -1,60 +1,89 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// All readings of one machine about one state, brought to units of noise: the one linear system
-/// that an estimate, a check and a diagnosis stand on.
+/// All readings of one machine about one state, brought to units of noise: the one linear system of
+/// an estimate, a check and a diagnosis.
 ///
-/// Notation as in observation.hpp; W = diag(W_u) whitens unit by unit:
+/// Notation as in observation.hpp; W = diag(W_u) whitens unit by unit (unit_whitening.hpp):
 ///
 ///   W (y - f) = W A (theta - theta_0) + W B b + sum_i W D_i c_i + e,   e ~ N(0, I)          (1)
 ///
+/// Columns of A and B as observation_set.hpp has them; whitened rows have no unit, chains and marks
+/// are in mm, settings and nuisances in their own units.
+///
 /// \code
-///   const auto system = linearise(observations, views);
-///   if (system) rows = system->by_setting;                       // W A
+///   const auto system = linearise(set, from);
+///   if (system) rows = system->by_setting;                       // W (A, B)
 /// \endcode
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/observation/observation.hpp"
+#include "grid/estimation/observation_set.hpp"
+#include "grid/estimation/unit_whitening.hpp"
+#include "model/machine.hpp"
 
 namespace chaintrue::grid::estimation {
 
-/// One observation as it is seen: the view, and its own settings there less what was stated (the
-/// machine's, then its sheet's).
+/// What an observation is linearised about: the view, and its own settings there less what was
+/// stated (the machine's, then its sheet's).
 struct ObservedFrom {
   observation::View view;
   Eigen::VectorXd settings;
 };
 
+/// How f is found.
+enum class Prediction {
+  place_by_place,  ///< each place as if it were the only one
+  visit_by_visit,  ///< with what the machine keeps from one visit to the next
+};
+
+/// Rows that are good or bad together.
 struct SystemUnit {
   std::size_t observation = 0;
   std::size_t unit = 0;  ///< into the observation's
   Eigen::Index first_row = 0;
   Eigen::Index rows = 1;
-  Eigen::MatrixXd whitening;  ///< W_u
+  UnitWhitening whitening{};  ///< W_u
+  bool reads_chains = false;  ///< the rows are the chains at its only place
   /// W_u D_i, `place` into the system's places.
-  std::vector<observation::PlaceColumns> places;
+  std::vector<observation::PlaceColumns> places{};
+
+  /// From the readings' units to those of noise, and back: the rows of this unit, at most two.
+  [[nodiscard]] Eigen::Vector2d whitened(const Eigen::VectorXd& all) const;
+  [[nodiscard]] Eigen::Vector2d unwhitened(const Eigen::VectorXd& all) const;
+  [[nodiscard]] auto segment(const Eigen::VectorXd& all) const {
+    return all.segment(first_row, rows);
+  }
+  /// One sigma of a unit of one reading.
+  [[nodiscard]] double sigma() const { return 1.0 / whitening.matrix()(0, 0); }
 };
 
+/// A place as the state has it.
 struct SystemPlace {
   std::size_t observation = 0;
   std::size_t place = 0;  ///< into the observation's
   observation::PlaceState state;
+  model::MarkPoint mark;  ///< as it was written, or commanded
+  int order = 0;
+  bool ordered = false;  ///< chains were read here, at this visit
+  model::Bed bed;        ///< of the machine that stood here
 };
 
 /// (1), n rows.
 struct LinearisedSystem {
-  Eigen::VectorXd residual;  ///< W (y - f)
+  Eigen::VectorXd e;         ///< W (y - f)
   Eigen::VectorXd response;  ///< W (y - f + A (theta_0 - stated))
-  /// W A: the machine's settings, then the sheet of each observation that has one.
-  Eigen::MatrixXd by_setting;
-  Eigen::MatrixXd by_nuisance;  ///< W B of all observations, side by side
-  std::vector<SystemUnit> units;
-  std::vector<SystemPlace> places;
+  Eigen::MatrixXd by_setting;  ///< W (A, B), n x q, columns as the observation set has them
+  Eigen::Index nuisances = 0;  ///< the last of these q columns
+  std::vector<SystemUnit> units;    ///< numbered as in the observation set
+  std::vector<SystemUnit> certain;  ///< rows of readings that nobody can slip at
+  std::vector<int> unit_of_row;     ///< n; -1: a row of those
+  std::vector<SystemPlace> places{};
+
+  [[nodiscard]] Eigen::Index observed_rows() const;  ///< those of units
 };
 
 /// A place where the machine cannot hold the tool.
@@ -65,11 +94,21 @@ struct UnreachablePlace {
 
 /// `from` has one entry for each observation.
 [[nodiscard]] tl::expected<LinearisedSystem, UnreachablePlace> linearise(
-    const observation::Observations& observations, const std::vector<ObservedFrom>& from);
+    const ObservationSet& set,
+    const std::vector<ObservedFrom>& from,
+    Prediction prediction = Prediction::place_by_place);
 
-/// W with W C W' = I, lower triangular.
-[[nodiscard]] Eigen::MatrixXd whitening_of(const Eigen::MatrixXd& covariance);
-/// W^-1.
-[[nodiscard]] Eigen::MatrixXd unwhitening_of(const Eigen::MatrixXd& whitening);
+/// All n rows, from the readings' units to those of noise.
+[[nodiscard]] Eigen::VectorXd whitened(const LinearisedSystem& system, Eigen::VectorXd all);
+
+/// The nuisances' columns.
+[[nodiscard]] inline auto nuisance_columns(const LinearisedSystem& system) {
+  return system.by_setting.rightCols(system.nuisances);
+}
+
+/// Units with at least one of their rows among `kept`, which is ascending and holds units whole:
+/// the position of their first row in it, and their number.
+[[nodiscard]] std::vector<std::pair<Eigen::Index, std::size_t>> units_in(
+    const LinearisedSystem& system, const std::vector<Eigen::Index>& kept);
 
 }  // namespace chaintrue::grid::estimation

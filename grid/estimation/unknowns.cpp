@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/estimation/unknowns.hpp"
 
-#include <algorithm>
-
 #include "model/calibration/setting.hpp"
 
 namespace chaintrue::grid::estimation {
@@ -12,42 +10,33 @@ constexpr auto kSheet = static_cast<Eigen::Index>(model::kSheetSettings.size());
 
 }  // namespace
 
-std::vector<model::Setting> settings_of(const observation::Observation& observation) {
-  std::vector<model::Setting> settings(model::kMachineSettings.begin(),
-                                       model::kMachineSettings.end());
-  if (observation.sheet()) {
-    settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-  }
-  return settings;
-}
-
-Unknowns::Unknowns(const model::Machine& stated,
-                   const observation::Observations& observations,
-                   SurfaceColumns surface)
-    : stated_(stated), surface_(surface) {
-  const bool frame_is_laid = !observations.empty() && observations.front()->sheet().has_value();
+Unknowns::Unknowns(const ObservationSet& set, SurfaceColumns surface)
+    : stated_(set.stated), surface_(surface), of_set_(static_cast<std::size_t>(set.stated_value.size())) {
+  const bool frame_is_laid = !set.parts.empty() && set.parts.front().sheet.has_value();
   settings_ = kMachineSettingCount + (frame_is_laid ? kSheet : 0);
   total_ = settings_ + 2 + 2 * (surface.polynomials + surface.bends);
-  for (std::size_t i = 0; i < observations.size(); ++i) {
+  for (std::size_t i = 0; i < set.parts.size(); ++i) {
     sheet_.push_back(-1);
-    if (observations[i]->sheet()) {
+    if (set.parts[i].sheet) {
       sheet_.back() = i == 0 ? kMachineSettingCount : total_;
       if (i > 0) total_ += kSheet;
     }
     nuisance_.push_back(total_);
-    total_ += observations[i]->nuisance_sigma().size();
+    total_ += set.parts[i].observation->nuisance_sigma().size();
   }
   sigma_ = Eigen::VectorXd::Zero(total_);
-  for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
-    sigma_[i] =
-        std::max(model::stated_sigma(stated, model::kMachineSettings[static_cast<std::size_t>(i)]),
-                 kKnownSigma);
-  }
-  for (std::size_t i = 0; i < observations.size(); ++i) {
-    if (sheet_[i] < 0) continue;
-    const observation::SheetPrior& prior = *observations[i]->sheet();
-    sigma_.segment<2>(sheet_[i]).setConstant(std::max(prior.shift_sigma_mm, kKnownSigma));
-    sigma_[sheet_[i] + 2] = std::max(prior.rotation_sigma_rad, kKnownSigma);
+  for (std::size_t i = 0; i < set.parts.size(); ++i) {
+    const ObservationPart& part = set.parts[i];
+    const std::vector<Eigen::Index> own = columns_of(i);
+    const std::vector<Eigen::Index> there = set.columns_of(part);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      of_set_[static_cast<std::size_t>(there[k])] = own[k];
+      sigma_[own[k]] = set.stated_sigma[there[k]];
+    }
+    for (std::size_t q = 0; q < part.nuisance_columns.size(); ++q) {
+      of_set_[static_cast<std::size_t>(part.nuisance_columns[q])] =
+          nuisance_[i] + static_cast<Eigen::Index>(q);
+    }
   }
 }
 

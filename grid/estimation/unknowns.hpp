@@ -8,7 +8,7 @@
 ///   bends         the same
 ///   the rest      of each observation: its sheet where it has one of its own, its nuisances
 ///
-/// What stands before the rest is what a map is made of. Settings of the machine and placements of
+/// What comes before the rest is what a map is made of. Settings of the machine and placements of
 /// sheets are deviations from what was stated.
 #pragma once
 
@@ -16,18 +16,9 @@
 #include <vector>
 
 #include "grid/chain_rows.hpp"
-#include "grid/observation/observation.hpp"
-#include "model/calibration/setting.hpp"
-#include "model/calibration/sheet_placement.hpp"
+#include "grid/estimation/observation_set.hpp"
 
 namespace chaintrue::grid::estimation {
-
-/// What is stated without any uncertainty is taken as known this well, in mm or rad.
-inline constexpr double kKnownSigma = 1e-7;
-
-/// Settings of the machine: the first unknowns.
-inline constexpr auto kMachineSettingCount =
-    static_cast<Eigen::Index>(model::kMachineSettings.size());
 
 /// How many columns a surface has for each chain: polynomials and bends.
 struct SurfaceColumns {
@@ -37,9 +28,7 @@ struct SurfaceColumns {
 
 class Unknowns {
  public:
-  Unknowns(const model::Machine& stated,
-           const observation::Observations& observations,
-           SurfaceColumns surface);
+  Unknowns(const ObservationSet& set, SurfaceColumns surface);
 
   /// How many settings there are: of the machine and of the first sheet.
   [[nodiscard]] Eigen::Index settings() const { return settings_; }
@@ -63,6 +52,8 @@ class Unknowns {
   [[nodiscard]] double sigma(Eigen::Index column) const { return sigma_[column]; }
   /// Columns of an observation's own settings: the machine's, then its sheet's.
   [[nodiscard]] std::vector<Eigen::Index> columns_of(std::size_t observation) const;
+  /// Where each column of the observation set is among the unknowns.
+  [[nodiscard]] const std::vector<Eigen::Index>& of_set() const { return of_set_; }
 
   /// The machine and the sheets that a vector of all unknowns stands for.
   [[nodiscard]] model::Machine machine_at(const Eigen::VectorXd& unknowns) const;
@@ -75,11 +66,9 @@ class Unknowns {
   Eigen::Index settings_ = 0;
   std::vector<Eigen::Index> sheet_;
   std::vector<Eigen::Index> nuisance_;
+  std::vector<Eigen::Index> of_set_;
   Eigen::Index total_ = 0;
   Eigen::VectorXd sigma_;
 };
-
-/// An observation's own settings: the machine's, and its sheet's where it has one.
-[[nodiscard]] std::vector<model::Setting> settings_of(const observation::Observation& observation);
 
 }  // namespace chaintrue::grid::estimation

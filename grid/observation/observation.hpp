@@ -111,10 +111,10 @@ struct PlaceState {
   Eigen::Vector2d by_length = Eigen::Vector2d::Ones();
 };
 
-/// What a unit sees of the chains at a place: D_i, rows x 2.
+/// How the chains at a place move a unit: D_i, rows x 2.
 struct PlaceColumns {
   std::size_t place = 0;
-  Eigen::Matrix<double, Eigen::Dynamic, 2> by_chain;
+  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, 4, 2> by_chain;
 };
 
 struct UnitState {

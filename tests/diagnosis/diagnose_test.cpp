@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue,
                          name_of_effect);
 
 TEST(Diagnose, ClassesComeFromTheSignatures) {
-  const auto made = make_session(session_of({}, 5));
+  const auto made = observations_of(session_of({}, 5));
   ASSERT_TRUE(made);
   const auto analysis = analyse(*made, verdict_alone());
   ASSERT_TRUE(analysis);

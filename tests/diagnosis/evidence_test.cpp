@@ -25,8 +25,8 @@ namespace {
 constexpr double kDof = 12.0;
 
 /// Six rows, one setting, one cause: small enough for an integral over everything.
-LinearisedSystem small_system(double lowest) {
-  LinearisedSystem system;
+RegressorSystem small_system(double lowest) {
+  RegressorSystem system;
   system.e.resize(6);
   system.e << 1.2, -0.4, 2.1, 0.3, -1.7, 0.9;
   system.by_setting.resize(6, 1);
@@ -58,7 +58,7 @@ double log_normal_density(double x, double mean, double sigma) {
 
 /// p(e) with setting, size and noise integrated on a raster. Priors scale with the noise, as the
 /// conjugate form has it.
-double brute_force_at(const LinearisedSystem& system,
+double brute_force_at(const RegressorSystem& system,
                       const MarginalisedSystem& marginalised,
                       double lowest,
                       bool with_cause,
@@ -109,7 +109,7 @@ double brute_force_at(const LinearisedSystem& system,
   return total;
 }
 
-double brute_force(const LinearisedSystem& system,
+double brute_force(const RegressorSystem& system,
                    const MarginalisedSystem& marginalised,
                    double lowest,
                    bool with_cause) {
@@ -121,7 +121,7 @@ double brute_force(const LinearisedSystem& system,
 }
 
 TEST(Evidence, OfNothingEqualsTheIntegral) {
-  const LinearisedSystem system = small_system(-100.0);
+  const RegressorSystem system = small_system(-100.0);
   const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
   const NormalEquations equations = normal_equations(marginalised, {0});
   const NoiseDensity noise(kDof, 6);
@@ -133,7 +133,7 @@ TEST(Evidence, OfNothingEqualsTheIntegral) {
 
 TEST(Evidence, OfACauseEqualsTheIntegral) {
   for (const double lowest : {-100.0, 0.0}) {
-    const LinearisedSystem system = small_system(lowest);
+    const RegressorSystem system = small_system(lowest);
     const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
     const NormalEquations equations = normal_equations(marginalised, {0});
     const NoiseDensity noise(kDof, 6);
@@ -174,7 +174,7 @@ TEST(Evidence, MassOfTheNormalAddsUp) {
 }
 
 TEST(Evidence, QuadraticIsThatOfGeneralisedLeastSquares) {
-  const LinearisedSystem system = small_system(-100.0);
+  const RegressorSystem system = small_system(-100.0);
   const MarginalisedSystem marginalised = marginalise(system, {false, true, false}, {});
   const std::vector<Eigen::Index> kept = {0, 1, 4, 5};
   ASSERT_EQ(marginalised.kept, kept);
@@ -189,7 +189,7 @@ TEST(Evidence, QuadraticIsThatOfGeneralisedLeastSquares) {
 }
 
 TEST(Decision, NothingIsMoreThanCertain) {
-  const LinearisedSystem system = small_system(-100.0);
+  const RegressorSystem system = small_system(-100.0);
   const std::vector<bool> none(3, false);
   ModelComparison comparison;
   comparison.marginalised_systems.push_back(marginalise(system, none, {}));
@@ -205,7 +205,7 @@ TEST(Decision, NothingIsMoreThanCertain) {
 }
 
 TEST(NullDistribution, HoldsItsSize) {
-  const LinearisedSystem system = small_system(0.0);
+  const RegressorSystem system = small_system(0.0);
   const MarginalisedSystem marginalised = marginalise(system, {false, false, false}, {});
   const SingleScore score(system, marginalised, kDof);
   const NullDistribution null = draw_null(score, 6, 4000, 1);

@@ -118,7 +118,7 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
   MeasuredHoles set = holes({}, 3);
   set.distances.push_back({.from = 0, .edge = SheetEdge::left, .distance_mm = 50.0});
   set.distances.push_back({.from = 8, .edge = SheetEdge::right, .distance_mm = 50.0});
-  const auto session = make_session(set);
+  const auto session = observations_of(set);
   ASSERT_TRUE(session);
   const State state = stated_state(*session);
   const auto system = linearise(*session, state, {});
@@ -127,7 +127,7 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
   const auto line = tape.linearise(state.view(session->parts.front()), session->settings);
   ASSERT_TRUE(line);
   Eigen::VectorXd sigma(system->e.size());
-  for (const SystemUnit& unit : system->units) sigma(unit.first_row) = unit.sigma;
+  for (const SystemUnit& unit : system->units) sigma(unit.first_row) = unit.sigma();
   const auto to_mm = sigma.asDiagonal();
   const Eigen::MatrixXd nuisance =
       to_mm * nuisance_columns(*system) * system->sigma.tail(system->nuisances).asDiagonal();
@@ -148,7 +148,7 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
 // A setting's column predicts what moving the setting does: the whole path by differences.
 TEST(HolesDiagnosis, ColumnsAreDerivativesOfTheWholePath) {
   const MeasuredHoles set = holes({}, 3);
-  const auto session = make_session(set);
+  const auto session = observations_of(set);
   const State state = stated_state(*session);
   const auto system = linearise(*session, state, {});
   constexpr double kStepMm = 0.01;
@@ -169,7 +169,7 @@ TEST(HolesDiagnosis, ColumnsAreDerivativesOfTheWholePath) {
 // What an addition to the chains does, by the linear map, is what the same addition does on the
 // whole path where it is an effect of the machine: a pitch error is an addition in proportion.
 TEST(HolesDiagnosis, AdditionsToTheChainsMoveDistancesAsThePathDoes) {
-  const auto session = make_session(holes({}, 3));
+  const auto session = observations_of(holes({}, 3));
   const State state = stated_state(*session);
   const auto system = linearise(*session, state, {});
   const model::effects::Effect& pitch = *model::effects::find_effect("chain_pitch_error");
@@ -179,7 +179,7 @@ TEST(HolesDiagnosis, AdditionsToTheChainsMoveDistancesAsThePathDoes) {
   ASSERT_TRUE(path);
   Eigen::VectorXd linear = Eigen::VectorXd::Zero(session->rows);
   for (std::size_t u = 0; u < system->units.size(); ++u) {
-    for (const SeenPlace& seen : system->units[u].places) {
+    for (const observation::PlaceColumns& seen : system->units[u].places) {
       const double added = -kElongation * session->places[seen.place].lengths.left_mm;
       linear(system->units[u].first_row) += seen.by_chain(0, 0) * added;
     }

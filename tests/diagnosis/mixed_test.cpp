@@ -44,7 +44,7 @@ Measured mixed(const std::vector<model::AppliedEffect>& hidden, std::uint64_t se
 
 /// Log odds of the hidden cause's class against all that does not have it.
 double log_odds(const Measured& measured, const CauseId& cause) {
-  const auto a = analyse(make_session(measured).value(), verdict_alone());
+  const auto a = analyse(observations_of(measured).value(), verdict_alone());
   double with = 0.0;
   double without = 0.0;
   for (const CandidateModel& model : a->comparison.models) {

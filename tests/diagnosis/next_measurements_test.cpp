@@ -23,7 +23,7 @@ namespace {
 using Rows = std::vector<Eigen::Index>;
 
 Analysis analysis_of(const Measured& measured) {
-  return analyse(make_session(measured).value(), testing_support::verdict_alone()).value();
+  return analyse(observations_of(measured).value(), testing_support::verdict_alone()).value();
 }
 
 MeasuredHoles holes_with(const model::AppliedEffect& hidden, std::uint64_t seed) {
@@ -155,7 +155,7 @@ class WithCandidate {
  public:
   WithCandidate(const Measured& measured, const Analysis& a, const NextCandidates& next)
       : measured_(measured), next_(next), system_(linearise(next.session, a.state, {}).value()) {
-    for (const SessionPart& part : next.session.parts) {
+    for (const ObservationPart& part : next.session.parts) {
       const Eigen::VectorXd own = part.observation->predicted(a.state.view(part)).value();
       predicted_.conservativeResize(part.first_row + own.size());
       predicted_.tail(own.size()) = own;
@@ -188,7 +188,7 @@ class WithCandidate {
   [[nodiscard]] Eigen::VectorXd readings(const Rows& rows, const Alternative& truth) const {
     const int number = system_.unit_of_row[static_cast<std::size_t>(rows.front())];
     if (number < 0) {
-      const double sigma = system_.reading_sigma(rows.front() - system_.observed_rows());
+      const double sigma = system_.certain[static_cast<std::size_t>(rows.front() - system_.observed_rows())].sigma();
       return predicted_(rows) + sigma * truth.mean(rows);
     }
     Eigen::VectorXd off(static_cast<Eigen::Index>(rows.size()));
@@ -222,7 +222,7 @@ class WithCandidate {
 
   const Measured& measured_;
   const NextCandidates& next_;
-  LinearisedSystem system_;
+  RegressorSystem system_;
   Eigen::VectorXd predicted_;
 };
 

@@ -12,17 +12,17 @@
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-Session session_of(std::uint64_t seed) {
+ObservationSet session_of(std::uint64_t seed) {
   synthetic::SyntheticSpec spec;
   spec.repeats = 6;
   spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
   spec.stated = StatedNoise{0.2, 0.3, 12.0};
   spec.seed = seed;
-  return make_session(synthetic::generate(model::Machine{}, spec).value().grid).value();
+  return observations_of(synthetic::generate(model::Machine{}, spec).value().grid).value();
 }
 
 TEST(NormalPlot, HoldsItsListsInOrderAndTheMeanInsideTheBand) {
-  const Session session = session_of(1);
+  const ObservationSet session = session_of(1);
   const auto a = analyse(session, {});
   ASSERT_TRUE(a);
   const auto plot = normal_plot(*a);
@@ -41,7 +41,7 @@ TEST(NormalPlot, HoldsItsListsInOrderAndTheMeanInsideTheBand) {
 
 // The size of the noise is none of the shape's business.
 TEST(NormalPlot, IsTheSameForNoiseOfAnySize) {
-  const Session session = session_of(2);
+  const ObservationSet session = session_of(2);
   auto a = analyse(session, {});
   ASSERT_TRUE(a);
   const auto one = normal_plot(*a);
@@ -58,7 +58,7 @@ TEST(NormalPlot, NoiseIsOddAsOftenAsItSays) {
   int below_tenth = 0;
   int below_hundredth = 0;
   for (int k = 0; k < kSessions; ++k) {
-    const Session session = session_of(100 + static_cast<std::uint64_t>(k));
+    const ObservationSet session = session_of(100 + static_cast<std::uint64_t>(k));
     const auto a = analyse(session, {});
     ASSERT_TRUE(a);
     const auto plot = normal_plot(*a);
@@ -71,7 +71,7 @@ TEST(NormalPlot, NoiseIsOddAsOftenAsItSays) {
 }
 
 TEST(NormalPlot, WhatIsNoNoiseLeavesTheBand) {
-  const Session session = session_of(3);
+  const ObservationSet session = session_of(3);
   auto a = analyse(session, {});
   ASSERT_TRUE(a);
   // Many small ones and a few large ones.

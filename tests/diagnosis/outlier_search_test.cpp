@@ -20,8 +20,8 @@ namespace {
 constexpr std::size_t kUnits = 24;
 
 /// Units of one row and of two in turn, three settings, one cause, some units far off.
-LinearisedSystem random_system(synthetic::Random& random) {
-  LinearisedSystem system;
+RegressorSystem random_system(synthetic::Random& random) {
+  RegressorSystem system;
   Eigen::Index row = 0;
   for (std::size_t u = 0; u < kUnits; ++u) {
     const Eigen::Index rows = u % 3 == 0 ? 1 : 2;
@@ -62,7 +62,7 @@ struct Weighed {
   Eigen::Index rows = 0;
 };
 
-Weighed weighed(const LinearisedSystem& system,
+Weighed weighed(const RegressorSystem& system,
                 const Eigen::MatrixXd& covariance,
                 const Eigen::VectorXd& residual,
                 const std::vector<bool>& outliers) {
@@ -80,7 +80,7 @@ Weighed weighed(const LinearisedSystem& system,
 
 /// One unit after the other, each time the one that the data would rather do without; the best of
 /// the nested sets.
-std::vector<bool> one_by_one(const LinearisedSystem& system, const std::vector<int>& set) {
+std::vector<bool> one_by_one(const RegressorSystem& system, const std::vector<int>& set) {
   const std::vector<bool> none(kUnits, false);
   const MarginalisedSystem whole = marginalise(system, none, {});
   const Eigen::MatrixXd scaled = system.by_setting * system.sigma.asDiagonal();
@@ -130,7 +130,7 @@ TEST(OutlierSearch, IsThatOfTheWholeCovariance) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
     synthetic::Random random(seed);
-    const LinearisedSystem system = random_system(random);
+    const RegressorSystem system = random_system(random);
     const std::vector<bool> none(kUnits, false);
     for (const std::vector<int>& set : {std::vector<int>{}, std::vector<int>{0}}) {
       const auto found = outlier_sets(system, none, {set}, {});

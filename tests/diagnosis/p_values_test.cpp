@@ -44,7 +44,7 @@ TEST(Chances, AreUniformWhereNothingIsHidden) {
   for (std::uint64_t seed = 1; seed <= kNullSessions; ++seed) {
     DiagnosisOptions options = verdict_alone();
     options.seed = seed;
-    const auto a = analyse(make_session(session_of({}, 5000 + seed, 6, 4)).value(), options);
+    const auto a = analyse(observations_of(session_of({}, 5000 + seed, 6, 4)).value(), options);
     left_over_chance.push_back(left_over(*a).p_value);
     normal_plot_chance.push_back(normal_plot(*a)->p_value);
     family_wise_chance.push_back(a->family_wise_p);

@@ -41,7 +41,7 @@ MeasuredGrid with_dent(MeasuredGrid grid, double height_mm = 2.5) {
 }
 
 Analysis analysis_of(const MeasuredGrid& grid) {
-  auto session = make_session(grid);
+  auto session = observations_of(grid);
   EXPECT_TRUE(session);
   auto a = analyse(*std::move(session), verdict_alone());
   EXPECT_TRUE(a);

@@ -21,7 +21,7 @@ using testing_support::verdict_alone;
 constexpr const char* kUnsettled = "Calibrating had not come to rest";
 
 Analysis analysis_of_grid(const MeasuredGrid& grid) {
-  return analyse(make_session(grid).value(), verdict_alone()).value();
+  return analyse(observations_of(grid).value(), verdict_alone()).value();
 }
 
 TEST(Settling, WhatDidNotComeToRestIsSaid) {
@@ -49,7 +49,7 @@ TEST(Settling, ATurnOfTheSheetCountsAsItsEdgeMoves) {
       marginalise(again, a.comparison.marginalised_systems.front().outliers, projected);
   const Eigen::VectorXd change = estimate(again, marginalised, {}, -1).setting_change;
   const double edge_mm = 0.5 * a.session.stated.bed.width_mm;
-  const Eigen::Index turn = Session::sheet_column(0) + 2;
+  const Eigen::Index turn = ObservationSet::sheet_column(0) + 2;
   // One more pass moves nothing by more than the last one was allowed to, 1e-4 mm.
   EXPECT_LT(edge_mm * std::abs(change(turn)), 1e-4);
 }

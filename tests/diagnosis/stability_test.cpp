@@ -49,7 +49,7 @@ double probability_that_all_act(const Analysis& a, const ModelComparison& compar
 }
 
 TEST(LeavingOut, ColumnsAndRowsHoldEveryPointOnce) {
-  const auto session = make_session(session_of({}, 1));
+  const auto session = observations_of(session_of({}, 1));
   ASSERT_TRUE(session);
   const auto groups = groups_to_leave_out(*session);
   for (const auto& [what, lines] :
@@ -71,7 +71,7 @@ TEST(LeavingOut, MarksThatLieAnywhereHaveNoColumns) {
   spec.design.kind = synthetic::DesignKind::random;
   spec.design.points = 30;
   spec.noise = {.length_mm = 0.2, .position_mm = 0.3};
-  const auto session = make_session(synthetic::generate(model::Machine{}, spec).value().grid);
+  const auto session = observations_of(synthetic::generate(model::Machine{}, spec).value().grid);
   ASSERT_TRUE(session);
   for (const LeftOut& group : groups_to_leave_out(*session)) {
     EXPECT_EQ(group.what, Removal::What::point);
@@ -80,7 +80,7 @@ TEST(LeavingOut, MarksThatLieAnywhereHaveNoColumns) {
 
 // Nothing left out: the comparison itself, but for what the followed models leave aside.
 TEST(Downdating, OfAllPointsIsTheComparison) {
-  const auto session = make_session(session_of({kLongLeftChain}, 3));
+  const auto session = observations_of(session_of({kLongLeftChain}, 3));
   const auto a = analyse(*session, verdict_alone());
   ASSERT_TRUE(a);
   ASSERT_FALSE(a->decision.listed.empty());
@@ -101,7 +101,7 @@ TEST(Downdating, SaysWhatAComparisonMadeAnewSays) {
       "sprocket_eccentricity", "left", {{"amplitude_mm", 0.6}, {"phase_rad", 1.0}}};
   for (const auto& [hidden, seed] : {std::pair(wave, 1), std::pair(kLongLeftChain, 2)}) {
     SCOPED_TRACE(hidden.effect);
-    const auto session = make_session(session_of({hidden}, static_cast<std::uint64_t>(seed)));
+    const auto session = observations_of(session_of({hidden}, static_cast<std::uint64_t>(seed)));
     const auto a = analyse(*session, verdict_alone());
     ASSERT_TRUE(a);
     ASSERT_EQ(a->decision.verdict, Verdict::named);

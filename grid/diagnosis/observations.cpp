@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grid/diagnosis/session.hpp"
+#include "grid/diagnosis/observations.hpp"
 
 #include <fmt/format.h>
 
@@ -49,10 +49,6 @@ double sigma_of_statement(const Machine& machine, const std::string& what) {
 /// Secants of effects and the calibration's steps are good to some micrometres over a bed: readings
 /// that are better are taken to be this good, and the noise that is found says how good they were.
 constexpr double kFinestLengthNoiseMm = 0.01;
-
-/// What is stated exactly is known this well, in mm or rad: no division by zero, and below every
-/// other number here.
-constexpr double kKnownSigma = 1e-7;
 
 constexpr double kContradiction = 6.0;  // sigmas: no slip of the tape, a slip of the pen
 
@@ -205,90 +201,6 @@ tl::expected<std::shared_ptr<const observation::Observation>, DiagnosisFailure> 
       sheet);
 }
 
-class Assembly {
- public:
-  explicit Assembly(Machine stated) {
-    session_.stated = std::move(stated);
-    session_.settings.assign(model::kMachineSettings.begin(), model::kMachineSettings.end());
-  }
-
-  void add(std::shared_ptr<const observation::Observation> observation) {
-    if (observation->rows() == 0) return;
-    SessionPart part;
-    if (observation->sheet()) {
-      part.sheet = session_.sheets++;
-      session_.settings.insert(
-          session_.settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-    }
-    part.observation = std::move(observation);
-    append(std::move(part), session_);
-  }
-
-  [[nodiscard]] Session take() {
-    state_unknowns();
-    state_knowledge();
-    return std::move(session_);
-  }
-
-  /// Rows, places and units of a part after all others.
-  static void append(SessionPart part, Session& session) {
-    const observation::Observation& own = *part.observation;
-    const std::size_t number = session.parts.size();
-    part.first_row = session.rows;
-    part.first_place = session.places.size();
-    part.first_unit = session.units.size();
-    for (const observation::Place& place : own.places()) {
-      session.places.push_back({number, place.index, place.mark, place.lengths, place.order});
-    }
-    if (own.may_slip()) {
-      for (const observation::Unit& unit : own.units()) {
-        session.units.push_back({number, unit.index, part.first_row + unit.first_row, unit.rows});
-      }
-      session.observed_rows += own.rows();
-    }
-    session.rows += own.rows();
-    session.parts.push_back(std::move(part));
-  }
-
- private:
-  void state_unknowns() {
-    auto columns = static_cast<Eigen::Index>(session_.settings.size());
-    for (SessionPart& part : session_.parts) {
-      for (Eigen::Index q = 0; q < part.observation->nuisance_sigma().size(); ++q) {
-        part.nuisance_columns.push_back(columns++);
-      }
-    }
-    session_.stated_value = Eigen::VectorXd::Zero(columns);
-    session_.stated_sigma = Eigen::VectorXd::Zero(columns);
-    for (std::size_t k = 0; k < model::kMachineSettings.size(); ++k) {
-      const auto at = static_cast<Eigen::Index>(k);
-      session_.stated_value(at) = model::stated_value(session_.stated, session_.settings[k]);
-      session_.stated_sigma(at) = model::stated_sigma(session_.stated, session_.settings[k]);
-    }
-    for (const SessionPart& part : session_.parts) {
-      for (std::size_t q = 0; q < part.nuisance_columns.size(); ++q) {
-        session_.stated_sigma(part.nuisance_columns[q]) =
-            part.observation->nuisance_sigma()(static_cast<Eigen::Index>(q));
-      }
-      if (!part.sheet) continue;
-      const observation::SheetPrior& prior = *part.observation->sheet();
-      session_.stated_sigma.segment<3>(Session::sheet_column(*part.sheet)) << prior.shift_sigma_mm,
-          prior.shift_sigma_mm, prior.rotation_sigma_rad;
-    }
-    session_.stated_sigma = session_.stated_sigma.cwiseMax(kKnownSigma);
-  }
-
-  void state_knowledge() {
-    session_.noise_dof = std::numeric_limits<double>::infinity();
-    for (const SessionPart& part : session_.parts) {
-      session_.noise_dof = std::min(session_.noise_dof, part.observation->noise_dof());
-    }
-    session_.fewest_units = session_.reads_chains() ? kFewestPoints : kFewestGoodDistances;
-  }
-
-  Session session_;
-};
-
 /// Eight points or eight distances; of both together as many numbers as eight points give.
 std::optional<std::string> too_few(const Measured& measured) {
   std::size_t points = 0;
@@ -318,7 +230,7 @@ std::optional<std::string> too_few(const Measured& measured) {
 
 }  // namespace
 
-tl::expected<Session, DiagnosisFailure> make_session(const Measured& measured) {
+tl::expected<ObservationSet, DiagnosisFailure> observations_of(const Measured& measured) {
   if (!measured.machine()) {
     return failure(Reason::no_machine,
                    measured.grids().empty()
@@ -339,13 +251,16 @@ tl::expected<Session, DiagnosisFailure> make_session(const Measured& measured) {
   if (auto said = contradiction(stated, readings)) {
     return failure(Reason::contradictory_settings, *std::move(said));
   }
-  Assembly assembly(stated);
+  observation::Observations observations;
+  const auto add = [&](std::shared_ptr<const observation::Observation> one) {
+    if (one->rows() > 0) observations.push_back(std::move(one));
+  };
   PointsSoFar so_far;
   std::size_t index = 0;
   for (const MeasuredGrid* grid : measured.grids()) {
     auto points = points_of(*grid, stated, index, so_far);
     if (!points) return tl::unexpected(points.error());
-    assembly.add(*std::move(points));
+    add(*std::move(points));
     index += grid->points.size();
   }
   observation::NumberedFrom first;
@@ -358,41 +273,17 @@ tl::expected<Session, DiagnosisFailure> make_session(const Measured& measured) {
     }
     auto distances = observation::TapeDistances::of(set, first);
     if (!distances) return failure(Reason::point_unreachable, distances.error().sentence);
-    assembly.add(std::make_shared<const observation::TapeDistances>(*std::move(distances)));
+    add(std::make_shared<const observation::TapeDistances>(*std::move(distances)));
     first.hole += set.holes.size();
     first.distance += set.distances.size();
   }
   if (!readings.empty()) {
-    assembly.add(std::make_shared<const observation::SingleReadings>(std::move(readings)));
+    add(std::make_shared<const observation::SingleReadings>(std::move(readings)));
   }
-  Session session = assembly.take();
-  session.noise_from_repeats = so_far.noise_from_repeats;
-  return session;
-}
-
-Session with_observations(const Session& session, std::vector<FollowUp> parts) {
-  Session other = session;
-  other.parts.clear();
-  other.places.clear();
-  other.units.clear();
-  other.rows = other.observed_rows = 0;
-  for (FollowUp& one : parts) {
-    SessionPart part;
-    part.sheet = session.parts[one.in_place_of].sheet;
-    part.nuisance_columns = session.parts[one.in_place_of].nuisance_columns;
-    const Eigen::VectorXd& sigma = one.observation->nuisance_sigma();
-    const auto known = static_cast<Eigen::Index>(part.nuisance_columns.size());
-    const Eigen::Index more = std::max<Eigen::Index>(sigma.size() - known, 0);
-    const Eigen::Index columns = other.stated_sigma.size();
-    part.nuisance_columns.resize(static_cast<std::size_t>(std::min(known, sigma.size())));
-    for (Eigen::Index q = 0; q < more; ++q) part.nuisance_columns.push_back(columns + q);
-    other.stated_value.conservativeResizeLike(Eigen::VectorXd::Zero(columns + more));
-    other.stated_sigma.conservativeResize(columns + more);
-    other.stated_sigma.tail(more) = sigma.tail(more);
-    part.observation = std::move(one.observation);
-    Assembly::append(std::move(part), other);
-  }
-  return other;
+  ObservationSet set = estimation::observation_set(std::move(stated), observations);
+  set.noise_from_repeats = so_far.noise_from_repeats;
+  set.fewest_units = set.reads_chains() ? kFewestPoints : kFewestGoodDistances;
+  return set;
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What was measured as a diagnosis needs it: points and distances of one machine, in any mix, as
+/// one set of observations.
+#pragma once
+
+#include <tl/expected.hpp>
+
+#include "grid/diagnosis/options.hpp"
+#include "grid/estimation/observation_set.hpp"
+#include "grid/observation/measured.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+using estimation::FollowUp;
+using estimation::NumberedPlace;
+using estimation::NumberedUnit;
+using estimation::ObservationPart;
+using estimation::ObservationSet;
+using State = estimation::MachineState;
+
+/// Fewer points leave nothing to judge a cause by once the settings have taken their share.
+inline constexpr std::size_t kFewestPoints = 8;
+/// Distances tell four of the six settings; two more for a cause, two to doubt it by.
+inline constexpr std::size_t kFewestDistances = 8;
+/// Of which so many must stay when bad ones are rejected.
+inline constexpr std::size_t kFewestGoodDistances = 6;
+
+/// The machine is that of the first file; observations in the order of the files, points first, the
+/// readings of the machine itself last. Fails in words where there is no machine, too little was
+/// measured, or a command is out of reach.
+[[nodiscard]] tl::expected<ObservationSet, DiagnosisFailure> observations_of(
+    const Measured& measured);
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/regressor_system.hpp"
+
+#include <cmath>
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+/// For each observation one whitening in place of its units' own, of the mean variance of a row.
+std::vector<double> common_sigmas(const RegressorSystem& system, std::size_t parts) {
+  std::vector<double> variance(parts, 0.0);
+  std::vector<double> rows(parts, 0.0);
+  for (const auto* units : {&system.units, &system.certain}) {
+    for (const SystemUnit& unit : *units) {
+      variance[unit.observation] += unit.whitening.inverse().squaredNorm();
+      rows[unit.observation] += static_cast<double>(unit.rows);
+    }
+  }
+  for (std::size_t k = 0; k < parts; ++k) variance[k] = std::sqrt(variance[k] / rows[k]);
+  return variance;
+}
+
+void whiten_by(const std::vector<double>& sigma, SystemUnit& unit, RegressorSystem& system) {
+  const double own = sigma[unit.observation];
+  const Eigen::MatrixXd change = unit.whitening.inverse() / own;
+  const auto rows = Eigen::seqN(unit.first_row, unit.rows);
+  system.e(rows) = (change * system.e(rows)).eval();
+  system.by_setting(rows, Eigen::all) = (change * system.by_setting(rows, Eigen::all)).eval();
+  for (observation::PlaceColumns& place : unit.places)
+    place.by_chain = (change * place.by_chain).eval();
+  unit.whitening =
+      estimation::UnitWhitening(Eigen::MatrixXd::Identity(unit.rows, unit.rows) * own * own);
+}
+
+}  // namespace
+
+tl::expected<RegressorSystem, observation::Unreachable> linearise(const ObservationSet& set,
+                                                                  const State& state,
+                                                                  const Steps& steps) {
+  std::vector<estimation::ObservedFrom> from;
+  for (const ObservationPart& part : set.parts) {
+    const auto settings = static_cast<Eigen::Index>(set.columns_of(part).size());
+    from.push_back({state.view(part), Eigen::VectorXd::Zero(settings)});
+  }
+  auto line = estimation::linearise(set, from, estimation::Prediction::visit_by_visit);
+  if (!line) {
+    const estimation::UnreachablePlace& where = line.error();
+    return tl::unexpected(observation::Unreachable{
+        set.parts[where.observation].first_place + where.place.place, where.place.reason});
+  }
+  RegressorSystem system;
+  static_cast<estimation::LinearisedSystem&>(system) = *std::move(line);
+  system.setting = setting_values(set, state);
+  system.expected_change = set.stated_value - system.setting;
+  system.sigma = set.stated_sigma;
+  system.noise_dof = set.noise_dof;
+  system.fewest_units = set.fewest_units;
+  if (!steps.whiten) {
+    const std::vector<double> sigma = common_sigmas(system, set.parts.size());
+    for (auto* units : {&system.units, &system.certain}) {
+      for (SystemUnit& unit : *units) whiten_by(sigma, unit, system);
+    }
+  }
+  return system;
+}
+
+}  // namespace chaintrue::grid::diagnosis

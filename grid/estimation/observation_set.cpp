@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/estimation/observation_set.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid::estimation {
+namespace {
+
+/// Rows, places and units of a part after all others.
+void append(ObservationPart part, ObservationSet& set) {
+  const observation::Observation& own = *part.observation;
+  const std::size_t number = set.parts.size();
+  part.first_row = set.rows;
+  part.first_place = set.places.size();
+  part.first_unit = set.units.size();
+  for (const observation::Place& place : own.places()) {
+    set.places.push_back({number, place.index, place.mark, place.lengths, place.order});
+  }
+  if (own.may_slip()) {
+    for (const observation::Unit& unit : own.units()) {
+      set.units.push_back({number, unit.index, part.first_row + unit.first_row, unit.rows});
+    }
+    set.observed_rows += own.rows();
+  }
+  set.rows += own.rows();
+  set.parts.push_back(std::move(part));
+}
+
+/// The columns of nuisances, and what is stated of all columns.
+void add_columns(ObservationSet& set) {
+  auto columns = static_cast<Eigen::Index>(set.settings.size());
+  for (ObservationPart& part : set.parts) {
+    for (Eigen::Index q = 0; q < part.observation->nuisance_sigma().size(); ++q) {
+      part.nuisance_columns.push_back(columns++);
+    }
+  }
+  set.stated_value = Eigen::VectorXd::Zero(columns);
+  set.stated_sigma = Eigen::VectorXd::Zero(columns);
+  for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) {
+    const model::Setting setting = set.settings[static_cast<std::size_t>(k)];
+    set.stated_value(k) = model::stated_value(set.stated, setting);
+    set.stated_sigma(k) = model::stated_sigma(set.stated, setting);
+  }
+  for (const ObservationPart& part : set.parts) {
+    for (std::size_t q = 0; q < part.nuisance_columns.size(); ++q) {
+      set.stated_sigma(part.nuisance_columns[q]) =
+          part.observation->nuisance_sigma()(static_cast<Eigen::Index>(q));
+    }
+    if (!part.sheet) continue;
+    const observation::SheetPrior& prior = *part.observation->sheet();
+    set.stated_sigma.segment<3>(ObservationSet::sheet_column(*part.sheet)) << prior.shift_sigma_mm,
+        prior.shift_sigma_mm, prior.rotation_sigma_rad;
+  }
+  set.stated_sigma = set.stated_sigma.cwiseMax(kKnownSigma);
+}
+
+}  // namespace
+
+std::vector<model::Setting> settings_of(const observation::Observation& observation) {
+  std::vector<model::Setting> settings(model::kMachineSettings.begin(),
+                                       model::kMachineSettings.end());
+  if (observation.sheet()) {
+    settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
+  }
+  return settings;
+}
+
+ObservationSet observation_set(model::Machine stated,
+                               const observation::Observations& observations) {
+  ObservationSet set;
+  set.stated = std::move(stated);
+  set.settings.assign(model::kMachineSettings.begin(), model::kMachineSettings.end());
+  for (const auto& observation : observations) {
+    ObservationPart part;
+    if (observation->sheet()) {
+      part.sheet = set.sheets++;
+      set.settings.insert(
+          set.settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
+    }
+    part.observation = observation;
+    append(std::move(part), set);
+  }
+  add_columns(set);
+  set.noise_dof = std::numeric_limits<double>::infinity();
+  for (const ObservationPart& part : set.parts) {
+    set.noise_dof = std::min(set.noise_dof, part.observation->noise_dof());
+  }
+  return set;
+}
+
+ObservationSet with_observations(const ObservationSet& set, std::vector<FollowUp> parts) {
+  ObservationSet other = set;
+  other.parts.clear();
+  other.places.clear();
+  other.units.clear();
+  other.rows = other.observed_rows = 0;
+  for (FollowUp& one : parts) {
+    ObservationPart part;
+    part.sheet = set.parts[one.in_place_of].sheet;
+    part.nuisance_columns = set.parts[one.in_place_of].nuisance_columns;
+    const Eigen::VectorXd& sigma = one.observation->nuisance_sigma();
+    const auto known = static_cast<Eigen::Index>(part.nuisance_columns.size());
+    const Eigen::Index more = std::max<Eigen::Index>(sigma.size() - known, 0);
+    const Eigen::Index columns = other.stated_sigma.size();
+    part.nuisance_columns.resize(static_cast<std::size_t>(std::min(known, sigma.size())));
+    for (Eigen::Index q = 0; q < more; ++q) part.nuisance_columns.push_back(columns + q);
+    other.stated_value.conservativeResizeLike(Eigen::VectorXd::Zero(columns + more));
+    other.stated_sigma.conservativeResize(columns + more);
+    other.stated_sigma.tail(more) = sigma.tail(more);
+    part.observation = std::move(one.observation);
+    append(std::move(part), other);
+  }
+  return other;
+}
+
+Eigen::Index ObservationSet::sheet_column(std::size_t sheet) {
+  return kMachineSettingCount + static_cast<Eigen::Index>(model::kSheetSettings.size() * sheet);
+}
+
+std::vector<Eigen::Index> ObservationSet::columns_of(const ObservationPart& part) const {
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) columns.push_back(k);
+  for (std::size_t k = 0; part.sheet && k < model::kSheetSettings.size(); ++k)
+    columns.push_back(sheet_column(*part.sheet) + static_cast<Eigen::Index>(k));
+  return columns;
+}
+
+bool ObservationSet::reads_chains() const {
+  return std::any_of(
+      parts.begin(), parts.end(), [](const ObservationPart& part) { return part.reads_chains(); });
+}
+
+bool ObservationSet::has_distances() const {
+  return !parts_of<observation::TapeDistances>(*this).empty();
+}
+
+bool ObservationSet::ordered() const {
+  return std::any_of(parts.begin(), parts.end(), [](const ObservationPart& part) {
+    return part.reads_chains() && part.observation->ordered();
+  });
+}
+
+const std::vector<ExtraReading>& ObservationSet::readings() const {
+  static const std::vector<ExtraReading> kNone;
+  const auto own = parts_of<observation::SingleReadings>(*this);
+  return own.empty() ? kNone : own.front().second->readings();
+}
+
+bool ObservationSet::knows(std::size_t column) const {
+  if (column >= settings.size() || !model::is_of_sheet(settings[column])) return true;
+  return std::any_of(parts.begin(), parts.end(), [&](const ObservationPart& part) {
+    return part.sheet && (column - model::kMachineSettings.size()) / 3 == *part.sheet &&
+           part.observation->sheet()->knows(settings[column]);
+  });
+}
+
+std::string_view ObservationSet::units_word() const {
+  std::string_view word;
+  for (const ObservationPart& part : parts) {
+    if (!part.observation->may_slip()) continue;
+    const std::string_view own = part.observation->kind().units;
+    word = word.empty() || word == own ? own : "readings";
+  }
+  return word;
+}
+
+MachineState stated_state(const ObservationSet& set) {
+  return {set.stated, std::vector<model::SheetPlacement>(set.sheets)};
+}
+
+Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(set.stated_value.size());
+  for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) {
+    values(k) = model::stated_value(state.machine, set.settings[static_cast<std::size_t>(k)]);
+  }
+  for (std::size_t i = 0; i < set.sheets; ++i) {
+    const model::SheetPlacement& sheet = state.sheets[i];
+    values.segment<3>(ObservationSet::sheet_column(i)) << sheet.x_mm, sheet.y_mm,
+        sheet.rotation_rad;
+  }
+  return values;
+}
+
+MachineState with_settings(const ObservationSet& set,
+                           MachineState state,
+                           const Eigen::VectorXd& values) {
+  for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) {
+    state.machine = model::with_setting(
+        std::move(state.machine), set.settings[static_cast<std::size_t>(k)], values(k));
+  }
+  for (std::size_t i = 0; i < set.sheets; ++i) {
+    const Eigen::Index at = ObservationSet::sheet_column(i);
+    state.sheets[i] = {values(at), values(at + 1), values(at + 2)};
+  }
+  return state;
+}
+
+std::string name_of(const ObservationSet& set, std::size_t unit) {
+  const ObservationPart& part = set.parts[set.units[unit].part];
+  return part.observation->name_of(unit - part.first_unit);
+}
+
+}  // namespace chaintrue::grid::estimation

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// All observations of one machine: their rows one below the other, their places and units numbered
+/// through, and the columns of what is unknown with what is stated of it.
+///
+/// Columns: the machine's settings, three for each sheet that somebody laid, the nuisances of each
+/// observation. Units (observation.hpp) are those whose readings may be slips; readings that nobody
+/// can slip at have rows and are no units.
+///
+/// \code
+///   const ObservationSet set = observation_set(machine, {points, holes});
+///   const MachineState state = stated_state(set);
+///   const auto system = linearise(set, ...);       // linearised_system.hpp
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "grid/observation/chain_lengths.hpp"
+#include "grid/observation/single_readings.hpp"
+#include "grid/observation/tape_distances.hpp"
+
+namespace chaintrue::grid::estimation {
+
+/// What is stated without any uncertainty is taken as known this well, in mm or rad.
+inline constexpr double kKnownSigma = 1e-7;
+
+/// Settings of the machine: the first columns.
+inline constexpr auto kMachineSettingCount =
+    static_cast<Eigen::Index>(model::kMachineSettings.size());
+
+/// An observation's own settings: the machine's, and its sheet's where it has one.
+[[nodiscard]] std::vector<model::Setting> settings_of(const observation::Observation& observation);
+
+/// An observation's share of the rows, places, units and columns.
+struct ObservationPart {
+  std::shared_ptr<const observation::Observation> observation;
+  Eigen::Index first_row = 0;
+  std::size_t first_place = 0;
+  std::size_t first_unit = 0;
+  std::optional<std::size_t> sheet;            ///< which of the set's; none: the bed's frame
+  std::vector<Eigen::Index> nuisance_columns;  ///< among all columns
+  [[nodiscard]] bool reads_chains() const { return observation->kind().reads_chains; }
+};
+
+struct NumberedPlace {
+  std::size_t part = 0;
+  std::size_t index = 0;  ///< into the points, or the holes, of all files in their order
+  model::MarkPoint mark;
+  model::ChainLengths lengths;
+  int order = 0;
+};
+
+struct NumberedUnit {
+  std::size_t part = 0;
+  std::size_t index = 0;  ///< into the points, or the distances, of all files in their order
+  Eigen::Index first_row = 0;
+  Eigen::Index rows = 1;
+};
+
+struct ObservationSet {
+  model::Machine stated;
+  std::vector<ObservationPart> parts;
+  std::vector<NumberedPlace> places;
+  std::vector<NumberedUnit> units;
+  std::vector<model::Setting> settings;  ///< those of a sheet once for each
+  std::size_t sheets = 0;
+  Eigen::VectorXd stated_value;  ///< q: of the settings, then of the nuisances, each in its unit
+  Eigen::VectorXd stated_sigma;  ///< q, one sigma of these, at least kKnownSigma
+  Eigen::Index rows = 0;
+  Eigen::Index observed_rows = 0;  ///< those of units
+  /// How well the noise is known; of several observations that of the one that knows least.
+  double noise_dof = 15.0;
+  bool noise_from_repeats = false;
+  /// With fewer units left, none is rejected.
+  std::size_t fewest_units = 0;
+
+  [[nodiscard]] Eigen::Index nuisances() const {
+    return stated_value.size() - static_cast<Eigen::Index>(settings.size());
+  }
+  [[nodiscard]] bool reads_chains() const;
+  [[nodiscard]] bool has_distances() const;
+  /// Chains were read, and the visits' order is known.
+  [[nodiscard]] bool ordered() const;
+  [[nodiscard]] bool ordered(const NumberedPlace& place) const {
+    return parts[place.part].observation->ordered();
+  }
+  /// The readings of the machine itself; none where there are none.
+  [[nodiscard]] const std::vector<ExtraReading>& readings() const;
+  /// Whether the readings know of the setting in this column at all.
+  [[nodiscard]] bool knows(std::size_t column) const;
+  /// The first of the three columns of a sheet.
+  [[nodiscard]] static Eigen::Index sheet_column(std::size_t sheet);
+  /// Columns of an observation's own settings, as settings_of() has them.
+  [[nodiscard]] std::vector<Eigen::Index> columns_of(const ObservationPart& part) const;
+  /// What these units are together: "points", "distances", "readings" where there are both.
+  [[nodiscard]] std::string_view units_word() const;
+};
+
+/// In the order of `observations`.
+[[nodiscard]] ObservationSet observation_set(model::Machine stated,
+                                             const observation::Observations& observations);
+
+/// The same machine with other observations in place of the set's, each in the frame (sheet and
+/// nuisances) of one of its parts; nuisances that it has beyond the part's come after all columns.
+struct FollowUp {
+  std::shared_ptr<const observation::Observation> observation;
+  std::size_t in_place_of = 0;
+};
+[[nodiscard]] ObservationSet with_observations(const ObservationSet& set,
+                                               std::vector<FollowUp> parts);
+
+/// The parts of one kind. `What` is ChainLengthReadings or TapeDistances.
+template <class What>
+[[nodiscard]] std::vector<std::pair<const ObservationPart*, const What*>> parts_of(
+    const ObservationSet& set) {
+  std::vector<std::pair<const ObservationPart*, const What*>> result;
+  for (const ObservationPart& part : set.parts) {
+    if (const auto* own = dynamic_cast<const What*>(part.observation.get())) {
+      result.emplace_back(&part, own);
+    }
+  }
+  return result;
+}
+
+/// A machine with its settings somewhere, and where each sheet lies.
+struct MachineState {
+  model::Machine machine;
+  std::vector<model::SheetPlacement> sheets;
+  [[nodiscard]] model::SheetPlacement sheet_of(const ObservationPart& part) const {
+    return part.sheet ? sheets.at(*part.sheet) : model::SheetPlacement{};
+  }
+  [[nodiscard]] observation::View view(const ObservationPart& part) const {
+    return {model::ReadingModel(machine), sheet_of(part)};
+  }
+};
+[[nodiscard]] MachineState stated_state(const ObservationSet& set);
+/// Nuisances are nothing in every state.
+[[nodiscard]] Eigen::VectorXd setting_values(const ObservationSet& set, const MachineState& state);
+[[nodiscard]] MachineState with_settings(const ObservationSet& set,
+                                         MachineState state,
+                                         const Eigen::VectorXd& values);
+
+/// A unit in a workshop's words.
+[[nodiscard]] std::string name_of(const ObservationSet& set, std::size_t unit);
+
+}  // namespace chaintrue::grid::estimation

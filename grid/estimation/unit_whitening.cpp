@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/estimation/unit_whitening.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "grid/precondition.hpp"
+
+namespace chaintrue::grid::estimation {
+
+UnitWhitening::UnitWhitening(const Eigen::MatrixXd& covariance) {
+  const Eigen::Index n = covariance.rows();
+  if (n < 1 || n > kMostUnitReadings || covariance.cols() != n) {
+    throw precondition("the covariance of a unit's readings is {} x {}; 1 to {} readings are allowed",
+                       n,
+                       covariance.cols(),
+                       kMostUnitReadings);
+  }
+  if (n == 1) {
+    matrix_ = Matrix::Constant(1, 1, 1.0 / std::sqrt(covariance(0, 0)));
+  } else if (n == 2) {
+    const Eigen::Matrix2d lower = Eigen::Matrix2d(covariance).llt().matrixL();
+    matrix_ = lower.inverse();
+  } else {
+    matrix_ = Eigen::MatrixXd(covariance.llt().matrixL())
+                  .triangularView<Eigen::Lower>()
+                  .solve(Eigen::MatrixXd::Identity(n, n));
+  }
+}
+
+UnitWhitening UnitWhitening::projected(const Eigen::Ref<const Eigen::MatrixXd>& q, double sigma) {
+  UnitWhitening result;
+  result.matrix_ = q.transpose() / sigma;
+  return result;
+}
+
+UnitWhitening::Matrix UnitWhitening::inverse() const {
+  if (rows() == 1 && readings() == 1) return matrix_.cwiseInverse();
+  if (rows() == 2 && readings() == 2) return Eigen::Matrix2d(matrix_).inverse();
+  if (rows() == readings())
+    return matrix_.triangularView<Eigen::Lower>().solve(Matrix::Identity(rows(), rows()));
+  return matrix_.transpose() * (matrix_ * matrix_.transpose()).llt().solve(Matrix::Identity(rows(), rows()));
+}
+
+}  // namespace chaintrue::grid::estimation
