@@ -138,7 +138,13 @@ void decide(bool seen, BeltsAnalysis& a) {
 
 void compare(Look look, BeltsAnalysis& a) {
   a.pattern_length_mm.reset();
-  const auto sets = bad_readings(a.linear, hypotheses_of(a));
+  const std::vector<bool> none(a.linear.system.units.size(), false);
+  const auto sets = outlier_sets(a.linear.system,
+                                 reading_groups(a.linear),
+                                 reading_limits(a.linear),
+                                 none,
+                                 hypotheses_of(a),
+                                 a.analysis.options.steps);
   a.suspects = suspects_of(sets);
   turn_to(a.suspects, a.sigma_mm, a.linear);
   Analysis& own = a.analysis;
@@ -147,7 +153,7 @@ void compare(Look look, BeltsAnalysis& a) {
   const auto add = [&units](std::vector<bool> set) {
     if (std::find(units.begin(), units.end(), set) == units.end()) units.push_back(std::move(set));
   };
-  for (const BadReadings& set : sets) add(units_of(set, a.suspects));
+  for (const auto& set : sets) add(units_of(set, a.suspects));
   add(std::vector<bool>(own.system.units.size(), false));
   compare_belts(units, look, a);
   if (look == Look::whole) test_significance_of_belts(a);

@@ -4,33 +4,45 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "grid/diagnosis/model_comparison.hpp"
 
 namespace chaintrue::grid::diagnosis {
 namespace {
 
-struct Found {
+/// A direction shorter than this has been taken already, and one of less precision is fitted whole:
+/// no shift shows there.
+constexpr double kNoDirection = 1e-9;
+
+struct FoundSet {
   std::vector<bool> outliers;
   double log_weight = 0.0;
 };
 
-/// Units that may yet be set aside: the position of their first row among those kept, and their
-/// number.
-using FreeUnits = std::vector<std::pair<Eigen::Index, std::size_t>>;
+/// A group that may yet be rejected.
+struct FreeGroup {
+  std::size_t group = 0;
+  Eigen::Index at = 0;  ///< position of its first row among those kept
+  Eigen::Index rows = 1;
+  /// Of length one, without what other groups of the same rows have taken; absent: all rows.
+  std::optional<Eigen::Vector2d> direction;
 
-/// The data seen from one hypothesis: precision P of the rows, and P times the residual.
+  [[nodiscard]] Eigen::Index directions() const { return direction ? 1 : rows; }
+};
+
+/// The data under one hypothesis: precision P of the rows, and P times the residual.
 ///
 /// P is that of no hypothesis less T T', a column of T for each regressor that is left free and each
-/// row set aside. Of P only the units' own blocks are kept, and a unit's columns are made when it is
-/// set aside: with hundreds of points nothing of rows x rows is ever made.
-class Seen {
+/// shift. Of P only the units' own blocks are kept, and a group's columns are made when it is
+/// rejected: with hundreds of points nothing of rows x rows is ever made.
+class MeanShifts {
   [[nodiscard]] auto taken() const { return taken_.leftCols(count_); }
 
  public:
-  Seen(const MarginalisedSystem& marginalised, const RegressorSystem& system)
+  /// `groups` are those that may be rejected.
+  MeanShifts(const MarginalisedSystem& marginalised, const std::vector<FreeGroup>& groups)
       : root_(&marginalised.root),
         e_(marginalised.e),
         u_(root_->solve(e_)),
@@ -38,10 +50,11 @@ class Seen {
         log_det_(marginalised.log_det),
         own_(Eigen::MatrixXd::Zero(2, e_.size())),
         taken_(e_.size(), 0) {
-    for (const auto& [at, number] : units_in(system, marginalised.kept)) {
-      const Eigen::Index rows = system.units[number].rows;
-      own_.block(0, at, rows, rows) = root_->precision_block(at, rows, at, rows);
-      units_.emplace_back(at, rows);
+    for (const FreeGroup& group : groups) {
+      if (!blocks_.empty() && blocks_.back().first == group.at) continue;
+      own_.block(0, group.at, group.rows, group.rows) =
+          root_->precision_block(group.at, group.rows, group.at, group.rows);
+      blocks_.emplace_back(group.at, group.rows);
     }
   }
 
@@ -65,35 +78,72 @@ class Seen {
     take(pg / std::sqrt(denominator));
   }
 
-  /// What the quadratic form loses with the unit whose rows begin at `at`.
-  template <int kRows>
-  [[nodiscard]] double drop_without(Eigen::Index at) const {
-    const Eigen::Matrix<double, kRows, kRows> block = own_.template block<kRows, kRows>(0, at);
-    const Eigen::Matrix<double, kRows, 1> u = u_.template segment<kRows>(at);
-    return u.dot(block.inverse() * u);
+  /// Whether anything but the group itself says where its readings should be.
+  [[nodiscard]] bool is_checked(const FreeGroup& group) const {
+    return !group.direction || precision_along(group) > kNoDirection;
   }
 
-  void set_aside(Eigen::Index at, Eigen::Index rows, double drop) {
-    const Eigen::LLT<Eigen::MatrixXd> block(own_.block(0, at, rows, rows));
-    Eigen::MatrixXd columns = root_->precision_block(0, u_.size(), at, rows);
-    columns.noalias() -= taken() * taken().middleRows(at, rows).transpose();
+  /// (1): what the quadratic form loses without the group.
+  [[nodiscard]] double drop_without(const FreeGroup& group) const {
+    if (group.direction) {
+      const Eigen::Vector2d& d = *group.direction;
+      return std::pow(d.dot(u_.segment<2>(group.at)), 2) / precision_along(group);
+    }
+    return group.rows == 2 ? drop_without_rows<2>(group.at) : drop_without_rows<1>(group.at);
+  }
+
+  void reject(const FreeGroup& group, double drop) {
     quadratic_ -= drop;
-    u_ -= columns * block.solve(u_.segment(at, rows).eval());
-    block.matrixU().solveInPlace<Eigen::OnTheRight>(columns);
-    log_det_ += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
-    for (Eigen::Index k = 0; k < rows; ++k) take(columns.col(k));
+    if (group.direction) {
+      reject_direction(group);
+    } else {
+      reject_rows(group.at, group.rows);
+    }
   }
 
   [[nodiscard]] double quadratic() const { return std::max(quadratic_, 0.0); }
   [[nodiscard]] double log_det() const { return log_det_; }
 
  private:
+  template <int kRows>
+  [[nodiscard]] double drop_without_rows(Eigen::Index at) const {
+    const Eigen::Matrix<double, kRows, kRows> block = own_.template block<kRows, kRows>(0, at);
+    const Eigen::Matrix<double, kRows, 1> u = u_.template segment<kRows>(at);
+    return u.dot(block.inverse() * u);
+  }
+
+  /// D' P D.
+  [[nodiscard]] double precision_along(const FreeGroup& group) const {
+    const Eigen::Matrix2d block = own_.block<2, 2>(0, group.at);
+    return group.direction->dot(block * *group.direction);
+  }
+
+  void reject_rows(Eigen::Index at, Eigen::Index rows) {
+    const Eigen::LLT<Eigen::MatrixXd> block(own_.block(0, at, rows, rows));
+    Eigen::MatrixXd columns = root_->precision_block(0, u_.size(), at, rows);
+    columns.noalias() -= taken() * taken().middleRows(at, rows).transpose();
+    u_ -= columns * block.solve(u_.segment(at, rows).eval());
+    block.matrixU().solveInPlace<Eigen::OnTheRight>(columns);
+    log_det_ += 2.0 * Eigen::MatrixXd(block.matrixL()).diagonal().array().log().sum();
+    for (Eigen::Index k = 0; k < rows; ++k) take(columns.col(k));
+  }
+
+  void reject_direction(const FreeGroup& group) {
+    const Eigen::Vector2d& d = *group.direction;
+    const double own = precision_along(group);
+    Eigen::VectorXd column = root_->precision_block(0, u_.size(), group.at, 2) * d;
+    column -= taken() * (taken().middleRows<2>(group.at).transpose() * d);
+    u_ -= column * (d.dot(u_.segment<2>(group.at)) / own);
+    log_det_ += std::log(own);
+    take(column / std::sqrt(own));
+  }
+
   void take(const Eigen::VectorXd& column) {
     if (count_ == taken_.cols()) {
       taken_.conservativeResize(u_.size(), std::max<Eigen::Index>(16, 2 * count_));
     }
     taken_.col(count_++) = column;
-    for (const auto& [at, rows] : units_) {
+    for (const auto& [at, rows] : blocks_) {
       const auto part = column.segment(at, rows);
       own_.block(0, at, rows, rows).noalias() -= part * part.transpose();
     }
@@ -105,112 +155,189 @@ class Seen {
   double quadratic_;
   double log_det_;
   Eigen::MatrixXd own_;  ///< 2 x rows: P's block of each unit, in the columns of its rows
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> units_;  ///< first row and rows of each
-  Eigen::MatrixXd taken_;                                     ///< T, with room for more
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> blocks_;  ///< first row and rows of each
+  Eigen::MatrixXd taken_;                                      ///< T, with room for more
   Eigen::Index count_ = 0;
 };
 
-Seen seen_by(Seen seen,
-             const MarginalisedSystem& marginalised,
-             const RegressorSystem& system,
-             const std::vector<int>& set) {
+MeanShifts under(MeanShifts shifts,
+                 const MarginalisedSystem& marginalised,
+                 const RegressorSystem& system,
+                 const std::vector<int>& set) {
   for (const int k : set) {
-    if (system.regressors[static_cast<std::size_t>(k)].fixed) seen.subtract(marginalised.g.col(k));
+    if (system.regressors[static_cast<std::size_t>(k)].fixed)
+      shifts.subtract(marginalised.g.col(k));
   }
   for (const int k : set) {
     if (system.regressors[static_cast<std::size_t>(k)].fixed) continue;
     const Eigen::VectorXd g = marginalised.g.col(k);
-    seen.free(g, g.squaredNorm() / (kWideSignalToNoise * kWideSignalToNoise));
+    shifts.free(g, g.squaredNorm() / (kWideSignalToNoise * kWideSignalToNoise));
   }
-  return seen;
+  return shifts;
 }
 
-/// The unit that the data would rather do without than any other: what it takes from the quadratic
-/// form, against what setting a unit of so many rows aside costs.
+std::vector<FreeGroup> free_groups(const MarginalisedSystem& marginalised,
+                                   const std::vector<OutlierGroup>& groups) {
+  std::vector<FreeGroup> free;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const OutlierGroup& group = groups[k];
+    const auto at =
+        std::lower_bound(marginalised.kept.begin(), marginalised.kept.end(), group.first_row);
+    if (at == marginalised.kept.end() || *at != group.first_row) continue;
+    FreeGroup own{
+        k, static_cast<Eigen::Index>(at - marginalised.kept.begin()), group.rows, group.direction};
+    if (own.direction) own.direction->normalize();
+    free.push_back(std::move(own));
+  }
+  return free;
+}
+
+/// Prior and density of what was rejected, by the number of directions of each group.
+double price_of(const std::array<double, 2>& rejected) {
+  return rejected[0] * log_price_of_outlier(1) + rejected[1] * log_price_of_outlier(2);
+}
+
+/// The group that the data would rather do without than any other: what it takes from the quadratic
+/// form, against what rejecting so many directions costs.
 struct Worst {
   std::size_t position = 0;
-  double drop = -1.0;
+  double drop = 0.0;
 };
 
-Worst worst_of(const Seen& seen, const RegressorSystem& system, const FreeUnits& free) {
-  Worst worst;
+/// None where nothing can be rejected.
+std::optional<Worst> worst_of(const MeanShifts& shifts, const std::vector<FreeGroup>& free) {
+  std::optional<Worst> worst;
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < free.size(); ++k) {
-    const Eigen::Index rows = system.units[free[k].second].rows;
-    const double drop =
-        rows == 2 ? seen.drop_without<2>(free[k].first) : seen.drop_without<1>(free[k].first);
-    const double gain = drop + 2.0 * log_price_of_outlier(rows);
+    if (!shifts.is_checked(free[k])) continue;
+    const double drop = shifts.drop_without(free[k]);
+    const double gain = drop + 2.0 * log_price_of_outlier(free[k].directions());
     if (gain > most) {
       most = gain;
-      worst = {k, drop};
+      worst = Worst{k, drop};
     }
   }
   return worst;
 }
 
-/// Mean shifts one after the other; the best of the nested sets.
-Found search(Seen seen,
-             const RegressorSystem& system,
-             const MarginalisedSystem& marginalised,
-             double log_prior) {
-  FreeUnits free = units_in(system, marginalised.kept);
+/// Takes a rejected group, and what it has of the directions of others, out of those that are free.
+void take_out(const FreeGroup& rejected, std::vector<FreeGroup>& free, std::vector<bool>& outliers) {
+  std::vector<FreeGroup> left;
+  for (FreeGroup& other : free) {
+    if (other.at != rejected.at) {
+      left.push_back(std::move(other));
+      continue;
+    }
+    if (other.group != rejected.group && rejected.direction && other.direction) {
+      Eigen::Vector2d& d = *other.direction;
+      d -= *rejected.direction * rejected.direction->dot(d);
+      if (d.norm() > kNoDirection) {
+        d.normalize();
+        left.push_back(std::move(other));
+        continue;
+      }
+    }
+    outliers[other.group] = true;
+  }
+  free = std::move(left);
+}
+
+FoundSet search(MeanShifts shifts,
+                const RegressorSystem& system,
+                const MarginalisedSystem& marginalised,
+                std::vector<FreeGroup> free,
+                const OutlierLimits& limits,
+                std::vector<bool> outliers,
+                double log_prior) {
   const auto count = static_cast<double>(free.size());
   const auto most = static_cast<std::size_t>(std::max(3.0, std::ceil(kMostOutlierShare * count)));
   auto n = static_cast<Eigen::Index>(marginalised.kept.size());
-  std::vector<bool> outliers = marginalised.outliers;
-  std::vector<bool> added(outliers.size(), false);
+  std::array<double, 2> rejected{};
   const auto weight = [&] {
-    return NoiseDensity(system.noise_dof, n).log_density(seen.quadratic()) - 0.5 * seen.log_det() +
-           log_prior + log_price_of_outliers(system, added);
+    return NoiseDensity(system.noise_dof, n).log_density(shifts.quadratic()) -
+           0.5 * shifts.log_det() + log_prior + price_of(rejected);
   };
-  Found best{outliers, weight()};
-  for (std::size_t step = 1; step <= most && free.size() > system.fewest_units; ++step) {
-    const Worst worst = worst_of(seen, system, free);
-    const auto [at, unit] = free[worst.position];
-    seen.set_aside(at, system.units[unit].rows, worst.drop);
-    outliers[unit] = added[unit] = true;
-    free.erase(free.begin() + static_cast<std::ptrdiff_t>(worst.position));
-    n -= system.units[unit].rows;
+  FoundSet best{outliers, weight()};
+  std::size_t at_best = 0;
+  for (std::size_t step = 1; step <= most && free.size() > limits.fewest_groups &&
+                             n > limits.fewest_rows && step - at_best <= limits.beyond_the_best;
+       ++step) {
+    const auto worst = worst_of(shifts, free);
+    if (!worst) break;
+    const FreeGroup group = free[worst->position];
+    shifts.reject(group, worst->drop);
+    take_out(group, free, outliers);
+    rejected[static_cast<std::size_t>(group.directions() - 1)] += 1.0;
+    n -= group.directions();
     const double own = weight();
-    if (own > best.log_weight) best = {outliers, own};
+    if (own > best.log_weight) {
+      best = {outliers, own};
+      at_best = step;
+    }
   }
   return best;
 }
 
 }  // namespace
 
+std::vector<OutlierGroup> unit_groups(const RegressorSystem& system) {
+  std::vector<OutlierGroup> groups;
+  for (const SystemUnit& unit : system.units) groups.push_back({unit.first_row, unit.rows});
+  return groups;
+}
+
 std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
+                                            const std::vector<OutlierGroup>& groups,
+                                            const OutlierLimits& limits,
                                             const std::vector<bool>& excluded,
                                             const std::vector<std::vector<int>>& hypotheses,
                                             const Steps& steps) {
-  if (!steps.robust) return {excluded};
   const MarginalisedSystem marginalised = marginalise(system, excluded, steps);
-  const Seen nothing(marginalised, system);
-  std::vector<Found> found;
+  const std::vector<FreeGroup> free = free_groups(marginalised, groups);
+  std::vector<bool> beforehand(groups.size(), true);
+  for (const FreeGroup& group : free) beforehand[group.group] = false;
+  if (!steps.robust) return {beforehand};
+  const MeanShifts nothing(marginalised, free);
+  std::vector<FoundSet> found;
   for (const auto& set : hypotheses) {
-    Found one = search(seen_by(nothing, marginalised, system, set),
-                       system,
-                       marginalised,
-                       log_prior(system.regressors, set, false));
+    FoundSet one = search(under(nothing, marginalised, system, set),
+                          system,
+                          marginalised,
+                          free,
+                          limits,
+                          beforehand,
+                          log_prior(system.regressors, set, false));
     const auto same = std::find_if(
-        found.begin(), found.end(), [&](const Found& f) { return f.outliers == one.outliers; });
+        found.begin(), found.end(), [&](const FoundSet& f) { return f.outliers == one.outliers; });
     if (same == found.end()) {
       found.push_back(std::move(one));
     } else {
       same->log_weight = std::max(same->log_weight, one.log_weight);
     }
   }
-  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+  std::stable_sort(found.begin(), found.end(), [](const FoundSet& a, const FoundSet& b) {
     return a.log_weight > b.log_weight;
   });
   std::vector<std::vector<bool>> sets;
-  for (const Found& one : found) {
+  for (const FoundSet& one : found) {
     if (sets.size() == kMostFoundSets ||
         one.log_weight < found.front().log_weight - kNegligibleOutliers)
       break;
     sets.push_back(one.outliers);
   }
   return sets;
+}
+
+std::vector<std::vector<bool>> outlier_sets(const RegressorSystem& system,
+                                            const std::vector<bool>& excluded,
+                                            const std::vector<std::vector<int>>& hypotheses,
+                                            const Steps& steps) {
+  return outlier_sets(system,
+                      unit_groups(system),
+                      {.fewest_groups = system.fewest_units},
+                      excluded,
+                      hypotheses,
+                      steps);
 }
 
 }  // namespace chaintrue::grid::diagnosis

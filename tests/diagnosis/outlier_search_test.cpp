@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -136,6 +137,125 @@ TEST(OutlierSearch, IsThatOfTheWholeCovariance) {
       const auto found = outlier_sets(system, none, {set}, {});
       EXPECT_EQ(found.front(), one_by_one(system, set)) << set.size() << " regressors";
     }
+  }
+}
+
+/// Pairs of rows with four directions each, as four belts at a place have them.
+struct Places {
+  RegressorSystem system;
+  std::vector<OutlierGroup> groups;
+};
+constexpr std::size_t kPlaces = 12;
+constexpr std::size_t kDirections = 4;
+
+Places random_places(synthetic::Random& random) {
+  Places places;
+  places.system = random_system(random);
+  const Eigen::Index rows = 2 * kPlaces;
+  RegressorSystem& system = places.system;
+  system.units.clear();
+  system.unit_of_row.clear();
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    system.units.push_back({.first_row = row, .rows = 1});
+    system.unit_of_row.push_back(static_cast<int>(row));
+  }
+  const Eigen::VectorXd g = system.g.col(0).head(rows);
+  system.g = RegressorColumns(g);
+  system.e.conservativeResize(rows);
+  system.by_setting.conservativeResize(rows, Eigen::NoChange);
+  for (std::size_t k = 0; k < kPlaces; ++k) {
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      places.groups.push_back({static_cast<Eigen::Index>(2 * k),
+                               2,
+                               Eigen::Vector2d(random.normal(), random.normal())});
+    }
+  }
+  return places;
+}
+
+/// What the rows are without the directions of the groups that are flagged.
+Eigen::MatrixXd basis_without(const Places& places, const std::vector<bool>& outliers) {
+  const Eigen::Index rows = places.system.e.size();
+  Eigen::MatrixXd basis(rows, 0);
+  for (std::size_t k = 0; k < kPlaces; ++k) {
+    Eigen::MatrixXd gone = Eigen::MatrixXd::Zero(2, 2);
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const std::size_t group = kDirections * k + d;
+      if (!outliers[group]) continue;
+      const Eigen::Vector2d v = places.groups[group].direction->normalized();
+      gone += v * v.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gone);
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      // 0 to rounding along what is left.
+      if (eigen.eigenvalues()(i) > 1e-9) continue;
+      basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+      basis.rightCols<1>().setZero();
+      basis.rightCols<1>().segment<2>(static_cast<Eigen::Index>(2 * k)) = eigen.eigenvectors().col(i);
+    }
+  }
+  return basis;
+}
+
+// A set's weight, and that no other reading would have been worse, by the whole covariance.
+TEST(OutlierSearch, DirectionsAreThoseOfTheWholeCovariance) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    synthetic::Random random(seed);
+    const Places places = random_places(random);
+    const RegressorSystem& system = places.system;
+    const Eigen::MatrixXd scaled = system.by_setting * system.sigma.asDiagonal();
+    const Eigen::MatrixXd covariance =
+        Eigen::MatrixXd::Identity(system.e.size(), system.e.size()) + scaled * scaled.transpose();
+    const Eigen::VectorXd residual = system.e - system.by_setting * system.expected_change;
+    const auto weighed_without = [&](const std::vector<bool>& outliers) {
+      const Eigen::MatrixXd basis = basis_without(places, outliers);
+      const Eigen::LLT<Eigen::MatrixXd> llt(basis.transpose() * covariance * basis);
+      const Eigen::VectorXd white = llt.matrixL().solve(basis.transpose() * residual);
+      return Weighed{white.squaredNorm(),
+                     2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum(),
+                     basis.cols()};
+    };
+    const auto weight = [&](const std::vector<bool>& outliers) {
+      const Weighed w = weighed_without(outliers);
+      return NoiseDensity(system.noise_dof, w.rows).log_density(w.quadratic) - 0.5 * w.log_det +
+             static_cast<double>(system.e.size() - w.rows) * log_price_of_outlier(1);
+    };
+    const auto complete = [](std::vector<bool> outliers) {
+      for (std::size_t k = 0; k < kPlaces; ++k) {
+        const auto first = outliers.begin() + static_cast<std::ptrdiff_t>(kDirections * k);
+        if (std::count(first, first + kDirections, true) > 1)
+          std::fill(first, first + kDirections, true);
+      }
+      return outliers;
+    };
+    std::vector<bool> outliers(places.groups.size(), false);
+    std::vector<bool> best = outliers;
+    double most = weight(outliers);
+    // kMostOutlierShare of 48 groups.
+    for (int step = 0; step < 6; ++step) {
+      std::size_t worst = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t group = 0; group < outliers.size(); ++group) {
+        if (outliers[group]) continue;
+        std::vector<bool> without = outliers;
+        without[group] = true;
+        const double left = weighed_without(without).quadratic;
+        // Several readings of a place of which one is out are the same direction, to rounding.
+        if (left < least - 1e-9 * (1.0 + left)) {
+          least = left;
+          worst = group;
+        }
+      }
+      outliers[worst] = true;
+      outliers = complete(std::move(outliers));
+      if (const double own = weight(outliers); own > most) {
+        most = own;
+        best = outliers;
+      }
+    }
+    const std::vector<bool> none(system.units.size(), false);
+    EXPECT_EQ(outlier_sets(system, places.groups, {}, none, {{}}, {}).front(), best);
   }
 }
 
