@@ -46,16 +46,11 @@ struct Representative {
   bool fixed = false;
 };
 
-double cosine(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  const double lengths = a.norm() * b.norm();
-  return lengths > 0.0 ? std::abs(a.dot(b)) / lengths : 0.0;
-}
-
 bool one_class(const Representative& a, const Representative& b) {
-  if (cosine(a.free, b.free) < kOneClass) return false;
+  if (collinearity_of(a.free, b.free) < kOneClass) return false;
   // A whole link is no small change: where it would ask a chain zero for what nobody stated, it is
   // told apart.
-  return !(a.fixed || b.fixed) || cosine(a.stated, b.stated) >= kOneClass;
+  return !(a.fixed || b.fixed) || collinearity_of(a.stated, b.stated) >= kOneClass;
 }
 
 using Key = std::vector<std::size_t>;  ///< classes that act, ascending

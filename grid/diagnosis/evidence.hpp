@@ -25,6 +25,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -87,6 +88,15 @@ struct MarginalisedSystem {
 /// R^-1 of a column of all rows.
 [[nodiscard]] Eigen::VectorXd reduced(const MarginalisedSystem& marginalised,
                                       const Eigen::VectorXd& column);
+
+/// |cosine| of two whitened signatures; 0 where one of them is nothing.
+template <class One, class Other>
+[[nodiscard]] double collinearity_of(const One& one, const Other& other) {
+  // Signatures that show at all are some sigmas long.
+  constexpr double kNothing = 1e-12;
+  const double lengths = one.norm() * other.norm();
+  return lengths > kNothing ? std::abs(one.dot(other)) / lengths : 0.0;
+}
 
 /// Inner products of the residual and of some columns.
 struct NormalEquations {

@@ -387,7 +387,7 @@ std::vector<Separation> separations(const Analysis& a) {
       const auto gx = marginalised.g.col(best_regressor(a, x));
       const auto gy = marginalised.g.col(best_regressor(a, y));
       const double collinearity =
-          std::min(1.0, std::abs(gx.dot(gy)) / std::max(gx.norm() * gy.norm(), 1e-12));
+          std::min(1.0, collinearity_of(gx, gy));
       // 1.645 sqrt(2 / (1 - collinearity)): 95 of 100 told apart; a class is never told apart.
       const double needed =
           kQuantile95 * std::sqrt(2.0 / std::max(1.0 - collinearity, 1.0 - kOneClass));

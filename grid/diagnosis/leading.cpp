@@ -73,9 +73,8 @@ Nearest nearest_other(const Analysis& a, int column) {
   Nearest nearest;
   for (std::size_t k = 0; k < a.system.regressors.size(); ++k) {
     const auto g = marginalised.g.col(static_cast<Eigen::Index>(k));
-    const double length = g.norm() * own.norm();
-    if (!(length > 1e-12) || excluded(a.system.regressors[k].cause)) continue;
-    const double collinearity = std::abs(own.dot(g)) / length;
+    if (excluded(a.system.regressors[k].cause)) continue;
+    const double collinearity = collinearity_of(g, own);
     if (collinearity > nearest.collinearity) nearest = {static_cast<int>(k), collinearity};
   }
   return nearest;

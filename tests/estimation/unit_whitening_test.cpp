@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/estimation/unit_whitening.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+#include <stdexcept>
+
+#include "grid/synthetic/random.hpp"
+
+namespace chaintrue::grid::estimation {
+namespace {
+
+Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, synthetic::Random& random) {
+  Eigen::MatrixXd matrix(rows, columns);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    for (Eigen::Index k = 0; k < columns; ++k) matrix(i, k) = random.normal();
+  }
+  return matrix;
+}
+
+double largest(const Eigen::MatrixXd& matrix) { return matrix.cwiseAbs().maxCoeff(); }
+
+// A dozen products of numbers of about one: rounding, a thousand times over.
+constexpr double kRounding = 1e-12;
+
+TEST(UnitWhitening, BringsReadingsToUnitsOfNoiseAndBack) {
+  constexpr std::uint64_t kSeed = 3;
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  for (Eigen::Index n = 1; n <= kMostUnitReadings; ++n) {
+    SCOPED_TRACE(n);
+    const Eigen::MatrixXd root = random_matrix(n, n, random);
+    const Eigen::MatrixXd covariance =
+        root * root.transpose() + Eigen::MatrixXd::Identity(n, n);
+    const UnitWhitening whitening(covariance);
+    const Eigen::MatrixXd w = whitening.matrix();
+    const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
+    EXPECT_LT(largest(w * covariance * w.transpose() - one), kRounding);
+    EXPECT_LT(largest(w * whitening.inverse() - one), kRounding);
+    EXPECT_EQ(whitening.rows(), n);
+    EXPECT_EQ(whitening.readings(), n);
+  }
+}
+
+TEST(UnitWhitening, ProjectsAPlaceOut) {
+  constexpr std::uint64_t kSeed = 4;
+  constexpr double kSigma = 0.3;
+  SCOPED_TRACE(kSeed);
+  synthetic::Random random(kSeed);
+  const Eigen::MatrixXd by_place = random_matrix(4, 2, random);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(by_place);
+  const Eigen::MatrixXd q =
+      (qr.householderQ() * Eigen::MatrixXd::Identity(4, 4)).rightCols(2);
+  const UnitWhitening whitening = UnitWhitening::projected(q, kSigma);
+  EXPECT_LT(largest(whitening * by_place), kRounding);
+  const Eigen::MatrixXd w = whitening.matrix();
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2, 2);
+  EXPECT_LT(largest(kSigma * kSigma * w * w.transpose() - one), kRounding);
+  EXPECT_LT(largest(w * whitening.inverse() - one), kRounding);
+}
+
+TEST(UnitWhiteningBadInput, TooManyReadings) {
+  EXPECT_THROW(UnitWhitening(Eigen::MatrixXd::Identity(5, 5)), std::invalid_argument);
+  EXPECT_THROW(UnitWhitening(Eigen::MatrixXd(0, 0)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace chaintrue::grid::estimation
