@@ -230,17 +230,7 @@ void tell(AnchorsCheck& check) {
   } else {
     check.sentence = fmt::format("Find the anchors again ({:.0f} %): {}.", percent, why);
   }
-  if (first.probability >= kDecided) return;
-  constexpr double kWorthNaming = 0.05;
-  std::vector<std::string> others;
-  for (const AnchorsHypothesis& h : check.hypotheses) {
-    if (h.probability >= kWorthNaming)
-      others.push_back(fmt::format("{} ({:.0f} %)", in_words(h), 100.0 * h.probability));
-  }
-  check.not_told_apart =
-      fmt::format("These places cannot tell apart: {}.", fmt::join(others, "; "));
-  if (!check.decided)
-    check.not_told_apart += " Measure more places, far from each other, before you rely on either.";
+  decide_not_told_apart(check, in_words, "places");
 }
 
 }  // namespace

@@ -21,7 +21,6 @@ class HoleCandidates {
   HoleCandidates(const Analysis& a, const observation::TapeDistances& tape, std::size_t part)
       : a_(a),
         part_(part),
-        hook_sessions_(tape.hook_sessions()),
         measured_(tape.set()),
         set_(measured_) {
     set_.distances.clear();
@@ -32,7 +31,7 @@ class HoleCandidates {
 
   [[nodiscard]] std::optional<CandidateReadings> take() {
     if (candidates_.empty()) return std::nullopt;
-    auto tape = observation::TapeDistances::with_hooks(std::move(set_), hook_sessions_);
+    auto tape = observation::TapeDistances::in_given_order(std::move(set_));
     if (!tape) return std::nullopt;
     return CandidateReadings{
         {std::make_shared<const observation::TapeDistances>(*std::move(tape)), part_},
@@ -51,7 +50,6 @@ class HoleCandidates {
 
   void add(HoleDistance distance) {
     if (is_measured(distance)) return;
-    distance.session = measured_.distances.front().session;
     NextMeasurement next{MeasurementKind::distance,
                          fmt::format("the distance {}", words_of(measured_, distance)),
                          "",
@@ -115,9 +113,7 @@ class HoleCandidates {
         1};
     for (std::size_t k = 0; k < std::min(kArms, others.size()); ++k) {
       candidate.rows.push_back(static_cast<Eigen::Index>(set_.distances.size()));
-      set_.distances.push_back({.from = set_.holes.size(),
-                                .to = others[k],
-                                .session = measured_.distances.front().session});
+      set_.distances.push_back({.from = set_.holes.size(), .to = others[k]});
       candidate.measurement.to.push_back(measured_.holes[others[k]].name);
     }
     candidate.measurement.what = fmt::format(
@@ -143,7 +139,6 @@ class HoleCandidates {
 
   const Analysis& a_;
   std::size_t part_;
-  std::vector<std::size_t> hook_sessions_;
   const MeasuredHoles& measured_;
   MeasuredHoles set_;
   std::vector<Candidate> candidates_;

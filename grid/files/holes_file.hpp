@@ -28,7 +28,7 @@
 /// \code
 ///   const ReadHoles read = read_holes("holes.json");
 ///   for (const Warning& warning : read.warnings) fmt::print(stderr, "{}\n", warning.message());
-///   const auto fit = fit_holes(read.holes);
+///   const auto fit = joint_fit(read.holes);
 /// \endcode
 #pragma once
 

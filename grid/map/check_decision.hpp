@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// What the weighed hypotheses of a check come to, whatever was measured: probabilities of the
-/// verdicts, the likeliest of these, and the hypotheses likeliest first. Private to grid.
+/// verdicts, the likeliest of these, the hypotheses likeliest first, and what they cannot tell apart. Private to grid.
 #pragma once
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "grid/map/map_check.hpp"
 
@@ -27,6 +31,24 @@ void decide_verdict(Check& check) {
                                   check.hypotheses.end(),
                                   [&](const auto& h) { return h.verdict == check.verdict; });
   std::rotate(check.hypotheses.begin(), first, first + 1);
+}
+
+/// What a check cannot tell apart, where it cannot: `in_words` says a hypothesis, `units` is what was
+/// measured, "points".
+template <class Check, class Words>
+void decide_not_told_apart(Check& check, const Words& in_words, const char* units) {
+  if (check.hypotheses.front().probability >= kDecided) return;
+  constexpr double kWorthNaming = 0.05;
+  std::vector<std::string> others;
+  for (const auto& h : check.hypotheses) {
+    if (h.probability >= kWorthNaming)
+      others.push_back(fmt::format("{} ({:.0f} %)", in_words(h), 100.0 * h.probability));
+  }
+  check.not_told_apart =
+      fmt::format("These {} cannot tell apart: {}.", units, fmt::join(others, "; "));
+  if (check.decided) return;
+  check.not_told_apart +=
+      fmt::format(" Measure more {}, far from each other, before you rely on either.", units);
 }
 
 }  // namespace chaintrue::grid

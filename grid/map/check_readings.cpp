@@ -12,6 +12,8 @@
 #include <tuple>
 #include <utility>
 
+#include "grid/estimation/placement_fit.hpp"
+#include "grid/map/corrected_data.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/observation/tape_distances.hpp"
@@ -33,6 +35,10 @@ constexpr std::array kMotors = {model::Setting::motor_left_x_mm,
                                 model::Setting::motor_left_y_mm,
                                 model::Setting::motor_right_x_mm,
                                 model::Setting::motor_right_y_mm};
+
+/// A sheet that is said to lie exactly is held by these: an inverse of nothing has no value.
+constexpr double kLeastShiftMm = 1e-6;
+constexpr double kLeastTurnRad = 1e-9;
 
 /// No reading of a workshop is nearer.
 constexpr double kLeastVarianceMm2 = observation::kKnownNuisanceMm * observation::kKnownNuisanceMm;
@@ -136,20 +142,17 @@ std::vector<Repeated> merged(const std::vector<LengthPoint>& points) {
   return result;
 }
 
-/// Readings of one distance in one session: their mean, weighted by what each is worth.
+/// Readings of one distance: their mean, weighted by what each is worth.
 MeasuredHoles merged(const MeasuredHoles& set) {
-  std::map<std::tuple<std::size_t, std::size_t, std::optional<SheetEdge>, std::size_t>, std::size_t>
-      at;
+  std::map<std::tuple<std::size_t, std::size_t, std::optional<SheetEdge>>, std::size_t> at;
   MeasuredHoles result = set;
   result.distances.clear();
   std::vector<double> precision;
   for (const HoleDistance& distance : set.distances) {
     const std::size_t to = distance.edge ? distance.from : distance.to;
-    const auto [place, is_new] = at.emplace(std::tuple(std::min(distance.from, to),
-                                                       std::max(distance.from, to),
-                                                       distance.edge,
-                                                       distance.session),
-                                            result.distances.size());
+    const auto [place, is_new] = at.emplace(
+        std::tuple(std::min(distance.from, to), std::max(distance.from, to), distance.edge),
+        result.distances.size());
     if (is_new) {
       result.distances.push_back(distance);
       precision.push_back(0.0);
@@ -177,24 +180,70 @@ tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const
 
 /// The new points of one file: where they are on the map, and what they say there.
 struct CheckedPart {
-  std::vector<MarkPoint> marks;
+  std::vector<MarkPoint> marks;  ///< on the map
+  /// Of a sheet that was laid anew: how well, and where the readings put it in the map's frame. All
+  /// is linearised there.
+  std::optional<observation::SheetPrior> sheet;
+  model::SheetPlacement placement;
+  std::vector<std::string> notes;
   std::vector<Repeated> points;  ///< of a grid
   StatedNoise noise;
   std::optional<observation::TapeDistances> distances;
 };
 
+/// Lays the sheet where the readings put it, as far as its prior lets them, and the marks with it.
+void lay(const CompensationMap& map, CheckedPart& part) {
+  const auto on_map = [](const model::SheetPlacement& sheet, MarkPoint mark) {
+    const model::BedPoint place = sheet.to_bed(mark);
+    return MarkPoint{place.x_mm, place.y_mm};
+  };
+  const observation::PointNoise noise{part.noise.length_mm, part.noise.position_mm};
+  part.placement = estimation::fit_placement(
+      [&](const model::SheetPlacement& sheet, estimation::PlacementNormal& sum) {
+        for (const Repeated& one : part.points) {
+          const MarkPoint& mark = one.point.mark;
+          const auto here = map.lengths(on_map(sheet, mark));
+          if (!here) return false;
+          Eigen::Matrix2d covariance =
+              observation::covariance_of(noise, here->mark_jacobian) / one.count;
+          covariance.diagonal().array() += kLeastVarianceMm2;
+          sum.add({one.point.lengths.left_mm - here->lengths.left_mm,
+                   one.point.lengths.right_mm - here->lengths.right_mm},
+                  here->mark_jacobian * sheet.sensitivity(mark),
+                  covariance.inverse());
+        }
+        return true;
+      },
+      part.sheet);
+  for (std::size_t i = 0; i < part.marks.size(); ++i)
+    part.marks[i] = on_map(part.placement, part.points[i].point.mark);
+}
+
 tl::expected<CheckedPart, CheckFailure> part_of(const CompensationMap& map,
                                                 const MeasuredGrid& grid) {
   MeasuredGrid with_machine = grid;
   if (!with_machine.machine && map.machine() != nullptr) with_machine.machine = *map.machine();
-  const auto points = length_points(with_machine);
+  // A map is free of what belongs to the paper and to the visit: so must be what is held against it.
+  const auto corrected = corrected_data(with_machine);
+  if (!corrected) {
+    return fail(corrected.error().reason == FitFailure::Reason::no_lengths ? Reason::no_lengths
+                                                                           : Reason::unreachable,
+                corrected.error().sentence);
+  }
+  const auto points = length_points(corrected->grid);
   if (!points) return fail(Reason::no_lengths, points.error().sentence);
   CheckedPart part;
+  part.notes = corrected->notes;
   part.points = merged(*points);
   if (part.points.size() > kMostCheckedPoints)
     return too_many(part.points.size(), kMostCheckedPoints, "points");
   part.noise = grid.noise.value_or(StatedNoise{});
   for (const Repeated& one : part.points) part.marks.push_back(one.point.mark);
+  if (grid.sheet) {
+    part.sheet = observation::SheetPrior{std::max(grid.sheet->shift_mm, kLeastShiftMm),
+                                         std::max(1e-3 * grid.sheet->rotation_mrad, kLeastTurnRad)};
+    lay(map, part);
+  }
   return part;
 }
 
@@ -205,7 +254,7 @@ tl::expected<CheckedPart, CheckFailure> part_of(const CompensationMap& map,
         Reason::no_machine,
         "the holes name no machine; what was commanded becomes chain lengths by its controller");
   }
-  MeasuredHoles once = merged(set);
+  MeasuredHoles once = merged(with_true_tape(set));
   if (once.distances.size() > kMostCheckedDistances)
     return too_many(once.distances.size(), kMostCheckedDistances, "distances");
   if (once.holes.size() > kMostCheckedHoles)
@@ -222,6 +271,12 @@ tl::expected<CheckedPart, CheckFailure> part_of(const CompensationMap& map,
     part.marks.push_back(*mark);
   }
   part.distances = *std::move(distances);
+  // Edges are those of a sheet of its own; distances between holes do not move with it.
+  if (std::any_of(set.distances.begin(), set.distances.end(), [](const HoleDistance& distance) {
+        return distance.edge.has_value();
+      })) {
+    part.sheet = observation::SheetPrior{observation::kSheetShiftMm, observation::kSheetTurnRad};
+  }
   return part;
 }
 
@@ -258,6 +313,8 @@ class Gathered {
   [[nodiscard]] Eigen::Index row() const { return static_cast<Eigen::Index>(residual_mm_.size()); }
 
   void add_points(const CheckedPart& part, std::size_t first) {
+    const Eigen::Vector3d laid(
+        part.placement.x_mm, part.placement.y_mm, part.placement.rotation_rad);
     for (std::size_t i = 0; i < part.points.size(); ++i) {
       const ChainLengths& read = part.points[i].point.lengths;
       const ChainLengths& told = at_.lengths[first + i];
@@ -271,8 +328,30 @@ class Gathered {
       const auto chain = 2 * static_cast<Eigen::Index>(first + i);
       for (Eigen::Index side = 0; side < 2; ++side)
         by_chain_.emplace_back(row() + side, chain + side, 1.0);
-      residual_mm_.push_back(read.left_mm - told.left_mm);
-      residual_mm_.push_back(read.right_mm - told.right_mm);
+      Eigen::Vector2d residual(read.left_mm - told.left_mm, read.right_mm - told.right_mm);
+      if (part.sheet) {
+        const Eigen::Matrix<double, 2, 3> by_sheet =
+            by_mark * part.placement.sensitivity(part.points[i].point.mark);
+        residual += by_sheet * laid;
+        add_sheet(*part.sheet, by_sheet, row());
+      }
+      residual_mm_.push_back(residual[0]);
+      residual_mm_.push_back(residual[1]);
+    }
+    if (part.sheet) shared_columns_ += 3;
+  }
+
+  /// Where a sheet lies beside where it was meant to: an error that its readings share.
+  void add_sheet(const observation::SheetPrior& sheet,
+                 const Eigen::Matrix<double, Eigen::Dynamic, 3>& by_sheet,
+                 Eigen::Index first_row) {
+    const Eigen::Vector3d sigma(
+        sheet.shift_sigma_mm, sheet.shift_sigma_mm, sheet.rotation_sigma_rad);
+    for (Eigen::Index i = 0; i < by_sheet.rows(); ++i) {
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        if (by_sheet(i, k) != 0.0)
+          shared_.emplace_back(first_row + i, shared_columns_ + k, by_sheet(i, k) * sigma[k]);
+      }
     }
   }
 
@@ -291,6 +370,19 @@ class Gathered {
     shared_columns_ +=
         (at_.covariance.empty() ? 2 : 4) * static_cast<Eigen::Index>(set.holes.size());
     add_size_and_hook(set, geometry, before);
+    if (!part.sheet) return;
+    // A hole's mark on a sheet that moved goes the other way; edges see it, a turn to first order.
+    Eigen::Matrix<double, Eigen::Dynamic, 3> by_sheet =
+        Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(residual.size(), 3);
+    for (Eigen::Index k = 0; k < residual.size(); ++k) {
+      const HoleDistance& distance = set.distances[static_cast<std::size_t>(k)];
+      if (!distance.edge) continue;
+      by_sheet.row(k) =
+          -geometry.by_mark.block<1, 2>(k, 2 * static_cast<Eigen::Index>(distance.from)) *
+          model::SheetPlacement{}.sensitivity(part.marks[distance.from]);
+    }
+    add_sheet(*part.sheet, by_sheet, before);
+    shared_columns_ += 3;
   }
 
   /// What one end of a distance sees of the chains at its hole, and of the hole's own error.
@@ -322,20 +414,16 @@ class Gathered {
   void add_size_and_hook(const MeasuredHoles& set,
                          const observation::DistanceGeometry& geometry,
                          Eigen::Index before) {
-    std::map<std::size_t, Eigen::Index> session_columns;
     const double hook_sigma_mm = set.tape.hook_sigma_mm.value_or(0.0);
     for (Eigen::Index k = 0; k < geometry.by_size.rows(); ++k) {
       for (Eigen::Index axis = 0; axis < 2; ++axis) {
         const double by_size = set.sheet.size_sigma_mm * geometry.by_size(k, axis);
         if (by_size != 0.0) shared_.emplace_back(before + k, shared_columns_ + axis, by_size);
       }
-      if (hook_sigma_mm == 0.0) continue;
-      const std::size_t session = set.distances[static_cast<std::size_t>(k)].session;
-      const auto hook = session_columns.emplace(
-          session, shared_columns_ + 2 + static_cast<Eigen::Index>(session_columns.size()));
-      shared_.emplace_back(before + k, hook.first->second, hook_sigma_mm);
+      if (hook_sigma_mm != 0.0)
+        shared_.emplace_back(before + k, shared_columns_ + 2, hook_sigma_mm);
     }
-    shared_columns_ += 2 + static_cast<Eigen::Index>(session_columns.size());
+    shared_columns_ += hook_sigma_mm != 0.0 ? 3 : 2;
   }
 
   const MapAt& at_;
@@ -403,6 +491,10 @@ tl::expected<CheckReadings, CheckFailure> check_readings(const CompensationMap& 
   fill_common(readings, map, *at);
   for (std::size_t k = 0; k < parts.size(); ++k)
     name_rows(parts[k], files.size() > 1 ? " of " + files[k].name : std::string{}, readings);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    for (const std::string& note : parts[k].notes)
+      readings.notes.push_back((files.size() > 1 ? files[k].name + ": " : std::string{}) + note);
+  }
   return readings;
 }
 

@@ -24,6 +24,7 @@ struct CheckReadings {
   Eigen::MatrixXd by_motor;             ///< 2 N x 4, or no columns where the map has no machine
   std::vector<std::string> names;       ///< of the rows
   std::vector<std::string> unit_names;  ///< of what may be bad by itself: "point 3"
+  std::vector<std::string> notes;       ///< what was taken out of the readings, and what could not be
   double pitch_mm = 6.35;
   model::ChainLengths zero;
 };
@@ -34,7 +35,7 @@ inline constexpr std::size_t kMostCheckedDistances = 20000;
 inline constexpr std::size_t kMostCheckedHoles = 500;
 
 /// Of all files together: what the map does not know of itself they share. Readings at one and the
-/// same mark, and of one and the same distance in one session, count as their mean: it says as much
+/// same mark, and of one and the same distance in one file, count as their mean: it says as much
 /// of the map as they do. Fails where there are too many, before any work.
 [[nodiscard]] tl::expected<CheckReadings, CheckFailure> check_readings(
     const CompensationMap& map, const Measured& measured, const Progress& progress = {});

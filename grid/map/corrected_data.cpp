@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "grid/observation/length_points.hpp"
+#include "grid/observation/tape_distances.hpp"
 #include "model/effects/catalogue.hpp"
 #include "model/reading_model.hpp"
 
@@ -118,6 +119,17 @@ tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid)
   }
   corrected.grid.machine->effects = rest.effects;
   return corrected;
+}
+
+MeasuredHoles with_true_tape(MeasuredHoles set) {
+  if (!set.machine || !model::effects::problems_of_effects(*set.machine).empty()) return set;
+  const double factor = observation::tape_factor(*set.machine);
+  for (HoleDistance& distance : set.distances)
+    distance.distance_mm = set.tape.hook_offset_mm + length_of(set, distance) / factor;
+  set.machine = with_effects_that(*set.machine, [](const Effect& effect) {
+    return !is_of_the_paper(effect) && !model::effects::depends_on_visit(effect);
+  });
+  return set;
 }
 
 }  // namespace chaintrue::grid

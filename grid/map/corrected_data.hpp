@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "grid/map/fit.hpp"
+#include "grid/observation/measured_holes.hpp"
 
 namespace chaintrue::grid {
 
@@ -29,5 +30,9 @@ struct CorrectedData {
 
 /// A grid without a machine, or whose machine has no such effects, comes back as it is.
 [[nodiscard]] tl::expected<CorrectedData, FitFailure> corrected_data(const MeasuredGrid& grid);
+
+/// Distances as a true tape reads them, and a machine without the same effects, so that they can be
+/// fitted with such data. A set without a machine comes back as it is.
+[[nodiscard]] MeasuredHoles with_true_tape(MeasuredHoles set);
 
 }  // namespace chaintrue::grid

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 
+#include "grid/map/direct_fit.hpp"
 #include "grid/map/lattice_lines.hpp"
 #include "grid/map/map_accuracy.hpp"
-#include "grid/map/residual_fit.hpp"
 #include "grid/observation/length_points.hpp"
 
 namespace chaintrue::grid {

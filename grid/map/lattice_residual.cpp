@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "grid/map/lattice_lines.hpp"
-#include "grid/map/points_fit.hpp"
+#include "grid/map/fitted_points.hpp"
 #include "grid/statistics.hpp"
 #include "interp/missing_nodes.hpp"
 #include "interp/quintic_spline.hpp"

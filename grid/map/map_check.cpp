@@ -84,17 +84,8 @@ void tell(MapCheck& check, const CheckReadings& readings) {
               : fmt::format("The map is to be measured again ({:.0f} %): {}.", percent, why);
       break;
   }
-  if (first.probability >= kDecided) return;
-  constexpr double kWorthNaming = 0.05;
-  std::vector<std::string> others;
-  for (const CheckHypothesis& h : check.hypotheses) {
-    if (h.probability < kWorthNaming) continue;
-    others.push_back(fmt::format("{} ({:.0f} %)", in_words(h, readings), 100.0 * h.probability));
-  }
-  check.not_told_apart =
-      fmt::format("These points cannot tell apart: {}.", fmt::join(others, "; "));
-  if (!check.decided)
-    check.not_told_apart += " Measure more points, far from each other, before you rely on either.";
+  decide_not_told_apart(
+      check, [&](const CheckHypothesis& h) { return in_words(h, readings); }, "points");
 }
 
 MapCheck judge(const CheckReadings& readings) {
@@ -111,6 +102,7 @@ MapCheck judge(const CheckReadings& readings) {
                                std::sqrt(variance[k])});
   }
   tell(check, readings);
+  check.notes = readings.notes;
   return check;
 }
 

@@ -6,7 +6,8 @@
 /// Each hypothesis predicts the residuals r (measured less map) as a Gaussian,
 ///
 ///   r ~ N(X m, K + X P X')                                                                  (1)
-///   K  noise of the new readings, and what the map does not know of itself
+///   K  noise of the new readings, what the map does not know of itself, and where a sheet lies that
+///      was laid anew, as well as its file says
 ///
 /// where X is what the changed quantities do to r, m and P their size beforehand; the probabilities
 /// follow by Bayes' theorem from the priors stated in kCheckPriors. A pitch only grows: half of its
@@ -97,6 +98,8 @@ struct MapCheck {
   std::string sentence;
   /// What these points cannot tell apart; empty where all is clear.
   std::string not_told_apart;
+  /// What was taken out of the readings, and what could not be; whole sentences.
+  std::vector<std::string> notes;
   [[nodiscard]] bool is_valid_as_it_is() const { return decided && verdict == CheckVerdict::valid; }
 };
 inline constexpr double kDecided = 0.8;
@@ -111,7 +114,8 @@ struct CheckFailure {
   std::string sentence;
 };
 
-/// Any mix of files.
+/// Any mix of files. What the files' machine has of effects of the paper and of the visit is taken out
+/// of the readings first (corrected_data.hpp), as it is for a map.
 [[nodiscard]] tl::expected<MapCheck, CheckFailure> check_map(const CompensationMap& map,
                                                              const Measured& measured,
                                                              const Progress& progress = {});

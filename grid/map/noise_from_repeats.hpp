@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "grid/map/points_fit.hpp"
+#include "grid/map/fitted_points.hpp"
 
 namespace chaintrue::grid {
 

@@ -92,6 +92,22 @@ tl::expected<std::vector<LengthPoint>, NoLengths> length_points(const MeasuredGr
   return points;
 }
 
+observation::ChainLengthReadings chain_length_readings(
+    const std::vector<LengthPoint>& points,
+    observation::PointNoise noise,
+    double noise_dof,
+    const std::optional<SheetUncertainty>& sheet) {
+  std::vector<observation::Place> places;
+  for (const LengthPoint& point : points) {
+    places.push_back(
+        {point.index, std::to_string(point.index + 1), point.mark, point.lengths, 0});
+  }
+  std::optional<observation::SheetPrior> prior;
+  if (sheet) prior = observation::SheetPrior{sheet->shift_mm, 1e-3 * sheet->rotation_mrad};
+  return observation::ChainLengthReadings::in_given_order(
+      std::move(places), false, noise, noise_dof, prior);
+}
+
 std::vector<std::vector<std::size_t>> repeat_groups(const std::vector<LengthPoint>& points) {
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/measured_grid.hpp"
 
 namespace chaintrue::grid {
@@ -32,6 +33,13 @@ struct NoLengths {
 /// controller pays out for it.
 [[nodiscard]] tl::expected<std::vector<LengthPoint>, NoLengths> length_points(
     const MeasuredGrid& grid);
+
+/// Points as an observation, in their order.
+[[nodiscard]] observation::ChainLengthReadings chain_length_readings(
+    const std::vector<LengthPoint>& points,
+    observation::PointNoise noise,
+    double noise_dof,
+    const std::optional<SheetUncertainty>& sheet);
 
 /// Points within this distance of each other are repeats of one place.
 inline constexpr double kRepeatDistanceMm = 25.0;

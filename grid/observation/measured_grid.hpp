@@ -41,6 +41,7 @@ struct ExtraReading {
   std::string side;
   double value = 0.0;
   double sigma = 0.0;
+  friend bool operator==(const ExtraReading&, const ExtraReading&) = default;
 };
 
 struct MeasuredGrid {

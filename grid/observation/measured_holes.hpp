@@ -45,8 +45,6 @@ struct HoleDistance {
   double distance_mm = 0.0;
   /// One sigma; absent: the tape's.
   std::optional<double> sigma_mm = std::nullopt;
-  /// Readings of one session were held to the holes alike.
-  std::size_t session = 0;
 };
 
 struct Tape {
@@ -56,7 +54,8 @@ struct Tape {
   /// 100 mm was held to the hole).
   double hook_offset_mm = 0.0;
   /// How well that is known, one sigma: a hook with play, edges of holes taken for their centres.
-  /// All readings of a session share it. Absent: exactly.
+  /// All readings of a set share it: what was measured on another day, the tape held anew, is a set
+  /// of its own. Absent: exactly.
   std::optional<double> hook_sigma_mm = std::nullopt;
 };
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -46,12 +45,7 @@ EdgeRow edge_row(const MeasuredHoles& set, SheetEdge edge) {
 
 Eigen::MatrixXd hook_covariance(const MeasuredHoles& set) {
   const auto count = static_cast<Eigen::Index>(set.distances.size());
-  Eigen::VectorXd session(count);
-  for (Eigen::Index k = 0; k < count; ++k)
-    session[k] = static_cast<double>(set.distances[static_cast<std::size_t>(k)].session);
-  const Eigen::MatrixXd all = session.replicate(1, count);
-  return std::pow(set.tape.hook_sigma_mm.value_or(0.0), 2) *
-         (all.array() == all.transpose().array()).cast<double>().matrix();
+  return Eigen::MatrixXd::Constant(count, count, std::pow(set.tape.hook_sigma_mm.value_or(0.0), 2));
 }
 
 /// A set in an order that the file's does not change.
@@ -81,8 +75,7 @@ Sorted sorted_set(const MeasuredHoles& set) {
     const HoleDistance& d = set.distances[k];
     const std::size_t a = place[d.from];
     const std::size_t b = d.edge ? a : place[d.to];
-    return std::tuple(
-        std::min(a, b), std::max(a, b), d.edge, d.distance_mm, d.session, sigma_of(set, d));
+    return std::tuple(std::min(a, b), std::max(a, b), d.edge, d.distance_mm, sigma_of(set, d));
   };
   result.distance.resize(set.distances.size());
   std::iota(result.distance.begin(), result.distance.end(), std::size_t{0});
@@ -224,21 +217,7 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(
     result.units_.push_back({row, 1, k});
   }
   result.sheet_ = sheet_measured(result.set_);
-  if (result.set_.tape.hook_sigma_mm) {
-    std::set<std::size_t> sessions;
-    for (const HoleDistance& d : result.set_.distances) sessions.insert(d.session);
-    result.hook_sessions_.assign(sessions.begin(), sessions.end());
-  }
   result.state_nuisances();
-  return result;
-}
-
-tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::with_hooks(
-    MeasuredHoles set, std::vector<std::size_t> hook_sessions) {
-  auto result = in_given_order(std::move(set));
-  if (!result) return result;
-  result->hook_sessions_ = std::move(hook_sessions);
-  result->state_nuisances();
   return result;
 }
 
@@ -253,26 +232,13 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::of(const Measur
 }
 
 void TapeDistances::state_nuisances() {
-  const auto hooks = static_cast<Eigen::Index>(hook_sessions_.size());
+  const Eigen::Index hooks = set_.tape.hook_sigma_mm ? 1 : 0;
   const Eigen::Index of_holes = 2 * static_cast<Eigen::Index>(set_.holes.size());
   nuisance_sigma_.resize(2 + hooks + of_holes);
   nuisance_sigma_.head(2).setConstant(std::max(set_.sheet.size_sigma_mm, kKnownNuisanceMm));
   nuisance_sigma_.segment(2, hooks).setConstant(
       std::max(set_.tape.hook_sigma_mm.value_or(0.0), kKnownNuisanceMm));
   nuisance_sigma_.tail(of_holes).setConstant(std::max(set_.hole_sigma_mm, kKnownNuisanceMm));
-}
-
-Eigen::MatrixXd TapeDistances::hook_columns() const {
-  Eigen::MatrixXd columns =
-      Eigen::MatrixXd::Zero(rows(), static_cast<Eigen::Index>(hook_sessions_.size()));
-  for (std::size_t k = 0; k < set_.distances.size(); ++k) {
-    const auto at =
-        std::find(hook_sessions_.begin(), hook_sessions_.end(), set_.distances[k].session);
-    if (at != hook_sessions_.end()) {
-      columns(static_cast<Eigen::Index>(k), at - hook_sessions_.begin()) = 1.0;
-    }
-  }
-  return columns;
 }
 
 tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const View& view) const {
@@ -333,7 +299,8 @@ tl::expected<Linearisation, Unreachable> TapeDistances::linearise(
   const double factor = tape_factor(view.model.machine());
   const DistanceGeometry geometry = distance_geometry(set_, marks_of(*states));
   const Eigen::MatrixXd by_mark = factor * geometry.by_mark;
-  const Eigen::MatrixXd by_hook = hook_columns();
+  const Eigen::MatrixXd by_hook =
+      Eigen::MatrixXd::Ones(rows(), set_.tape.hook_sigma_mm ? 1 : 0);
   Linearisation line;
   line.predicted = factor * geometry.predicted_mm;
   line.by_setting = Eigen::MatrixXd::Zero(rows(), static_cast<Eigen::Index>(settings.size()));

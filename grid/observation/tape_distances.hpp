@@ -10,10 +10,10 @@
 ///   V     tape^2 I + hole^2 B B' + size^2 w w' + hook^2 1 1', B = dd/dm                    (2)
 ///
 /// A distance is a unit of one row with the tape's own noise. What holes share with every distance
-/// that ends there, readings of one session with its hook, and edges with the sheet's size, are
-/// nuisances: how much wider and higher the sheet is, the hook of each session whose hook is not
-/// known exactly, and the shift of each hole in x and y, in this order. The frame of the sheet
-/// matters to edges alone: distances between holes do not move with it.
+/// that ends there, all readings with the tape's hook, and edges with the sheet's size, are
+/// nuisances: how much wider and higher the sheet is, the hook where it is not known exactly, and
+/// the shift of each hole in x and y, in this order. The frame of the sheet matters to edges alone:
+/// distances between holes do not move with it.
 ///
 /// With c added to the chains at a hole it lies elsewhere, dm = -J^-1 c, so D_i = -dd/dm_i J^-1.
 ///
@@ -92,10 +92,6 @@ class TapeDistances final : public Observation {
   /// The same in the order of the set.
   [[nodiscard]] static tl::expected<TapeDistances, TapeDistancesFailure> in_given_order(
       MeasuredHoles set);
-  /// The same with the hooks of these sessions as nuisances, whether the set has readings of them
-  /// or not.
-  [[nodiscard]] static tl::expected<TapeDistances, TapeDistancesFailure> with_hooks(
-      MeasuredHoles set, std::vector<std::size_t> hook_sessions);
 
   [[nodiscard]] const Kind& kind() const override { return tape_distances; }
   /// measured() are the readings less the hook.
@@ -120,16 +116,12 @@ class TapeDistances final : public Observation {
   /// How settings move a hole's mark, 2 x p.
   [[nodiscard]] static Eigen::Matrix2Xd mark_by_setting(
       const View& view, const PlaceState& place, const std::vector<model::Setting>& settings);
-  /// Sessions of the tape whose hook is a nuisance, in the order of the nuisances.
-  [[nodiscard]] const std::vector<std::size_t>& hook_sessions() const { return hook_sessions_; }
 
  private:
   explicit TapeDistances(MeasuredHoles set) : set_(std::move(set)) {}
   void state_nuisances();
-  [[nodiscard]] Eigen::MatrixXd hook_columns() const;
 
   MeasuredHoles set_;
-  std::vector<std::size_t> hook_sessions_;
 };
 
 }  // namespace chaintrue::grid::observation

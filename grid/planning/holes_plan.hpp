@@ -23,7 +23,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "grid/map/holes_fit.hpp"
+#include "grid/map/fitted_distances.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "grid/progress.hpp"
 

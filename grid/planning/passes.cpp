@@ -5,8 +5,10 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
+#include "grid/observation/length_points.hpp"
 #include "grid/observation/measured.hpp"
 #include "grid/synthetic/holes.hpp"
 #include "model/controllers/payout.hpp"
@@ -57,19 +59,25 @@ tl::expected<HolesPass, FitFailure> HolesPasses::add(const MeasuredHoles& set,
                     "to pass are the controller's settings",
                     difference)});
   }
-  auto fit = fit_holes(set, prior_);
+  MeasuredHoles own = set;
+  std::erase_if(own.readings, [this](const ExtraReading& reading) {
+    return std::find(counted_.begin(), counted_.end(), reading) != counted_.end();
+  });
+  auto fit = joint_fit(own, {.knowledge = prior_});
   if (!fit) return tl::unexpected(fit.error());
   HolesPass pass;
   pass.number = ++count_;
   pass.as_cut_rms_mm = as_cut_rms_mm(set, wanted);
-  pass.left_out_rms_mm = fit->left_out_good.rms_mm;
-  for (const FittedDistance& distance : fit->distances)
+  pass.left_out_rms_mm = fit->distances.front().left_out_good.rms_mm;
+  for (const FittedDistance& distance : fit->distances.front().distances)
     pass.set_aside += distance.set_aside ? 1 : 0;
   pass.expected_mm = tool_sigma_mm(stated_, fit->estimate.knowledge.covariance);
   pass.expected_next_mm =
       tool_sigma_mm(stated_, after_one_more(prior_.covariance, fit->estimate.knowledge.covariance));
   pass.next_pays = pass.expected_mm - pass.expected_next_mm > worthwhile_mm_;
   prior_ = fit->estimate.knowledge;
+  const auto of_settings = setting_readings(own.readings);
+  counted_.insert(counted_.end(), of_settings.begin(), of_settings.end());
   fit_ = *std::move(fit);
   return pass;
 }
@@ -148,7 +156,7 @@ tl::expected<SimulatedPasses, FitFailure> simulate_passes(const model::Machine& 
     auto pass = passes.add(made->set, wanted);
     if (!pass) return tl::unexpected(pass.error());
     last = made->set;
-    map.emplace(map_of(last, *passes.fit()));
+    map.emplace(passes.fit()->map);
     pass->true_mm = true_error_mm(truth, stated, &*map);
     done.push_back(*pass);
     if (!pass->next_pays) break;

@@ -26,6 +26,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "grid/map/joint_fit.hpp"
 #include "grid/planning/holes_plan.hpp"
 
 namespace chaintrue::grid {
@@ -53,18 +54,19 @@ class HolesPasses {
   explicit HolesPasses(model::Machine stated, double worthwhile_mm = kWorthwhileMm);
 
   /// `wanted` are the places that the holes were meant for, where the commands had been corrected
-  /// beforehand. Fails as fit_holes does, or where the set's machine is not the one of the passes
+  /// beforehand. Fails as joint_fit does, or where the set's machine is not the one of the passes
   /// (its controller's settings may change from pass to pass).
   [[nodiscard]] tl::expected<HolesPass, FitFailure> add(
       const MeasuredHoles& set, const std::vector<model::BedPoint>& wanted = {});
-  [[nodiscard]] const std::optional<HolesFit>& fit() const { return fit_; }
+  [[nodiscard]] const std::optional<JointFit>& fit() const { return fit_; }
   [[nodiscard]] const model::Machine& stated() const { return stated_; }
 
  private:
   model::Machine stated_;
   double worthwhile_mm_;
   estimation::MachineKnowledge prior_;
-  std::optional<HolesFit> fit_;
+  std::vector<ExtraReading> counted_;  ///< readings of settings that prior_ knows already
+  std::optional<JointFit> fit_;
   int count_ = 0;
 };
 
@@ -72,7 +74,7 @@ struct SimulatedPasses {
   double before_mm = 0.0;  ///< true error over the bed with nothing measured
   std::vector<HolesPass> passes;
   MeasuredHoles last_set;
-  HolesFit fit;
+  JointFit fit;
 };
 
 struct SimulatedPassesRequest {

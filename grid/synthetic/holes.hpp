@@ -5,7 +5,7 @@
 ///
 /// \code
 ///   const auto made = simulate_holes(plan->set, {.draw_settings = true, .seed = 7});
-///   const auto fit = fit_holes(made->set);      // compare with made->truth
+///   const auto fit = joint_fit(made->set);      // compare with made->truth
 /// \endcode
 #pragma once
 

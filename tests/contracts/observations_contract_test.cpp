@@ -75,7 +75,7 @@ MeasuredHoles holes_design() {
   }
   for (std::size_t i = 0; i < set.holes.size(); ++i) {
     for (std::size_t j = i + 1; j < set.holes.size(); j += 2) {
-      set.distances.push_back({.from = i, .to = j, .session = j % 2});
+      set.distances.push_back({.from = i, .to = j});
     }
   }
   set.distances.push_back({.from = 0, .edge = SheetEdge::left});
@@ -89,10 +89,10 @@ std::shared_ptr<const Observation> holes(const Wanted& wanted) {
   auto made = synthetic::simulate_holes(design, {.seed = wanted.seed});
   synthetic::Random random(wanted.seed, 77);
   MeasuredHoles set = made->set;
-  const double hook[] = {0.4 * random.normal(), 0.4 * random.normal()};
+  const double hook = 0.4 * random.normal();
   const double wider[] = {random.normal(), random.normal()};
   for (HoleDistance& distance : set.distances) {
-    distance.distance_mm += hook[distance.session];
+    distance.distance_mm += hook;
     if (distance.edge)
       distance.distance_mm += 0.5 * wider[*distance.edge == SheetEdge::top ? 1 : 0];
   }

@@ -8,8 +8,8 @@
 
 #include <cmath>
 
-#include "grid/map/fit_together.hpp"
-#include "grid/map/points_map.hpp"
+#include "grid/map/joint_fit.hpp"
+#include "grid/map/fitted_points.hpp"
 #include "grid/planning/passes.hpp"
 #include "tests/holes/hole_sets.hpp"
 
@@ -86,8 +86,8 @@ Errors errors_of(const char* what, int columns, int rows, Beyond beyond) {
     SCOPED_TRACE(seed);
     const Owner own = owner(seed, columns, rows, beyond);
     const auto points = fit(own.points);
-    const auto holes = fit_holes(own.holes);
-    const auto both = fit_together({{"points", own.points}, {"holes", own.holes}});
+    const auto holes = joint_fit(own.holes);
+    const auto both = joint_fit({{"points", own.points}, {"holes", own.holes}});
     if (!points || !holes || !both) {
       ADD_FAILURE() << "no fit";
       continue;
@@ -96,7 +96,7 @@ Errors errors_of(const char* what, int columns, int rows, Beyond beyond) {
       return std::pow(true_error_mm(own.truth, classic(), &map), 2) / kSeeds;
     };
     sum.points2 += square(*points);
-    sum.holes2 += square(map_of(own.holes, *holes));
+    sum.holes2 += square(holes->map);
     sum.both2 += square(both->map);
     sum.covered += covered(both->map, own) / kSeeds;
   }
@@ -129,8 +129,8 @@ TEST(Estimate, AlsoWhereTheMachineBendsAsNoSettingExplains) {
 
 TEST(Estimate, TheOrderOfTheFilesMovesTheFrameAlone) {
   const Owner own = owner(3, 4, 3);
-  const auto one = fit_together({{"points", own.points}, {"holes", own.holes}});
-  const auto other = fit_together({{"holes", own.holes}, {"points", own.points}});
+  const auto one = joint_fit({{"points", own.points}, {"holes", own.holes}});
+  const auto other = joint_fit({{"holes", own.holes}, {"points", own.points}});
   ASSERT_TRUE(one && other);
   const auto& a = one->estimate.knowledge;
   const auto& b = other->estimate.knowledge;
@@ -142,7 +142,7 @@ TEST(Estimate, TheOrderOfTheFilesMovesTheFrameAlone) {
   // The frame of a sheet without edges: its holes lie, as a whole, where they were commanded.
   double x = 0.0;
   for (std::size_t i = 0; i < own.holes.holes.size(); ++i)
-    x += other->holes.front().fit.holes[i].predicted.x_mm - own.holes.holes[i].commanded.x_mm;
+    x += other->distances.front().holes[i].predicted.x_mm - own.holes.holes[i].commanded.x_mm;
   EXPECT_NEAR(x, 0.0, 0.02) << "the last pass moved less than 1e-3 sigmas";
 }
 
@@ -211,21 +211,21 @@ TEST(Estimate, AUnitLeftOutIsSeenAsByAFitWithoutIt) {
 TEST(FitTogether, AnotherMachineIsRefusedInWords) {
   Owner own = owner(2, 4, 3);
   own.holes.machine->motors.left.x_mm -= 5.0;
-  const auto fit = fit_together({{"points.json", own.points}, {"holes.json", own.holes}});
+  const auto fit = joint_fit({{"points.json", own.points}, {"holes.json", own.holes}});
   ASSERT_FALSE(fit);
   EXPECT_THAT(fit.error().sentence,
               testing::AllOf(HasSubstr("holes.json"), HasSubstr("motor_left_x_mm is")));
   own.holes.machine.reset();
-  const auto none = fit_together({{"points.json", own.points}, {"holes.json", own.holes}});
+  const auto none = joint_fit({{"points.json", own.points}, {"holes.json", own.holes}});
   ASSERT_FALSE(none);
   EXPECT_THAT(none.error().sentence, HasSubstr("holes.json names no machine"));
-  EXPECT_THROW((void)fit_together({}), std::invalid_argument);
+  EXPECT_THROW((void)joint_fit({}), std::invalid_argument);
 }
 
 TEST(FitTogether, TheMapSaysWhatCameFromWhere) {
   Owner own = owner(4, 4, 3);
   own.holes.distances[5].distance_mm += 12.0;
-  const auto fit = fit_together({{"points.json", own.points}, {"holes.json", own.holes}});
+  const auto fit = joint_fit({{"points.json", own.points}, {"holes.json", own.holes}});
   ASSERT_TRUE(fit);
   const auto& notes = fit->map.contents().notes;
   EXPECT_THAT(notes, testing::Contains(HasSubstr("12 points of points.json")));

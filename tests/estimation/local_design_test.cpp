@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "grid/estimation/joint_problem.hpp"
-#include "grid/map/points_fit.hpp"
+#include "grid/observation/length_points.hpp"
 #include "grid/observation/length_points.hpp"
 #include "grid/synthetic/generator.hpp"
 

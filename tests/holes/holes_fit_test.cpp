@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "grid/files/map_file.hpp"
-#include "grid/map/holes_fit.hpp"
+#include "grid/map/joint_fit.hpp"
 #include "model/calibration/setting.hpp"
 #include "tests/holes/hole_sets.hpp"
 
@@ -56,9 +56,9 @@ TEST(HolesFit, WithoutNoiseTheMapIsTheTruth) {
     made->set.distances[k].distance_mm = exact.predicted_mm[static_cast<Eigen::Index>(k)];
   made->set.tape.sigma_mm = 0.001;
   made->set.noise_dof = 1e9;
-  const auto fit = fit_holes(made->set);
+  const auto fit = joint_fit(made->set);
   ASSERT_TRUE(fit);
-  for (const FittedDistance& distance : fit->distances)
+  for (const FittedDistance& distance : fit->distances.front().distances)
     EXPECT_NEAR(distance.measured_mm, distance.predicted_mm, 0.005) << "some sigmas of 0.001 mm";
   EXPECT_NEAR(spacing(fit->estimate.machine), spacing(made->truth), 0.1);
 }
@@ -76,26 +76,24 @@ TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
   const observation::DistanceGeometry on_sheet = observation::distance_geometry(design, marks);
   for (std::size_t k = 20; k < made->set.distances.size(); ++k)
     made->set.distances[k].distance_mm = on_sheet.predicted_mm[static_cast<Eigen::Index>(k)];
-  const auto fit = fit_holes(made->set);
+  const auto fit = joint_fit(made->set);
   ASSERT_TRUE(fit);
-  EXPECT_TRUE(fit->sheet_measured.knows_x && fit->sheet_measured.knows_y &&
-              fit->sheet_measured.knows_rotation);
   for (std::size_t i = 0; i < marks.size(); ++i) {
     // The tape's 0.5 mm at two readings an edge, four sigmas.
-    EXPECT_NEAR(fit->holes[i].place.x_mm, marks[i].x_mm, 1.5);
-    EXPECT_NEAR(fit->holes[i].place.y_mm, marks[i].y_mm, 1.5);
+    EXPECT_NEAR(fit->distances.front().holes[i].place.x_mm, marks[i].x_mm, 1.5);
+    EXPECT_NEAR(fit->distances.front().holes[i].place.y_mm, marks[i].y_mm, 1.5);
   }
 }
 
 TEST(HolesFit, AFreeSheetLiesSoThatTheHolesAreWhereTheyWereCommanded) {
   const auto made = synthetic::simulate_holes(nine_holes(), usual_holes(11));
-  const auto fit = fit_holes(made->set);
+  const auto fit = joint_fit(made->set);
   ASSERT_TRUE(fit);
   double x = 0.0;
   double y = 0.0;
   double turn = 0.0;
-  for (std::size_t i = 0; i < fit->holes.size(); ++i) {
-    const model::MarkPoint at = fit->holes[i].predicted;
+  for (std::size_t i = 0; i < fit->distances.front().holes.size(); ++i) {
+    const model::MarkPoint at = fit->distances.front().holes[i].predicted;
     const model::BedPoint wanted = made->set.holes[i].commanded;
     x += at.x_mm - wanted.x_mm;
     y += at.y_mm - wanted.y_mm;
@@ -116,19 +114,19 @@ TEST(HolesFit, ALeftOutPredictionIsThatOfAFitWithoutTheReading) {
   quiet.tape.sigma_mm = 0.5;
   auto made = synthetic::simulate_holes(quiet, usual_holes(13));
   made->set.tape.sigma_mm = 2.0;
-  const auto whole = fit_holes(made->set);
+  const auto whole = joint_fit(made->set);
   ASSERT_TRUE(whole);
   for (std::size_t k = 0; k < made->set.distances.size(); k += 5) {
     MeasuredHoles without = made->set;
     without.distances.erase(without.distances.begin() + static_cast<std::ptrdiff_t>(k));
-    const auto fit = fit_holes(without);
+    const auto fit = joint_fit(without);
     ASSERT_TRUE(fit);
     const auto distance = made->set.distances[k];
-    const model::MarkPoint a = fit->holes[distance.from].predicted;
-    const model::MarkPoint b = fit->holes[distance.to].predicted;
+    const model::MarkPoint a = fit->distances.front().holes[distance.from].predicted;
+    const model::MarkPoint b = fit->distances.front().holes[distance.to].predicted;
     const double predicted = std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm);
     // The two differ by the curvature of the model over what one reading moves, a few 1e-3 mm.
-    EXPECT_NEAR(whole->distances[k].left_out_mm, distance.distance_mm - predicted, 0.01);
+    EXPECT_NEAR(whole->distances.front().distances[k].left_out_mm, distance.distance_mm - predicted, 0.01);
   }
 }
 
@@ -146,7 +144,7 @@ Tally tally(const MeasuredHoles& design, int sets) {
     synthetic::HolesSpec spec = usual_holes(static_cast<std::uint64_t>(seed));
     spec.scale_sigma = 0.002;  // as the fit believes beforehand
     const auto made = synthetic::simulate_holes(design, spec);
-    const auto fit = fit_holes(made->set);
+    const auto fit = joint_fit(made->set);
     if (!fit) {
       ADD_FAILURE() << "seed " << seed << ": " << fit.error().sentence;
       continue;
@@ -210,14 +208,14 @@ TEST(HolesFit, ABadReadingIsNamedAndSetAside) {
         synthetic::simulate_holes(nine_holes(), usual_holes(static_cast<std::uint64_t>(seed)));
     const std::size_t bad = static_cast<std::size_t>(seed) % made->set.distances.size();
     made->set.distances[bad].distance_mm += seed % 2 == 0 ? 10.0 : -10.0;
-    const auto fit = fit_holes(made->set);
+    const auto fit = joint_fit(made->set);
     ASSERT_TRUE(fit) << "seed " << seed;
-    found += fit->distances[bad].set_aside;
-    for (std::size_t k = 0; k < fit->distances.size(); ++k)
-      good_lost += k != bad && fit->distances[k].set_aside;
+    found += fit->distances.front().distances[bad].set_aside;
+    for (std::size_t k = 0; k < fit->distances.front().distances.size(); ++k)
+      good_lost += k != bad && fit->distances.front().distances[k].set_aside;
     if (seed == 1) {
-      EXPECT_THAT(fit->notes.front(), HasSubstr(words_of(made->set, made->set.distances[bad])));
-      EXPECT_THAT(fit->notes.front(), HasSubstr("shorter than the others make it"));
+      EXPECT_THAT(fit->map.contents().notes.front(), HasSubstr(words_of(made->set, made->set.distances[bad])));
+      EXPECT_THAT(fit->map.contents().notes.front(), HasSubstr("shorter than the others make it"));
     }
   }
   EXPECT_GE(found, 95);
@@ -228,18 +226,18 @@ TEST(HolesFit, AHookOffsetLeftOutIsSaidWhereTheFitFails) {
   MeasuredHoles design = nine_holes();
   design.tape.hook_offset_mm = 40.0;
   auto made = synthetic::simulate_holes(design, usual_holes(3));
-  EXPECT_TRUE(fit_holes(made->set)) << "stated, it does no harm";
+  EXPECT_TRUE(joint_fit(made->set)) << "stated, it does no harm";
   made->set.tape.hook_offset_mm = 0.0;
-  const auto fit = fit_holes(made->set);
-  const std::string words = fit ? testing::PrintToString(fit->notes) : fit.error().sentence;
+  const auto fit = joint_fit(made->set);
+  const std::string words = fit ? testing::PrintToString(fit->map.contents().notes) : fit.error().sentence;
   EXPECT_THAT(words, HasSubstr("hook offset"));
 }
 
 TEST(HolesFit, TheMapIsTheFittedMachineAndKeepsInItsFile) {
   const auto made = synthetic::simulate_holes(nine_holes(), usual_holes(21));
-  const auto fit = fit_holes(made->set);
-  const CompensationMap map = map_of(made->set, *fit);
-  for (const FittedHole& hole : fit->holes) {
+  const auto fit = joint_fit(made->set);
+  const CompensationMap map = fit->map;
+  for (const FittedHole& hole : fit->distances.front().holes) {
     const auto answer = map.query(hole.predicted);
     ASSERT_TRUE(answer);
     // Where the fitted machine puts a hole, the map pays out what was paid out; the last pass moved
@@ -255,15 +253,44 @@ TEST(HolesFit, TheMapIsTheFittedMachineAndKeepsInItsFile) {
 
 TEST(HolesFit, BrokenPreconditionsThrow) {
   MeasuredHoles set = nine_holes();
+  set.distances.clear();
+  EXPECT_THROW((void)joint_fit(set), std::invalid_argument);
+  set = nine_holes();
   set.machine.reset();
-  EXPECT_THROW((void)fit_holes(set), std::invalid_argument);
+  EXPECT_EQ(joint_fit(set).error().reason, FitFailure::Reason::no_machine);
   EXPECT_THROW((void)observation::TapeDistances::in_given_order(set), std::invalid_argument);
+}
+
+// A taped motor spacing is a reading of the machine, in a set of holes as in a grid.
+TEST(HolesFit, AReadingOfTheMotorSpacingMovesTheMotors) {
+  MeasuredHoles set = synthetic::simulate_holes(nine_holes(), usual_holes(5))->set;
+  const double without_mm = spacing(joint_fit(set)->estimate.machine);
+  for (const double other_mm : {-10.0, 10.0}) {
+    set.readings = {{"motor_spacing_mm", "", without_mm + other_mm, 0.01}};
+    const auto fit = joint_fit(set);
+    ASSERT_TRUE(fit) << fit.error().sentence;
+    // 0.01 mm of the reading against 1 mm of the distances: a thousandth of the way is left, and
+    // what ten millimetres off do to the noise found.
+    EXPECT_NEAR(spacing(fit->estimate.machine), without_mm + other_mm, 0.1);
+    const auto together = joint_fit({{"first", set}, {"second", nine_holes()}});
+    ASSERT_TRUE(together) << together.error().sentence;
+    EXPECT_NEAR(spacing(together->estimate.machine), without_mm + other_mm, 0.1);
+  }
+}
+
+TEST(HolesFit, ImpossibleReadingsAreSaid) {
+  MeasuredHoles set = nine_holes();
+  set.readings = {{"sled_mass_kg", "", -1.0, 0.1}};
+  const auto fit = joint_fit(set);
+  ASSERT_FALSE(fit);
+  EXPECT_EQ(fit.error().reason, FitFailure::Reason::impossible_readings);
+  EXPECT_THAT(fit.error().sentence, HasSubstr("with the set's readings put in, "));
 }
 
 TEST(HolesFit, AHoleOutOfReachIsSaid) {
   MeasuredHoles set = nine_holes();
   set.holes[0] = {"Z", {0.0, 1500.0}};
-  const auto fit = fit_holes(set);
+  const auto fit = joint_fit(set);
   ASSERT_FALSE(fit);
   EXPECT_THAT(fit.error().sentence,
               HasSubstr("hole Z at (0.0, 1500.0) is out of the controller's reach"));

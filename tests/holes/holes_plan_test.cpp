@@ -41,7 +41,7 @@ TEST(HolesPlan, HasTheHolesAndDistancesAskedForOnTheSheet) {
 TEST(HolesPlan, PromisesWhatAFitReaches) {
   const auto plan = plan_holes(classic(), {.holes = 9, .distances = 20});
   const auto made = synthetic::simulate_holes(plan->set, testing_support::usual_holes(2));
-  const auto fit = fit_holes(made->set);
+  const auto fit = joint_fit(made->set);
   ASSERT_TRUE(fit);
   const double reached = tool_sigma_mm(classic(), fit->estimate.knowledge.covariance);
   // The fit is linear about the true machine and weighs by the noise it finds, 15 degrees of
@@ -112,10 +112,10 @@ TEST(HolesPlan, WithEdgesFitsReachThePromisedErrorOnTheSheet) {
     auto made = synthetic::simulate_holes(design, spec);
     ASSERT_TRUE(made);
     made->set.sheet = plan->set.sheet;
-    const auto fit = fit_holes(made->set);
+    const auto fit = joint_fit(made->set);
     ASSERT_TRUE(fit);
     squares +=
-        std::pow(testing_support::tool_rms_mm(map_of(made->set, *fit), made->truth, spec.sheet), 2);
+        std::pow(testing_support::tool_rms_mm(fit->map, made->truth, spec.sheet), 2);
   }
   // Shift and turn are most of it: three free numbers a set leave 3 % of chance, three times that.
   EXPECT_NEAR(std::sqrt(squares / kSets) / plan->expected_rms_mm, 1.0, 0.09);
@@ -139,7 +139,7 @@ TEST(HolesPlan, BeatsALatticeOfTheSameSize) {
       }
     }
   }
-  const auto fit = fit_holes(lattice);
+  const auto fit = joint_fit(lattice);
   ASSERT_TRUE(fit);
   EXPECT_LT(plan->expected_rms_mm,
             tool_sigma_mm(classic(), fit->estimate.knowledge.covariance) / fit->estimate.noise_factor);
@@ -231,6 +231,24 @@ TEST(HolesPasses, ANearerAnswerIsAskedForOnlyWhereItPays) {
   const auto result = simulate_passes(classic(), request);
   EXPECT_EQ(result->passes.size(), 4u);
   EXPECT_TRUE(result->passes.back().next_pays);
+}
+
+TEST(HolesPasses, AReadingOfTheMachineCountsAndOnceHoweverManyPassesStateIt) {
+  MeasuredHoles first = synthetic::simulate_holes(testing_support::nine_holes(),
+                                                  testing_support::usual_holes(4))->set;
+  const auto spacing_after = [&](const MeasuredHoles& second) {
+    HolesPasses passes(*first.machine);
+    EXPECT_TRUE(passes.add(first));
+    EXPECT_TRUE(passes.add(second));
+    const model::Machine& machine = passes.fit()->estimate.machine;
+    return machine.motors.right.x_mm - machine.motors.left.x_mm;
+  };
+  const MeasuredHoles silent = first;
+  const double without_mm = spacing_after(silent);
+  first.readings = {{"motor_spacing_mm", "", without_mm + 10.0, 0.5}};
+  // 0.5 mm against some 1 mm of the distances of two passes.
+  EXPECT_GT(spacing_after(silent), without_mm + 5.0);
+  EXPECT_EQ(spacing_after(first), spacing_after(silent)) << "the same reading once more";
 }
 
 TEST(HolesPasses, AnotherMachineIsRefused) {

@@ -11,8 +11,7 @@
 #include <sstream>
 
 #include "grid/diagnosis/diagnose.hpp"
-#include "grid/map/holes_fit.hpp"
-#include "tests/holes/sets_together.hpp"
+#include "grid/map/joint_fit.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -120,8 +119,16 @@ struct Pool {
   [[nodiscard]] double good_mm() const { return std::sqrt(good2 / good); }
 };
 
-void add(Pool& pool, const HolesFit& fit) {
-  for (const FittedDistance& distance : fit.distances) {
+/// Of all files.
+std::vector<FittedDistance> distances_of(const JointFit& fit) {
+  std::vector<FittedDistance> all;
+  for (const FittedDistances& one : fit.distances)
+    all.insert(all.end(), one.distances.begin(), one.distances.end());
+  return all;
+}
+
+void add(Pool& pool, const JointFit& fit) {
+  for (const FittedDistance& distance : distances_of(fit)) {
     pool.all2 += distance.left_out_mm * distance.left_out_mm;
     pool.sigma2 += distance.left_out_sigma_mm * distance.left_out_sigma_mm;
     ++pool.all;
@@ -133,14 +140,14 @@ void add(Pool& pool, const HolesFit& fit) {
 
 /// How well a fit predicts readings that it has not seen: the logarithm of their density, one in
 /// fifty of which is a slip of some 5 mm.
-double log_predictive_density(const HolesFit& fit) {
+double log_predictive_density(const JointFit& fit) {
   constexpr double kSlips = 0.02;
   constexpr double kSlipMm = 5.0;
   const auto density = [](double off_mm, double sigma_mm) {
     return std::exp(-0.5 * off_mm * off_mm / (sigma_mm * sigma_mm)) / sigma_mm;
   };
   double sum = 0.0;
-  for (const FittedDistance& one : fit.distances) {
+  for (const FittedDistance& one : distances_of(fit)) {
     sum += std::log((1.0 - kSlips) * density(one.left_out_mm, one.left_out_sigma_mm) +
                     kSlips * density(one.left_out_mm, kSlipMm));
   }
@@ -156,13 +163,16 @@ class RealSets : public testing::Test {
   }
 
   /// Sets a to d, cut on one frame with four settings in force.
-  [[nodiscard]] MeasuredHoles first_frame(double hole_sigma_mm) const {
-    std::vector<MeasuredHoles> sets(sets_.begin(), sets_.begin() + 4);
-    for (MeasuredHoles& set : sets) set.hole_sigma_mm = hole_sigma_mm;
-    return *sets_together(sets);
+  [[nodiscard]] Measured first_frame(double hole_sigma_mm) const {
+    Measured frame;
+    for (std::size_t k = 0; k < 4; ++k) frame.add(with_hole_sigma(sets_[k], hole_sigma_mm));
+    return frame;
   }
-  [[nodiscard]] MeasuredHoles second_frame(double hole_sigma_mm) const {
-    MeasuredHoles set = sets_[4];
+  [[nodiscard]] Measured second_frame(double hole_sigma_mm) const {
+    return with_hole_sigma(sets_[4], hole_sigma_mm);
+  }
+
+  static MeasuredHoles with_hole_sigma(MeasuredHoles set, double hole_sigma_mm) {
     set.hole_sigma_mm = hole_sigma_mm;
     return set;
   }
@@ -173,33 +183,30 @@ class RealSets : public testing::Test {
 TEST_F(RealSets, DistancesArePredictedLeftOut) {
   Pool alone;
   for (const MeasuredHoles& set : sets_) {
-    const auto fit = fit_holes(set);
+    const auto fit = joint_fit(set);
     ASSERT_TRUE(fit) << set.name;
     add(alone, *fit);
     fmt::print("set {} alone: {:.3f}, those that fit {:.3f}, noise {:.2f}\n",
                set.name,
-               fit->left_out_all.rms_mm,
-               fit->left_out_good.rms_mm,
+               fit->distances.front().left_out_all.rms_mm,
+               fit->distances.front().left_out_good.rms_mm,
                fit->estimate.noise_factor);
   }
   Pool together;
-  for (const MeasuredHoles& set : {first_frame(kHoleSigmaMm), second_frame(kHoleSigmaMm)}) {
-    const auto fit = fit_holes(set);
-    ASSERT_TRUE(fit);
+  for (const Measured& frame : {first_frame(kHoleSigmaMm), second_frame(kHoleSigmaMm)}) {
+    const auto fit = joint_fit(frame);
+    ASSERT_TRUE(fit) << fit.error().sentence;
     add(together, *fit);
-    fmt::print("frame of set {}: {:.3f}, those that fit {:.3f}, noise {:.2f}{}\n",
-               set.name,
-               fit->left_out_all.rms_mm,
-               fit->left_out_good.rms_mm,
+    fmt::print("frame of set {}: noise {:.2f}{}\n",
+               frame.name(),
                fit->estimate.noise_factor,
                fit->estimate.has_surface ? ", bed bends" : "");
-    for (const FoundHook& hook : fit->hooks)
-      fmt::print("  hook {:+.2f} +- {:.2f} mm\n", hook.mm, hook.sigma_mm);
-    for (std::size_t k = 0; k < set.distances.size(); ++k) {
-      if (fit->distances[k].set_aside)
-        fmt::print("  set aside: {} {:+.2f} mm\n",
-                   words_of(set, set.distances[k]),
-                   fit->distances[k].left_out_mm);
+    for (const FittedDistances& one : fit->distances) {
+      fmt::print("  left out {:.3f}, those that fit {:.3f}, hook {:+.2f} +- {:.2f} mm\n",
+                 one.left_out_all.rms_mm,
+                 one.left_out_good.rms_mm,
+                 one.hook->mm,
+                 one.hook->sigma_mm);
     }
   }
   fmt::print("alone: all {:.3f}, those that fit {:.3f} ({} of {})\n",
@@ -222,8 +229,8 @@ TEST_F(RealSets, HoleSigmaIsWhatTheReadingsPredictEachOtherWithBest) {
   double best = -1e9;
   double best_mm = 0.0;
   for (const double hole_sigma_mm : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
-    const auto first = fit_holes(first_frame(hole_sigma_mm));
-    const auto second = fit_holes(second_frame(hole_sigma_mm));
+    const auto first = joint_fit(first_frame(hole_sigma_mm));
+    const auto second = joint_fit(second_frame(hole_sigma_mm));
     ASSERT_TRUE(first && second);
     Pool pool;
     add(pool, *first);
@@ -245,35 +252,33 @@ TEST_F(RealSets, HoleSigmaIsWhatTheReadingsPredictEachOtherWithBest) {
 TEST_F(RealSets, TheTapeOfTheLastSetIsNamedNotAReading) {
   // Set e reads 0.7 mm short throughout; once that may be, its readings agree, and no other set
   // asks for it.
-  const auto last = fit_holes(second_frame(kHoleSigmaMm));
+  const auto last = joint_fit(second_frame(kHoleSigmaMm));
   ASSERT_TRUE(last);
-  EXPECT_LT(last->hooks[0].mm + 1.96 * last->hooks[0].sigma_mm, 0.0);
-  const auto first = fit_holes(first_frame(kHoleSigmaMm));
+  EXPECT_LT(last->distances.front().hook->mm + 1.96 * last->distances.front().hook->sigma_mm, 0.0);
+  const auto first = joint_fit(first_frame(kHoleSigmaMm));
   ASSERT_TRUE(first);
-  ASSERT_EQ(first->hooks.size(), 4u);
-  for (const FoundHook& hook : first->hooks) EXPECT_LT(std::abs(hook.mm), 1.96 * hook.sigma_mm);
-  MeasuredHoles known = second_frame(kHoleSigmaMm);
+  ASSERT_EQ(first->distances.size(), 4u);
+  for (const FittedDistances& one : first->distances)
+    EXPECT_LT(std::abs(one.hook->mm), 1.96 * one.hook->sigma_mm);
+  MeasuredHoles known = with_hole_sigma(sets_[4], kHoleSigmaMm);
   known.tape.hook_sigma_mm.reset();
-  EXPECT_GT(fit_holes(known)->left_out_all.rms_mm, 1.5 * last->left_out_all.rms_mm);
+  EXPECT_GT(joint_fit(known)->distances.front().left_out_all.rms_mm, 1.5 * last->distances.front().left_out_all.rms_mm);
 }
 
 TEST_F(RealSets, WhatADiagnosisSaysOfEach) {
-  std::vector<MeasuredHoles> all = sets_;
+  std::vector<Measured> all(sets_.begin(), sets_.end());
   all.push_back(first_frame(kHoleSigmaMm));
-  all.back().name = "a to d";
-  for (const MeasuredHoles& set : all) {
-    const auto found = diagnosis::diagnose(set);
+  for (const Measured& sets : all) {
+    const auto found = diagnosis::diagnose(sets);
     ASSERT_TRUE(found) << found.error().sentence;
     // One cause is not to be had from 8 or 16 distances of a real frame; four sets together show
     // what the fit shows as a bend of the bed.
     EXPECT_TRUE(found->causes.empty()) << found->sentence;
     EXPECT_TRUE(found->outliers.empty());
-    if (set.name == "a to d") {
+    if (sets.files().size() > 1) {
       EXPECT_EQ(found->verdict, diagnosis::Verdict::model_discrepancy);
     }
-    fmt::print("{} ({} distances): {}\n", set.name, set.distances.size(), found->sentence);
-    for (const auto& bad : found->outliers)
-      fmt::print("  bad: {} {:+.1f} mm\n", words_of(set, set.distances[bad.index]), bad.off_mm);
+    fmt::print("{} and {} more: {}\n", sets.name(), sets.files().size() - 1, found->sentence);
     for (const auto& one : found->hypotheses) {
       if (one.probability > 0.1)
         fmt::print("  {} {} {:.2f}\n", one.effect, one.side, one.probability);
@@ -290,7 +295,7 @@ TEST_F(RealSets, WhatADiagnosisSaysOfEach) {
 TEST_F(RealSets, WhatTheFrameDoesBeyondItsSettingsIsSeenAndNotNamed) {
   // Sets a to d together speak for a smooth bend, twenty to one and more; beside it neither the
   // chains' scales nor the places of the motors are known better than beforehand.
-  const auto fit = fit_holes(first_frame(kHoleSigmaMm));
+  const auto fit = joint_fit(first_frame(kHoleSigmaMm));
   ASSERT_TRUE(fit);
   EXPECT_TRUE(fit->estimate.has_surface);
   EXPECT_GT(fit->estimate.surface_log_evidence, estimation::kSurfaceEvidence);

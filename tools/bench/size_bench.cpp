@@ -10,7 +10,7 @@
 
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/map/fit.hpp"
-#include "grid/map/holes_fit.hpp"
+#include "grid/map/joint_fit.hpp"
 #include "grid/map/map_check.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "grid/synthetic/random.hpp"
@@ -86,7 +86,7 @@ BENCHMARK(fit_points_of_unknown_noise)
 
 void fit_distances(benchmark::State& state) {
   const auto set = distances(state.range(0), state.range(1));
-  for (auto _ : state) benchmark::DoNotOptimize(grid::fit_holes(set));
+  for (auto _ : state) benchmark::DoNotOptimize(grid::joint_fit(set));
 }
 BENCHMARK(fit_distances)
     ->Name("size/fit/distances_holes")

@@ -43,7 +43,9 @@ report::Document check_document(const grid::MapCheck& check) {
   Table table = table_of("Measured less map", true);
   for (const grid::CheckResidual& one : check.residuals)
     table.rows.push_back({{one.what, one.residual_mm, one.sigma_mm}});
-  return document_of(check, std::move(table));
+  report::Document document = document_of(check, std::move(table));
+  for (const std::string& note : check.notes) document.remarks.blocks.emplace_back(Paragraph{note});
+  return document;
 }
 
 report::Document check_document(const grid::AnchorsCheck& check) {

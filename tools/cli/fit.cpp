@@ -16,8 +16,7 @@
 #include "grid/files/fit_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "grid/map/fit.hpp"
-#include "grid/map/fit_together.hpp"
+#include "grid/map/joint_fit.hpp"
 #include "tools/cli/fit_the_belts.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/holes_words.hpp"
@@ -117,16 +116,33 @@ int finish(const FitCommand& command,
   return kDone;
 }
 
-int fit_the_holes(const FitCommand& command, const grid::MeasuredHoles& set) {
-  if (!set.machine) {
-    return finish(command,
-                  tl::unexpected(grid::FitFailure{
-                      grid::FitFailure::Reason::no_machine,
-                      "the holes name no machine; what was commanded becomes chain lengths by its "
-                      "controller: give --machine"}),
-                  {});
+/// The tables of distances, each under its file's name where there are several.
+std::vector<report::Section> distances_of(const grid::Measured& measured,
+                                          const grid::JointFit& fit) {
+  const std::vector<grid::MeasuredFile>& files = measured.files();
+  std::vector<report::Section> sections;
+  for (const grid::FittedDistances& one : fit.distances) {
+    const grid::MeasuredFile& file = files[one.file];
+    sections.push_back(
+        distances_section(*file.holes(), one, files.size() > 1 ? file.name : std::string{}));
   }
-  if (command.surface == "direct") {
+  if (!sections.empty()) add_legend(fit.estimate.knowledge, sections.back());
+  return sections;
+}
+
+/// The file and those of --with in one estimate.
+int fit_jointly(const FitCommand& command, const grid::Measured& measured) {
+  auto fit = grid::joint_fit(
+      measured, {.outside = rule_of(command.outside, {}), .progress = shown_progress()});
+  if (fit) return finish(command, fit->map, distances_of(measured, *fit));
+  if (measured.files().size() == 1) return finish(command, tl::unexpected(fit.error()), {});
+  fmt::print(stderr, "chaintrue fit: {}\n", fit.error().sentence);
+  return kBadInput;
+}
+
+/// Splines through the lengths of one grid.
+int fit_directly(const FitCommand& command, const grid::MeasuredFile& file) {
+  if (file.grid() == nullptr) {
     return finish(command,
                   tl::unexpected(grid::FitFailure{
                       grid::FitFailure::Reason::not_a_grid,
@@ -134,30 +150,13 @@ int fit_the_holes(const FitCommand& command, const grid::MeasuredHoles& set) {
                       "neither, leave --surface out"}),
                   {});
   }
-  const auto fit = grid::fit_holes(set, std::nullopt, shown_progress());
-  if (!fit) return finish(command, tl::unexpected(fit.error()), {});
-  report::Section distances = distances_section(set, *fit, "");
-  add_legend(fit->estimate.knowledge, distances);
-  return finish(command, grid::map_of(set, *fit), {std::move(distances)});
-}
-
-/// The file and those of --with in one estimate.
-int fit_all(const FitCommand& command, const grid::Measured& measured) {
-  const auto fit = grid::fit_together(measured, shown_progress());
-  if (!fit) {
-    fmt::print(stderr, "chaintrue fit: {}\n", fit.error().sentence);
-    return kBadInput;
-  }
-  std::vector<report::Section> distances;
-  for (const grid::HolesAmongFiles& one : fit->holes) {
-    const grid::MeasuredFile& file = measured.files()[one.file];
-    distances.push_back(distances_section(*file.holes(), one.fit, file.name));
-  }
-  if (!distances.empty()) add_legend(fit->estimate.knowledge, distances.back());
-  grid::CompensationMap map = fit->map;
-  const grid::OutsideRule rule = rule_of(command.outside, {});
-  if (rule.way != grid::Outside::continued) map = map.with_outside(rule);
-  return finish(command, map, std::move(distances));
+  grid::FitOptions options;
+  options.surface = grid::SurfaceKind::direct;
+  const interp::EndCondition end = end_conditions().at(command.ends);
+  options.ends = {{end, end}, {end, end}};
+  options.outside = rule_of(command.outside, {});
+  options.progress = shown_progress();
+  return finish(command, grid::fit(*file.grid(), options), {});
 }
 
 /// The file, and those of --with.
@@ -209,18 +208,8 @@ int run_fit(FitCommand command) {
     fmt::print(stderr, "{}: {}\n", files.front().name, sentence);
     return kBadInput;
   }
-  if (files.size() > 1) return fit_all(command, all);
-  if (const auto* holes = std::get_if<grid::MeasuredHoles>(&files.front().measured))
-    return fit_the_holes(command, *holes);
-  const auto& measured = std::get<grid::MeasuredGrid>(files.front().measured);
-  grid::FitOptions options;
-  options.surface =
-      command.surface == "direct" ? grid::SurfaceKind::direct : grid::SurfaceKind::residual;
-  const interp::EndCondition end = end_conditions().at(command.ends);
-  options.ends = {{end, end}, {end, end}};
-  options.outside = rule_of(command.outside, {});
-  options.progress = shown_progress();
-  return finish(command, grid::fit(measured, options), {});
+  return command.surface == "direct" ? fit_directly(command, files.front())
+                                     : fit_jointly(command, all);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "grid/map/holes_fit.hpp"
+#include "grid/map/fitted_distances.hpp"
 #include "grid/planning/holes_plan.hpp"
 #include "tools/report/document.hpp"
 

@@ -112,7 +112,7 @@ int simulate(const PassesCommand& command) {
   for (const grid::HolesPass& pass : result->passes) text += line_of(pass);
   text += ending(result->passes.back(), command.request.worthwhile_mm, 0);
   if (!command.map.empty()) {
-    write_output(command.map, files::write_map(grid::map_of(result->last_set, result->fit)));
+    write_output(command.map, files::write_map(result->fit.map));
   }
   end_progress();
   fmt::print("{}", command.json ? as_json(result->passes, result->before_mm) : text);
@@ -163,7 +163,7 @@ int follow(const PassesCommand& command) {
   }
   text += ending(done.back(), command.request.worthwhile_mm, sets.size() - used);
   if (!command.map.empty()) {
-    write_output(command.map, files::write_map(grid::map_of(sets[used - 1], *passes.fit())));
+    write_output(command.map, files::write_map(passes.fit()->map));
   }
   end_progress();
   fmt::print("{}", command.json ? as_json(done, std::nullopt) : text);

@@ -22,7 +22,7 @@
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/fit.hpp"
-#include "grid/map/holes_fit.hpp"
+#include "grid/map/joint_fit.hpp"
 #include "tools/cli/certificate.hpp"
 #include "tools/cli/diagnosis_document.hpp"
 #include "tools/cli/map_document.hpp"
@@ -163,7 +163,7 @@ grid::CompensationMap fit_points(const grid::MeasuredGrid& grid, bool direct) {
 
 grid::CompensationMap fit_distances(const grid::MeasuredHoles& holes) {
   const py::gil_scoped_release others_may_work;
-  return grid::map_of(holes, value_or_throw(grid::fit_holes(holes)));
+  return value_or_throw(grid::joint_fit(holes)).map;
 }
 
 py::dict query(const grid::CompensationMap& map, const Pairs& points, bool bed) {

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The joint estimate (grid/estimation) of distances between holes: settings (each stated one is a
-/// datum with its sigma), a length scale of either chain, the sheet's placement where its edges were
-/// measured and, where the distances ask for it, a smooth correction of the chain lengths. Where the
-/// holes are follows from these (tape_distances.hpp).
+/// What an estimate (grid/estimation) says of distances between holes: settings (each stated one is
+/// a datum with its sigma), a length scale of either chain, the sheet's placement where its edges
+/// were measured and, where the distances ask for it, a smooth correction of the chain lengths.
+/// Where the holes are follows from these (tape_distances.hpp).
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
-#include <tl/expected.hpp>
 #include <vector>
 
 #include "grid/estimation/estimate.hpp"
-#include "grid/map/fit.hpp"
+#include "grid/map/compensation_map.hpp"
 #include "grid/observation/tape_distances.hpp"
 
 namespace chaintrue::grid {
@@ -29,7 +27,7 @@ struct FittedDistance {
   [[nodiscard]] double sigmas() const { return left_out_mm / left_out_sigma_mm; }
 };
 
-/// By how much the readings of a session are all too long, where the hook's offset was not known
+/// By how much the readings of a file are all too long, where the hook's offset was not known
 /// exactly.
 struct FoundHook {
   double mm = 0.0;
@@ -45,37 +43,25 @@ struct FittedHole {
 
 /// What an estimate says of one set of distances among its observations.
 struct FittedDistances {
+  std::size_t file = 0;  ///< the observation's number
   std::vector<FittedDistance> distances;
   std::vector<FittedHole> holes;
-  std::vector<FoundHook> hooks;  ///< by session; none where it was known
-  ErrorSummary left_out_all;     ///< every reading
-  ErrorSummary left_out_good;    ///< those that fit
+  std::optional<FoundHook> hook;
+  ErrorSummary left_out_all;   ///< every reading
+  ErrorSummary left_out_good;  ///< those that fit
 };
 [[nodiscard]] FittedDistances fitted_distances(const observation::TapeDistances& distances,
                                                const estimation::Estimate& estimate,
                                                std::size_t observation);
-
-struct HolesFit : FittedDistances {
-  estimation::Estimate estimate;
-  observation::SheetPrior sheet_measured;
-  std::vector<std::string> notes;
-};
-
-/// `knowledge` replaces what the machine states. \throws std::invalid_argument for a set without a
-/// machine or without distances.
-[[nodiscard]] tl::expected<HolesFit, FitFailure> fit_holes(
-    const MeasuredHoles& set,
-    const std::optional<estimation::MachineKnowledge>& knowledge = std::nullopt,
-    const Progress& progress = {});
-
-/// The fit as a map, for query, gcode, report and check.
-[[nodiscard]] CompensationMap map_of(const MeasuredHoles& set, const HolesFit& fit);
 
 /// A hole as a point of a map.
 [[nodiscard]] MapPoint map_point(const FittedHole& hole);
 /// What a map of holes stands on.
 [[nodiscard]] DistancesUsed distances_used(const std::vector<FittedDistance>& distances,
                                            double tape_sigma_mm);
+/// Of the readings: which were set aside, and what is wrong with all of them.
+[[nodiscard]] std::vector<std::string> distance_notes(const MeasuredHoles& set,
+                                                      const FittedDistances& fit);
 
 /// The surface's intervals: a bend of the whole bed is what some twenty distances can show.
 inline constexpr int kHolesIntervalsX = 4;

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Where a sheet lies, by weighted least squares (Gauss-Newton) on whatever was read on it:
+///
+///   minimise  sum_i |r_i(t)|^2_(W_i) + |t / sigma|^2,    t = (x_mm, y_mm, rotation_rad)
+///
+/// \code
+///   const auto sheet = fit_placement([&](const model::SheetPlacement& at, PlacementNormal& sum) {
+///     for (...) sum.add(residual_at(at), by_placement, weight);   // residual: measured - predicted
+///     return true;
+///   });
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+
+#include "grid/observation/observation.hpp"
+#include "model/calibration/sheet_placement.hpp"
+
+namespace chaintrue::grid::estimation {
+
+/// Normal equations of the three unknowns.
+class PlacementNormal {
+ public:
+  /// One reading of both chains: measured less predicted, d(predicted)/d(placement), and the inverse
+  /// of its covariance.
+  void add(const Eigen::Vector2d& residual,
+           const Eigen::Matrix<double, 2, 3>& by_placement,
+           const Eigen::Matrix2d& weight) {
+    normal_ += by_placement.transpose() * weight * by_placement;
+    right_ += by_placement.transpose() * weight * residual;
+  }
+  void add_prior(const model::SheetPlacement& at, const observation::SheetPrior& prior);
+  [[nodiscard]] Eigen::Vector3d solve() const;
+
+ private:
+  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
+};
+
+/// Adds what was read to the equations about a placement; false where the machine has no pose, which
+/// ends the search where it is.
+using LinearisedAt = std::function<bool(const model::SheetPlacement&, PlacementNormal&)>;
+
+/// Eight steps from the identity: a shift of 50 mm and a turn of 0.03 rad settle in four. Without a
+/// prior the readings must determine all three unknowns.
+[[nodiscard]] model::SheetPlacement fit_placement(
+    const LinearisedAt& linearised, const std::optional<observation::SheetPrior>& prior = {});
+
+}  // namespace chaintrue::grid::estimation

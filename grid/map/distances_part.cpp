@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What is special to distances between holes: a hook offset that was left out makes all of them
+/// contradict the machine, and a sheet without measured edges is laid by its holes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/map/fit_part.hpp"
+#include "grid/map/map_parts.hpp"
+#include "grid/precondition.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+class DistancesPart final : public FitPart {
+ public:
+  explicit DistancesPart(std::shared_ptr<const observation::TapeDistances> distances)
+      : distances_(std::move(distances)) {
+    observation = distances_;
+    noise = {interp::NoiseKnowledge::from_repeats, set().noise_dof};
+    domain = holes_domain(set().machine->bed);
+    machine = *set().machine;
+    readings = set().readings;
+    fewest_good = kFewestHoleDistances;
+  }
+
+  [[nodiscard]] std::string few_good(std::size_t bad, std::size_t all) const override {
+    std::string sentence = fmt::format(
+        "{} of {} distances contradict the others or the machine as stated; check the "
+        "machine's measures, the controller's settings in force and which holes the "
+        "distances join",
+        bad,
+        all);
+    if (const auto hook = suspected_hook_offset_mm(set())) {
+      sentence += fmt::format(", and whether the tape's hook offset ({:.0f} mm?) was left out",
+                              std::round(*hook));
+    }
+    return sentence;
+  }
+
+  void add_to(MapDraft& draft,
+              const Fitting& fitting,
+              std::size_t file,
+              const std::string& name) const override {
+    FittedDistances fit = fitted_distances(*distances_, fitting.estimate, file);
+    for (const FittedHole& hole : fit.holes)
+      draft.good.push_back(fitting.in_frame(file, hole.predicted));
+    for (const std::string& note : distance_notes(set(), fit))
+      draft.notes.push_back(name.empty() ? note : fmt::format("{}: {}", name, note));
+    if (name.empty()) note_noise(fitting.estimate.noise_factor, draft.notes);
+    if (file == 0) note_frame(draft.frame_notes);
+    const auto rejected = std::count_if(fit.distances.begin(),
+                                        fit.distances.end(),
+                                        [](const FittedDistance& one) { return one.set_aside; });
+    draft.sources.push_back(fmt::format(
+        "{} distances between {} holes of {}{}, which come out within {:.2f} mm rms left out one "
+        "at a time",
+        fit.distances.size(),
+        fit.holes.size(),
+        name,
+        rejected == 0 ? "" : fmt::format(" ({} set aside)", rejected),
+        fit.left_out_good.rms_mm));
+    if (fitting.input.surface == estimation::SurfaceUse::on_evidence)
+      add_holes(draft, fitting, fit);
+    draft.distances.push_back(std::move(fit));
+  }
+
+ private:
+  [[nodiscard]] const MeasuredHoles& set() const { return distances_->set(); }
+
+  /// Of sets of holes alone the points are the holes, and errors those of distances.
+  void add_holes(MapDraft& draft, const Fitting& fitting, const FittedDistances& fit) const {
+    for (FittedHole hole : fit.holes) {
+      hole.predicted = fitting.in_frame(fit.file, hole.predicted);
+      hole.as_stated = fitting.in_frame(fit.file, hole.as_stated);
+      hole.place = fitting.in_frame(fit.file, hole.place);
+      draft.map.points.push_back(map_point(hole));
+    }
+    if (fit.file > 0) return;
+    draft.map.noise = {0.0, set().hole_sigma_mm, "stated", fitting.estimate.noise_factor};
+    draft.tape_sigma_mm = set().tape.sigma_mm;
+  }
+
+  /// Of a file alone: how large the noise is beside what was stated.
+  void note_noise(double factor, std::vector<std::string>& notes) const {
+    if (factor <= kNoiseDisagreement) return;
+    notes.push_back(fmt::format(
+        "The distances scatter {:.1f} times as much as stated ({:g} mm of tape, {:g} mm "
+        "of hole): the intervals are that much wider.",
+        factor,
+        set().tape.sigma_mm,
+        set().hole_sigma_mm));
+  }
+
+  void note_frame(std::vector<std::string>& notes) const {
+    const observation::SheetPrior& measured = *distances_->sheet();
+    std::string free;
+    for (const auto& [is_measured, word] : {std::pair(measured.knows_x, "sideways"),
+                                            std::pair(measured.knows_y, "up and down"),
+                                            std::pair(measured.knows_rotation, "in its turn")}) {
+      if (!is_measured) free += fmt::format("{}{}", free.empty() ? "" : ", ", word);
+    }
+    if (free.empty()) return;
+    notes.push_back(
+        fmt::format("No edge of the sheet tells its place {}: there the sheet is laid so that the "
+                    "holes lie, as "
+                    "a whole, where they were commanded.",
+                    free));
+  }
+
+  std::shared_ptr<const observation::TapeDistances> distances_;
+};
+
+}  // namespace
+
+tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredHoles& set) {
+  if (set.distances.empty())
+    throw precondition("a fit of no distances between {} holes", set.holes.size());
+  if (!set.machine) {
+    return tl::unexpected(
+        FitFailure{FitFailure::Reason::no_machine,
+                   "the holes name no machine; what was commanded becomes chain lengths by its "
+                   "controller: give --machine"});
+  }
+  auto distances = observation::TapeDistances::in_given_order(set);
+  if (!distances) {
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, distances.error().sentence});
+  }
+  if (auto possible = check_readings_of(*set.machine, set.readings, "set's"); !possible)
+    return tl::unexpected(possible.error());
+  return std::make_unique<DistancesPart>(
+      std::make_shared<const observation::TapeDistances>(*std::move(distances)));
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A measured file among those that are fitted together: its observation, and what is special to
+/// its kind. joint_fit() knows nothing else of a file. Private to grid/map.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/map/fit.hpp"
+#include "grid/map/fitted_distances.hpp"
+#include "grid/map/fitted_points.hpp"
+
+namespace chaintrue::grid {
+
+/// What was fitted, and its estimate. The observations of the files come first, in their order.
+struct Fitting {
+  estimation::EstimationInput input;
+  estimation::Estimate estimate;
+
+  /// The estimate of `input`.
+  [[nodiscard]] static tl::expected<Fitting, FitFailure> of(estimation::EstimationInput input);
+  /// A place on a file's sheet in the frame of the first file's marks.
+  [[nodiscard]] model::MarkPoint in_frame(std::size_t file, model::MarkPoint mark) const;
+};
+
+/// What the files' parts of a map are gathered in.
+struct MapDraft {
+  MapContents map;
+  std::vector<model::MarkPoint> good;  ///< places that count, in the map's frame
+  std::vector<FittedPoint> points;     ///< of all grids
+  std::vector<FittedDistances> distances;
+  double tape_sigma_mm = 0.0;            ///< of the first set, where all are sets of holes
+  std::vector<std::string> sources;      ///< what each file brought, where there are several
+  std::vector<std::string> notes;        ///< of each file's readings
+  std::vector<std::string> frame_notes;  ///< of how the frame of the first file was laid
+  std::vector<std::string> last_notes;
+};
+
+class FitPart {
+ public:
+  FitPart() = default;
+  FitPart(const FitPart&) = delete;
+  FitPart& operator=(const FitPart&) = delete;
+  virtual ~FitPart() = default;
+
+  model::Machine machine;  ///< as stated; of a grid without what was taken out of its data
+  std::shared_ptr<const observation::Observation> observation;
+  interp::NoiseScale noise;
+  interp::Rectangle domain;
+  /// The observation's units that are left out together.
+  std::vector<estimation::UnitGroup> held_out_together;
+  std::vector<ExtraReading> readings;    ///< of the machine
+  std::vector<std::string> corrections;  ///< what was corrected in the data, whole sentences
+  std::size_t fewest_good = 0;           ///< units that a map of this file alone needs
+  std::optional<SheetUncertainty> sheet;
+
+  /// Steps of the work where the noise is to be found, too, of a file alone.
+  static constexpr int kStepsToFindNoise = 4;
+  /// Fits again, by whatever tells the noise of readings that state none. For a file alone.
+  [[nodiscard]] virtual tl::expected<void, FitFailure> find_noise(Fitting& /*alone*/) { return {}; }
+  /// States the noise that was found of this file alone.
+  virtual void take_noise(const Fitting& /*alone*/) {}
+  /// Why too few units of the file alone are good.
+  [[nodiscard]] virtual std::string few_good(std::size_t bad, std::size_t all) const = 0;
+  /// Puts the file, `file` by its number, into the map. `name` is empty where it is the only one.
+  virtual void add_to(MapDraft& draft,
+                      const Fitting& fitting,
+                      std::size_t file,
+                      const std::string& name) const = 0;
+};
+
+/// Fails where the file states no machine, or readings that leave no possible one.
+[[nodiscard]] tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredGrid& grid);
+/// \throws std::invalid_argument for a set without distances.
+[[nodiscard]] tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredHoles& set);
+
+/// The machine with its readings put in, where that is a possible one. `what` has the readings.
+[[nodiscard]] tl::expected<void, FitFailure> check_readings_of(
+    const model::Machine& machine, const std::vector<ExtraReading>& readings, const char* what);
+
+}  // namespace chaintrue::grid

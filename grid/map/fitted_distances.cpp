@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/fitted_distances.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace chaintrue::grid {
+namespace {
+
+using model::MarkPoint;
+
+/// A hook is spoken of from here on.
+constexpr double kHookSigmas = 2.0;
+
+ErrorSummary summary_of(const std::vector<FittedDistance>& distances, bool with_set_aside) {
+  ErrorSummary summary;
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (const FittedDistance& distance : distances) {
+    if (distance.set_aside && !with_set_aside) continue;
+    squares += distance.left_out_mm * distance.left_out_mm;
+    summary.maximum_mm = std::max(summary.maximum_mm, std::abs(distance.left_out_mm));
+    ++count;
+  }
+  if (count > 0) summary.rms_mm = std::sqrt(squares / static_cast<double>(count));
+  return summary;
+}
+
+void note_set_aside(const MeasuredHoles& set,
+                    const FittedDistances& fit,
+                    std::vector<std::string>& notes) {
+  std::map<std::size_t, int> at_hole;
+  for (std::size_t k = 0; k < fit.distances.size(); ++k) {
+    const FittedDistance& distance = fit.distances[k];
+    if (!distance.set_aside) continue;
+    const HoleDistance& reading = set.distances[k];
+    notes.push_back(
+        fmt::format("{} ({:g} mm on the tape) was set aside: it is {:.1f} mm {} than the others "
+                    "make it, {:.1f} times what tape and holes allow. Measure it again.",
+                    words_of(set, reading),
+                    reading.distance_mm,
+                    std::abs(distance.left_out_mm),
+                    distance.left_out_mm > 0.0 ? "longer" : "shorter",
+                    std::abs(distance.sigmas())));
+    ++at_hole[reading.from];
+    if (!reading.edge) ++at_hole[reading.to];
+  }
+  for (const auto& [hole, count] : at_hole) {
+    if (count < 2) continue;
+    notes.push_back(
+        fmt::format("{} of the distances set aside end at hole {}: perhaps it is the hole that is "
+                    "off its place, not the tape.",
+                    count,
+                    set.holes[hole].name));
+  }
+}
+
+}  // namespace
+
+FittedDistances fitted_distances(const observation::TapeDistances& distances,
+                                 const estimation::Estimate& estimate,
+                                 std::size_t observation) {
+  const MeasuredHoles& set = distances.set();
+  const estimation::ObservationEstimate& own = estimate.observations[observation];
+  FittedDistances fit;
+  fit.file = observation;
+  for (const estimation::UnitEstimate& unit : estimate.units) {
+    if (unit.observation != observation) continue;
+    const auto at = static_cast<Eigen::Index>(unit.unit);
+    fit.distances.push_back({distances.measured()[at],
+                             commanded_mm(set, set.distances[unit.unit]),
+                             own.predicted[at],
+                             unit.left_out[0],
+                             std::sqrt(unit.left_out_covariance(0, 0)),
+                             unit.is_set_aside()});
+  }
+  const auto holes = static_cast<Eigen::Index>(set.holes.size());
+  const Eigen::VectorXd shift = own.nuisance.tail(2 * holes);
+  for (Eigen::Index i = 0; i < holes; ++i) {
+    const estimation::PlaceEstimate& place = own.places[static_cast<std::size_t>(i)];
+    fit.holes.push_back({distances.places()[static_cast<std::size_t>(i)].lengths,
+                         place.as_stated,
+                         place.mark,
+                         {place.mark.x_mm + shift[2 * i], place.mark.y_mm + shift[2 * i + 1]}});
+  }
+  // After the sheet's size (tape_distances.hpp).
+  constexpr Eigen::Index kHook = 2;
+  if (set.tape.hook_sigma_mm.value_or(0.0) > 0.0)
+    fit.hook = FoundHook{own.nuisance[kHook], own.nuisance_sigma[kHook]};
+  fit.left_out_all = summary_of(fit.distances, true);
+  fit.left_out_good = summary_of(fit.distances, false);
+  return fit;
+}
+
+MapPoint map_point(const FittedHole& hole) {
+  MapPoint point;
+  point.mark = hole.place;
+  point.lengths = hole.lengths;
+  const auto beside = [&hole](MarkPoint from) {
+    return Eigen::Vector2d(hole.place.x_mm - from.x_mm, hole.place.y_mm - from.y_mm);
+  };
+  point.as_stated_mm = point.sheet_placed_mm = beside(hole.as_stated);
+  point.mapped_mm = point.left_out_mm = beside(hole.predicted);
+  return point;
+}
+
+DistancesUsed distances_used(const std::vector<FittedDistance>& distances, double tape_sigma_mm) {
+  DistancesUsed used;
+  used.tape_sigma_mm = tape_sigma_mm;
+  for (const FittedDistance& distance : distances) {
+    (distance.set_aside ? used.set_aside : used.used) += 1;
+  }
+  used.left_out_all = summary_of(distances, true);
+  used.left_out_good = summary_of(distances, false);
+  return used;
+}
+
+std::vector<std::string> distance_notes(const MeasuredHoles& set, const FittedDistances& fit) {
+  std::vector<std::string> notes;
+  note_set_aside(set, fit, notes);
+  if (const auto hook = suspected_hook_offset_mm(set)) {
+    notes.push_back(
+        fmt::format("All distances are about {:.1f} mm {} than commanded, short ones like long "
+                    "ones: was the tape's hook offset left out or taken off twice?",
+                    std::abs(*hook),
+                    *hook > 0.0 ? "longer" : "shorter"));
+  }
+  if (fit.hook && std::abs(fit.hook->mm) >= kHookSigmas * fit.hook->sigma_mm) {
+    notes.push_back(
+        fmt::format("The readings seem to be {:.2f} +- {:.2f} mm too {}, all alike: look how the "
+                    "tape was held to the holes.",
+                    std::abs(fit.hook->mm),
+                    fit.hook->sigma_mm,
+                    fit.hook->mm > 0.0 ? "long" : "short"));
+  }
+  return notes;
+}
+
+interp::Rectangle holes_domain(const model::Bed& bed) {
+  constexpr double kBesideMm = 50.0;
+  return {-0.5 * bed.width_mm - kBesideMm,
+          0.5 * bed.width_mm + kBesideMm,
+          -0.5 * bed.height_mm - kBesideMm,
+          0.5 * bed.height_mm + kBesideMm};
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/fitted_points.hpp"
+
+#include <Eigen/LU>
+
+#include "grid/estimation/placement_fit.hpp"
+#include "grid/map/map_accuracy.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+Eigen::Vector2d to_tool(const Eigen::Matrix2d& mark_jacobian, const Eigen::Vector2d& chain_mm) {
+  return mark_jacobian.inverse() * chain_mm;
+}
+
+/// How far the tool was beyond where its command sent it, on the sheet. The controller believes
+/// neither the stated machine nor the catenary: a machine that goes where it is told is right.
+Eigen::Vector2d beyond_mark(model::BedPoint commanded,
+                            const model::SheetPlacement& sheet,
+                            model::MarkPoint mark) {
+  const model::BedPoint place = sheet.to_bed(mark);
+  return sheet.rotation().transpose() *
+         Eigen::Vector2d(commanded.x_mm - place.x_mm, commanded.y_mm - place.y_mm);
+}
+
+/// Fits the placement of the sheet under the machine as delivered, by weighted least squares on its
+/// good points.
+model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points,
+                                          const MeasuredGrid& grid,
+                                          const observation::PointNoise& noise,
+                                          const model::ReadingModel& stated) {
+  const std::vector<model::Setting> settings(model::kSheetSettings.begin(),
+                                             model::kSheetSettings.end());
+  std::vector<LengthPoint> good;
+  for (const FittedPoint& point : points) {
+    if (!point.bad) good.push_back(point.point);
+  }
+  const observation::ChainLengthReadings readings =
+      chain_length_readings(good, noise, 0.0, grid.sheet);
+  return estimation::fit_placement([&](const model::SheetPlacement& sheet,
+                                       estimation::PlacementNormal& sum) {
+    const auto line = readings.linearise({stated, sheet}, settings);
+    if (!line) return false;
+    for (std::size_t i = 0; i < good.size(); ++i) {
+      const auto row = 2 * static_cast<Eigen::Index>(i);
+      const auto& commanded = good[i].commanded;
+      const Eigen::Vector2d residual =
+          commanded ? line->places[i].by_mark * beyond_mark(*commanded, sheet, good[i].mark)
+                    : Eigen::Vector2d(readings.measured().segment(row, 2) -
+                                      line->predicted.segment(row, 2));
+      sum.add(residual, line->by_setting.middleRows(row, 2), line->units[i].covariance.inverse());
+    }
+    return true;
+  });
+}
+
+/// How far the tool was beyond where the machine as delivered thinks: the command, or where the
+/// lengths put it; zero where that machine has no pose.
+Eigen::Vector2d tool_residual(const model::ReadingModel& model,
+                              const model::SheetPlacement& sheet,
+                              const LengthPoint& point) {
+  if (point.commanded) return beyond_mark(*point.commanded, sheet, point.mark);
+  const auto reading = model.at(sheet.to_bed(point.mark));
+  if (!reading) return Eigen::Vector2d::Zero();
+  return to_tool(reading->position_jacobian * sheet.rotation(),
+                 Eigen::Vector2d(point.lengths.left_mm - reading->lengths.left_mm,
+                                 point.lengths.right_mm - reading->lengths.right_mm));
+}
+
+}  // namespace
+
+std::vector<FittedPoint> fitted_points(const std::vector<LengthPoint>& points,
+                                       const estimation::Estimate& estimate,
+                                       std::size_t observation) {
+  std::vector<FittedPoint> fitted;
+  for (const estimation::UnitEstimate& unit : estimate.units) {
+    if (unit.observation != observation) continue;
+    FittedPoint point;
+    point.point = points[unit.unit];
+    point.bad = unit.is_set_aside();
+    point.distance = unit.distance;
+    point.residual_mm = unit.residual;
+    point.left_out_residual_mm = unit.left_out;
+    point.blocked_residual_mm = unit.left_out_with_group;
+    point.mark_jacobian = estimate.observations[observation].places[unit.unit].by_mark;
+    fitted.push_back(point);
+  }
+  return fitted;
+}
+
+MapAccuracy held_out_accuracy(const std::vector<FittedPoint>& points) {
+  std::vector<HeldOutResidual> one;
+  std::vector<HeldOutResidual> blocks;
+  for (const FittedPoint& point : points) {
+    if (point.bad) continue;
+    one.push_back({point.left_out_residual_mm, point.mark_jacobian});
+    blocks.push_back({point.blocked_residual_mm, point.mark_jacobian});
+  }
+  MapAccuracy accuracy;
+  accuracy.leave_one_out = summarise(one);
+  accuracy.blocked = summarise(blocks);
+  return accuracy;
+}
+
+std::vector<MapPoint> map_points(const std::vector<FittedPoint>& points,
+                                 const MeasuredGrid& grid,
+                                 const observation::PointNoise& noise) {
+  const model::ReadingModel stated(*grid.machine);
+  const model::SheetPlacement laid =
+      grid.sheet ? fit_sheet_placement(points, grid, noise, stated) : model::SheetPlacement{};
+  std::vector<MapPoint> result;
+  for (const FittedPoint& fitted : points) {
+    MapPoint point;
+    point.mark = fitted.point.mark;
+    point.lengths = fitted.point.lengths;
+    point.bad = fitted.bad;
+    point.distance_sigmas = fitted.distance;
+    point.as_stated_mm = tool_residual(stated, {}, fitted.point);
+    point.sheet_placed_mm = tool_residual(stated, laid, fitted.point);
+    point.mapped_mm = to_tool(fitted.mark_jacobian, fitted.residual_mm);
+    point.left_out_mm = to_tool(fitted.mark_jacobian, fitted.left_out_residual_mm);
+    result.push_back(point);
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/joint_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "grid/map/corrected_data.hpp"
+#include "grid/map/fit_part.hpp"
+#include "grid/map/map_accuracy.hpp"
+#include "grid/map/map_parts.hpp"
+#include "grid/observation/single_readings.hpp"
+#include "model/effects/catalogue.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using Parts = std::vector<std::unique_ptr<FitPart>>;
+
+tl::unexpected<FitFailure> fail(FitFailure::Reason reason, std::string sentence) {
+  return tl::unexpected(FitFailure{reason, std::move(sentence)});
+}
+
+FitFailure failure_of(const estimation::EstimationFailure& failure) {
+  using Reason = estimation::EstimationFailure::Reason;
+  switch (failure.reason) {
+    case Reason::place_unreachable:
+      return {FitFailure::Reason::point_unreachable, failure.sentence};
+    case Reason::rank_deficient:
+      return {FitFailure::Reason::rank_deficient, failure.sentence};
+    case Reason::not_converged:
+      break;
+  }
+  return {FitFailure::Reason::not_converged, failure.sentence};
+}
+
+tl::expected<void, FitFailure> check_one_machine(const std::vector<MeasuredFile>& files) {
+  if (files.size() == 1) return {};
+  for (const MeasuredFile& file : files) {
+    const auto& machine = file.machine();
+    if (!machine) {
+      return fail(FitFailure::Reason::no_machine,
+                  fmt::format("{} names no machine: give --machine", file.name));
+    }
+    const std::string difference = difference_of_settings(*files.front().machine(), *machine);
+    if (!difference.empty()) {
+      return fail(FitFailure::Reason::impossible_readings,
+                  fmt::format("{}: {}", file.name, difference));
+    }
+  }
+  return {};
+}
+
+tl::expected<Parts, FitFailure> parts_of(const std::vector<MeasuredFile>& files,
+                                         const Progress& progress) {
+  if (auto one = check_one_machine(files); !one) return tl::unexpected(one.error());
+  const bool with_grids = std::any_of(
+      files.begin(), files.end(), [](const MeasuredFile& file) { return file.grid() != nullptr; });
+  Parts parts;
+  for (const MeasuredFile& file : files) {
+    if (files.size() > 1) tell(progress, {"each file by itself", 1, 3});
+    const MeasuredHoles* set = file.holes();
+    auto part =
+        set == nullptr ? part_of(*file.grid()) : part_of(with_grids ? with_true_tape(*set) : *set);
+    if (!part) {
+      return fail(part.error().reason,
+                  (files.size() > 1 ? file.name + ": " : std::string{}) + part.error().sentence);
+    }
+    parts.push_back(*std::move(part));
+  }
+  return parts;
+}
+
+interp::Rectangle around(const interp::Rectangle& a, const interp::Rectangle& b) {
+  return {std::min(a.x_min, b.x_min),
+          std::max(a.x_max, b.x_max),
+          std::min(a.y_min, b.y_min),
+          std::max(a.y_max, b.y_max)};
+}
+
+estimation::EstimationInput estimation_input(const Parts& parts) {
+  estimation::EstimationInput input;
+  input.domain = parts.front()->domain;
+  input.noise = parts.front()->noise;
+  std::vector<ExtraReading> readings;
+  bool reads_chains = false;
+  std::size_t units = 0;
+  for (const auto& part : parts) {
+    input.observations.push_back(part->observation);
+    input.domain = around(input.domain, part->domain);
+    input.noise.degrees_of_freedom =
+        std::min(input.noise.degrees_of_freedom, part->noise.degrees_of_freedom);
+    reads_chains = reads_chains || part->observation->kind().reads_chains;
+    for (estimation::UnitGroup group : part->held_out_together) {
+      for (std::size_t& unit : group) unit += units;
+      input.held_out_together.push_back(std::move(group));
+    }
+    readings.insert(readings.end(), part->readings.begin(), part->readings.end());
+    units += part->observation->units().size();
+  }
+  input.machine = with_readings(parts.front()->machine, readings);
+  input.surface =
+      reads_chains ? estimation::SurfaceUse::smoothed : estimation::SurfaceUse::on_evidence;
+  if (!reads_chains) {
+    input.intervals_x = kHolesIntervalsX;
+    input.intervals_y = kHolesIntervalsY;
+  }
+  const auto of_settings = setting_readings(readings);
+  if (!of_settings.empty())
+    input.observations.push_back(std::make_shared<const observation::SingleReadings>(of_settings));
+  return input;
+}
+
+/// A map that keeps less than two thirds of a file's readings is not the map of those readings: so
+/// many are no slips of the hand.
+tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>& files,
+                                                 const Parts& parts,
+                                                 const estimation::Estimate& estimate) {
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    std::size_t all = 0;
+    std::size_t bad = 0;
+    for (const estimation::UnitEstimate& unit : estimate.units) {
+      if (unit.observation != k) continue;
+      ++all;
+      bad += unit.is_set_aside() ? 1 : 0;
+    }
+    const bool alone = parts.size() == 1;
+    if (3 * bad <= all && (!alone || all - bad >= parts[k]->fewest_good)) continue;
+    return fail(
+        FitFailure::Reason::rank_deficient,
+        alone ? parts[k]->few_good(bad, all)
+              : fmt::format("{}: {} of {} {} contradict the other files or the machine as stated: "
+                            "are all of one machine, with the same chains hung on the same teeth?",
+                            files[k].name,
+                            bad,
+                            all,
+                            parts[k]->observation->kind().units));
+  }
+  return {};
+}
+
+/// One file, its noise found where nobody stated it.
+tl::expected<Fitting, FitFailure> fit_alone(FitPart& part, estimation::EstimationInput input) {
+  auto fitting = Fitting::of(std::move(input));
+  if (!fitting) return fitting;
+  if (auto found = part.find_noise(*fitting); !found) return tl::unexpected(found.error());
+  return fitting;
+}
+
+/// Grids that state no noise are fitted alone for it.
+tl::expected<void, FitFailure> state_noises(const std::vector<MeasuredFile>& files, Parts& parts) {
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (parts[k]->noise.knowledge != interp::NoiseKnowledge::unknown) continue;
+    Parts one;
+    one.push_back(std::move(parts[k]));
+    auto alone = fit_alone(*one.front(), estimation_input(one));
+    if (alone) {
+      if (auto good = check_enough_good({files[k]}, one, alone->estimate); !good)
+        alone = tl::unexpected(good.error());
+    }
+    if (!alone) return fail(alone.error().reason, files[k].name + ": " + alone.error().sentence);
+    one.front()->take_noise(*alone);
+    parts[k] = std::move(one.front());
+  }
+  return {};
+}
+
+std::vector<std::string> notes_of(const Parts& parts,
+                                  const Fitting& fitting,
+                                  const MeasuredFile& first,
+                                  const MapDraft& draft,
+                                  const std::vector<SettingResult>& settings) {
+  std::vector<std::string> notes;
+  const auto append = [&notes](const std::vector<std::string>& more) {
+    notes.insert(notes.end(), more.begin(), more.end());
+  };
+  for (const auto& part : parts) append(part->corrections);
+  if (parts.size() > 1) {
+    notes.push_back(
+        fmt::format("Fitted together: {}. The map's frame is that of {}; the noise is what each "
+                    "file states, times {:.2f} as found, which the fewest degrees of freedom that "
+                    "any of them states, {:g}, hold near 1.",
+                    fmt::join(draft.sources, "; "),
+                    first.name,
+                    fitting.estimate.noise_factor,
+                    fitting.input.noise.degrees_of_freedom));
+  }
+  append(draft.notes);
+  note_settings_off(settings, notes);
+  append(draft.frame_notes);
+  if (fitting.input.surface == estimation::SurfaceUse::on_evidence) {
+    notes.emplace_back(
+        fitting.estimate.has_surface
+            ? "The distances ask for more than settings can explain: the map bends "
+              "smoothly where they do."
+            : "The distances do not ask for more than settings and chain scales: the map "
+              "is the calibrated machine. What no setting explains is not in its expected "
+              "error.");
+  }
+  if (!fitting.estimate.settled) {
+    notes.push_back(fmt::format(
+        "The fit had not quite settled after its last pass: some {} hover between good and "
+        "bad. Measure the ones with the largest errors again.",
+        parts.size() > 1 ? "readings" : parts.front()->observation->kind().units));
+  }
+  append(draft.last_notes);
+  return notes;
+}
+
+/// What the map says of itself, gathered file by file.
+CompensationMap map_of(const std::vector<MeasuredFile>& files,
+                       const Parts& parts,
+                       const Fitting& fitting,
+                       MapDraft& draft) {
+  const bool alone = files.size() == 1;
+  MapContents& map = draft.map;
+  map.surface = model_surface(fitting.estimate);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    parts[k]->add_to(draft, fitting, k, alone ? std::string{} : files[k].name);
+  map.name = std::visit([](const auto& one) { return one.name; }, files.front().measured);
+  map.domain = fitting.input.domain;
+  const MeasuredArea area(draft.good, map.domain);
+  map.hull = area.hull();
+  map.edge_mm = area.edge_mm();
+  map.settings = setting_results(fitting.input.machine, fitting.estimate, parts.front()->sheet);
+  if (draft.points.empty()) {
+    std::vector<FittedDistance> all;
+    for (const FittedDistances& one : draft.distances)
+      all.insert(all.end(), one.distances.begin(), one.distances.end());
+    map.distances = distances_used(all, draft.tape_sigma_mm);
+    map.accuracy.leave_one_out.tool = map.accuracy.leave_one_out.chain =
+        map.distances->left_out_good;
+    map.accuracy.blocked = map.accuracy.leave_one_out;
+  } else {
+    map.accuracy = held_out_accuracy(draft.points);
+  }
+  map.notes = notes_of(parts, fitting, files.front(), draft, map.settings);
+  CompensationMap finished = with_expected_error(std::move(map));
+  return draft.points.empty() ? finished : finished.with_mirror(test_mirror(finished));
+}
+
+}  // namespace
+
+tl::expected<Fitting, FitFailure> Fitting::of(estimation::EstimationInput input) {
+  auto estimate = estimation::estimate(input);
+  if (!estimate) return tl::unexpected(failure_of(estimate.error()));
+  return Fitting{std::move(input), *std::move(estimate)};
+}
+
+model::MarkPoint Fitting::in_frame(std::size_t file, model::MarkPoint mark) const {
+  if (file == 0) return mark;
+  return estimate.observations[0].sheet.to_mark(estimate.observations[file].sheet.to_bed(mark));
+}
+
+tl::expected<void, FitFailure> check_readings_of(const model::Machine& machine,
+                                                 const std::vector<ExtraReading>& readings,
+                                                 const char* what) {
+  const model::Machine read = with_readings(machine, readings);
+  std::string problems;
+  for (const model::MachineProblem& problem : model::problems_of(read)) {
+    problems += fmt::format(
+        " {} would be {}, expected {};", problem.parameter, problem.value, problem.expected);
+  }
+  for (const auto& problem : model::effects::problems_of_effects(read)) {
+    problems += fmt::format(
+        " {} would be {}, expected {};", problem.parameter, problem.value, problem.expected);
+  }
+  if (problems.empty()) return {};
+  problems.back() = '.';
+  return fail(FitFailure::Reason::impossible_readings,
+              fmt::format("with the {} readings put in,{}", what, problems));
+}
+
+tl::expected<JointFit, FitFailure> joint_fit(const Measured& measured,
+                                             const JointFitOptions& options) {
+  const std::vector<MeasuredFile>& files = measured.files();
+  if (files.empty()) throw std::invalid_argument("no files to fit");
+  auto parts = parts_of(files, options.progress);
+  if (!parts) return tl::unexpected(parts.error());
+  const bool alone = files.size() == 1;
+  if (!alone) {
+    if (auto stated = state_noises(files, *parts); !stated) return tl::unexpected(stated.error());
+  }
+  estimation::EstimationInput input = estimation_input(*parts);
+  input.knowledge = options.knowledge;
+  input.progress = options.progress;
+  const bool finds_noise = input.noise.knowledge == interp::NoiseKnowledge::unknown;
+  const int steps = !alone ? 3 : finds_noise ? FitPart::kStepsToFindNoise : 2;
+  input.step = {"settings and correction", alone ? 1 : 2, steps};
+  auto fitting =
+      alone ? fit_alone(*parts->front(), std::move(input)) : Fitting::of(std::move(input));
+  if (!fitting) return tl::unexpected(fitting.error());
+  if (auto good = check_enough_good(files, *parts, fitting->estimate); !good)
+    return tl::unexpected(good.error());
+  tell(options.progress, {"the map's own error", steps, steps});
+  MapDraft draft;
+  CompensationMap map = map_of(files, *parts, *fitting, draft);
+  if (options.outside.way != Outside::continued) map = map.with_outside(options.outside);
+  return JointFit{std::move(fitting->estimate), std::move(draft.distances), std::move(map)};
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What is special to points with their chain lengths: where nobody stated their noise it is found,
+/// and readings without noise on a lattice are met by a surface through every one of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "grid/estimation/spatial_blocks.hpp"
+#include "grid/map/corrected_data.hpp"
+#include "grid/map/fit_part.hpp"
+#include "grid/map/lattice_residual.hpp"
+#include "grid/map/map_parts.hpp"
+#include "grid/map/noise_from_repeats.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+/// A stated noise of zero means readings with all digits; this much is left of it and of any finer
+/// one. Beside settings known to a millimetre the squares of finer weights leave no digit for what
+/// the points do not tell: at 1e-6 mm the fit is taken for undetermined.
+constexpr double kLeastNoiseMm = 1e-5;
+
+constexpr WorkStep kSmoother{"a smoother correction", 2, FitPart::kStepsToFindNoise};
+constexpr WorkStep kNoise{"how large the noise is", 3, FitPart::kStepsToFindNoise};
+
+/// The bed, as far as hand-laid marks may lie beside it, and all points.
+interp::Rectangle domain_of(const MeasuredGrid& grid, const std::vector<LengthPoint>& points) {
+  const model::Bed& bed = grid.machine->bed;
+  double beyond = 0.0;
+  if (grid.sheet)
+    beyond = 2.0 * grid.sheet->shift_mm + 1e-3 * grid.sheet->rotation_mrad * 0.5 * bed.width_mm;
+  interp::Rectangle domain{-0.5 * bed.width_mm - beyond,
+                           0.5 * bed.width_mm + beyond,
+                           -0.5 * bed.height_mm - beyond,
+                           0.5 * bed.height_mm + beyond};
+  for (const LengthPoint& point : points) {
+    domain.x_min = std::min(domain.x_min, point.mark.x_mm);
+    domain.x_max = std::max(domain.x_max, point.mark.x_mm);
+    domain.y_min = std::min(domain.y_min, point.mark.y_mm);
+    domain.y_max = std::max(domain.y_max, point.mark.y_mm);
+  }
+  return domain;
+}
+
+/// A stated noise of nothing at all states nothing: it is found from the points.
+bool states_noise(const MeasuredGrid& grid) {
+  return grid.noise && (grid.noise->length_mm > 0.0 || grid.noise->position_mm > 0.0);
+}
+
+/// A surface through every node leaves nothing there, and has left-out residuals of its own.
+void replace_residuals(std::vector<FittedPoint>& points, const LatticeFit& lattice) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].bad) continue;
+    points[i].residual_mm.setZero();
+    points[i].left_out_residual_mm = lattice.left_out_residual_mm[i];
+  }
+}
+
+void append_lattice_notes(std::vector<std::string>& notes, const LatticeResidual& lattice) {
+  notes.emplace_back(
+      "The readings bear no noise and stand on full rows and columns: the map passes through every "
+      "one of them.");
+  for (Eigen::Index iy = 0; iy < lattice.doubt_mm.cols(); ++iy) {
+    for (Eigen::Index ix = 0; ix < lattice.doubt_mm.rows(); ++ix) {
+      if (lattice.doubt_mm(ix, iy) == 0.0) continue;
+      notes.push_back(
+          fmt::format("No reading at ({:.0f}, {:.0f}) was used: what stands there is foretold by "
+                      "the row or column through it, to "
+                      "about {:.2g} mm.",
+                      lattice.x_nodes_mm[static_cast<std::size_t>(ix)],
+                      lattice.y_nodes_mm[static_cast<std::size_t>(iy)],
+                      lattice.doubt_mm(ix, iy)));
+    }
+  }
+}
+
+class PointsPart final : public FitPart {
+ public:
+  PointsPart(MeasuredGrid grid, std::vector<LengthPoint> points)
+      : grid_(std::move(grid)), points_(std::move(points)) {
+    constexpr std::size_t kFewestPoints = 6;
+    fewest_good = kFewestPoints;
+    machine = *grid_.machine;
+    readings = grid_.readings;
+    sheet = grid_.sheet;
+    domain = domain_of(grid_, points_);
+    held_out_together = spatial_blocks(points_);
+    noise = {interp::NoiseKnowledge::unknown, 0.0};
+    if (states_noise(grid_)) {
+      noise_ = {std::max(grid_.noise->length_mm, kLeastNoiseMm),
+                std::max(grid_.noise->position_mm, kLeastNoiseMm)};
+      noise = {interp::NoiseKnowledge::from_repeats, grid_.noise->dof};
+      source_ = "stated";
+    }
+    observe();
+  }
+
+  [[nodiscard]] tl::expected<void, FitFailure> find_noise(Fitting& alone) override {
+    if (noise.knowledge != interp::NoiseKnowledge::unknown) return {};
+    prefer_smoother(alone);
+    if (const auto repeats = noise_from_repeats(fit_of(alone, 0), noise_)) {
+      noise_.length_mm *= repeats->factor;
+      noise_.position_mm *= repeats->factor;
+      noise = {interp::NoiseKnowledge::from_repeats, repeats->dof};
+      source_ = "repeats";
+      observe();
+      alone.input.observations.front() = observation;
+      alone.input.noise = noise;
+      alone.input.step = kNoise;
+      auto again = Fitting::of(std::move(alone.input));
+      if (!again) return tl::unexpected(again.error());
+      alone = *std::move(again);
+      return {};
+    }
+    Fitting plain = with_plain_calibration(alone);
+    if ((lattice_ = fit_lattice(fit_of(plain, 0)))) alone = std::move(plain);
+    return {};
+  }
+
+  void take_noise(const Fitting& alone) override {
+    const estimation::Estimate& estimate = alone.estimate;
+    const double left = 2.0 * static_cast<double>(points_.size()) - estimate.effective_parameters;
+    noise_ = {estimate.noise_factor * noise_.length_mm, estimate.noise_factor * noise_.position_mm};
+    noise = {interp::NoiseKnowledge::from_repeats,
+             source_ == "repeats" ? noise.degrees_of_freedom : std::max(left, 1.0)};
+    lattice_.reset();
+    observe();
+  }
+
+  [[nodiscard]] std::string few_good(std::size_t bad, std::size_t all) const override {
+    return fmt::format(
+        "{} of {} points contradict the others or the machine as stated; check the "
+        "machine's measures, the order of the columns and the units",
+        bad,
+        all);
+  }
+
+  void add_to(MapDraft& draft,
+              const Fitting& fitting,
+              std::size_t file,
+              const std::string& name) const override {
+    std::vector<FittedPoint> points = fit_of(fitting, file).points;
+    if (lattice_) replace_residuals(points, *lattice_);
+    if (draft.points.empty()) {
+      draft.map.noise = {
+          noise_.length_mm, noise_.position_mm, source_, fitting.estimate.noise_factor};
+    }
+    if (name.empty()) note_noise(draft);
+    std::size_t number = 0;
+    std::size_t rejected = 0;
+    for (MapPoint& point : map_points(points, grid_, noise_)) {
+      ++number;
+      if (point.bad) {
+        ++rejected;
+        note_rejected(point, number, name, draft.notes);
+      }
+      point.mark = fitting.in_frame(file, point.mark);
+      if (!point.bad) draft.good.push_back(point.mark);
+      draft.map.points.push_back(point);
+    }
+    draft.points.insert(draft.points.end(), points.begin(), points.end());
+    draft.sources.push_back(
+        fmt::format("{} points of {}{}",
+                    points.size(),
+                    name,
+                    rejected == 0 ? "" : fmt::format(" ({} set aside)", rejected)));
+    if (lattice_) {
+      std::get<ModelSurface>(draft.map.surface).lattice = lattice_->residual;
+      append_lattice_notes(draft.last_notes, lattice_->residual);
+    }
+  }
+
+ private:
+  /// The observation of the points as their noise is known now.
+  void observe() {
+    observation = std::make_shared<const observation::ChainLengthReadings>(
+        chain_length_readings(points_, noise_, noise.degrees_of_freedom, grid_.sheet));
+  }
+
+  [[nodiscard]] PointsFit fit_of(const Fitting& fitting, std::size_t file) const {
+    return {fitting.estimate, fitted_points(points_, fitting.estimate, file)};
+  }
+
+  /// Readings with all their digits, as a simulator or a very good measurement gives them, bear a
+  /// smoother surface than noisy ones. It is taken where it predicts left-out points a fifth better.
+  void prefer_smoother(Fitting& alone) const {
+    constexpr double kClearlyBetter = 0.8;
+    estimation::EstimationInput smoother = alone.input;
+    smoother.bending_order = 3;
+    smoother.step = kSmoother;
+    auto fit = Fitting::of(std::move(smoother));
+    if (!fit) return;
+    const auto left_out_mm = [&](const Fitting& one) {
+      return held_out_accuracy(fitted_points(points_, one.estimate, 0)).leave_one_out.chain.rms_mm;
+    };
+    if (left_out_mm(*fit) > kClearlyBetter * left_out_mm(alone)) return;
+    alone = *std::move(fit);
+  }
+
+  /// `fit` with settings and chain scales by least squares alone, for a surface that passes through
+  /// every point: with the machine, sheet and scales that minimise
+  ///
+  ///   sum over good points |y - (1 + e) f(theta)|^2 / s^2 + |theta / sigma|^2 + |e / kScaleSigma|^2
+  ///
+  /// with s, the size of what is left, by restricted maximum likelihood.
+  ///
+  /// The joint fit weighs a setting against the bend of the surface that would replace it: right for
+  /// naming settings, but what it leaves to the surface need not be small. A surface through all the
+  /// nodes errs between them in proportion to what it has to carry, so for it the settings are those
+  /// that leave least at the nodes. For machines whose lengths err by 0.8 mm more than any model says
+  /// that lowers the largest error between 4 x 7 to 7 x 13 nodes by a fifth to a half.
+  ///
+  /// Covariances of the settings and scales grow by the square of what they moved: the joint fit's
+  /// estimate remains the best one of the settings themselves. Unchanged where the least squares
+  /// fail.
+  [[nodiscard]] Fitting with_plain_calibration(Fitting fit) const {
+    estimation::EstimationInput input = fit.input;
+    input.observations.front() = std::make_shared<const observation::ChainLengthReadings>(
+        chain_length_readings(points_, {1.0, 0.0}, noise.degrees_of_freedom, grid_.sheet));
+    input.noise = {interp::NoiseKnowledge::unknown, 0.0};
+    input.surface = estimation::SurfaceUse::none;
+    input.held_out_together.clear();
+    const std::vector<FittedPoint> points = fitted_points(points_, fit.estimate, 0);
+    Eigen::VectorXd weights(static_cast<Eigen::Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      weights[static_cast<Eigen::Index>(i)] = points[i].bad ? 0.0 : 1.0;
+    input.fixed_weights = weights;
+    const auto plain = estimation::estimate(input);
+    if (!plain || !plain->settled) return fit;
+    estimation::Estimate& estimate = fit.estimate;
+    const Eigen::Index known = estimate.columns.settings + 2;
+    const Eigen::VectorXd change = plain->map_unknowns - estimate.map_unknowns;
+    estimate.machine = plain->machine;
+    estimate.observations.front().sheet = plain->observations.front().sheet;
+    estimate.surface.scale = plain->surface.scale;
+    estimate.map_unknowns = plain->map_unknowns;
+    estimate.covariance.topLeftCorner(known, known) += change * change.transpose();
+    return fit;
+  }
+
+  /// Of a file alone: how large the noise is beside what was stated.
+  static void note_noise(MapDraft& draft) {
+    const MapNoise& noise = draft.map.noise;
+    if (noise.source == "stated" && noise.factor_found > kNoiseDisagreement) {
+      draft.notes.push_back(fmt::format(
+          "The readings scatter {:.1f} times as much as stated: check how the marks and the "
+          "lengths were measured.",
+          noise.factor_found));
+    }
+    if (noise.source != "stated") {
+      draft.notes.push_back(fmt::format(
+          "No noise was stated; from the {} it is about {:.2f} mm in a length and {:.2f} "
+          "mm in a position.",
+          noise.source == "repeats" ? "repeated points" : "scatter of the points",
+          noise.length_mm * noise.factor_found,
+          noise.position_mm * noise.factor_found));
+    }
+  }
+
+  static void note_rejected(const MapPoint& point,
+                            std::size_t number,
+                            const std::string& name,
+                            std::vector<std::string>& notes) {
+    notes.push_back(
+        fmt::format("{} {} at ({:.0f}, {:.0f}) was set aside: it lies {:.1f} mm beside where "
+                    "the others put it, {:.0f} times what "
+                    "the noise allows. Measure it again.",
+                    name.empty() ? "Point" : name + ": point",
+                    number,
+                    point.mark.x_mm,
+                    point.mark.y_mm,
+                    point.left_out_mm.norm(),
+                    point.distance_sigmas));
+  }
+
+  MeasuredGrid grid_;  ///< corrected
+  std::vector<LengthPoint> points_;
+  observation::PointNoise noise_;
+  std::string source_ = "fit";  ///< of the noise, as MapNoise has it
+  /// Takes the place of the surface where readings without noise stand on a lattice.
+  std::optional<LatticeFit> lattice_;
+};
+
+}  // namespace
+
+tl::expected<std::unique_ptr<FitPart>, FitFailure> part_of(const MeasuredGrid& grid) {
+  if (!grid.machine) {
+    return tl::unexpected(FitFailure{
+        FitFailure::Reason::no_machine,
+        "the grid names no machine; a residual surface stands on one: give --machine, or "
+        "ask for --surface direct"});
+  }
+  auto corrected = corrected_data(grid);
+  if (!corrected) return tl::unexpected(corrected.error());
+  auto points = length_points(corrected->grid);
+  if (!points)
+    return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence});
+  const MeasuredGrid& own = corrected->grid;
+  if (auto possible = check_readings_of(*own.machine, own.readings, "grid's"); !possible)
+    return tl::unexpected(possible.error());
+  auto part = std::make_unique<PointsPart>(own, *std::move(points));
+  part->corrections = std::move(corrected->notes);
+  return part;
+}
+
+}  // namespace chaintrue::grid

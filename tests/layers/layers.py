@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Holds the include graph: layers include downwards only, and folders of grid/ in no circle.
+
+    layers.py SOURCE        prints every include that breaks a layer and every circle; 1 where there is one
+"""
+
+import pathlib
+import re
+import sys
+import tempfile
+
+# What each layer may include besides itself. Leaves first.
+LAYERS = {
+    "interp": set(),
+    "model": set(),
+    "grid": {"interp", "model"},
+    "tools": {"interp", "model", "grid"},
+}
+# Libraries of tools/ that know nothing of the command line.
+WITHOUT_COMMAND_LINE = ("tools/gcode", "tools/report")
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+
+
+def sources(root):
+    for layer in LAYERS:
+        for path in sorted((root / layer).rglob("*")):
+            if path.suffix in (".cpp", ".hpp", ".def", ".inc"):
+                yield path.relative_to(root)
+
+
+def folder_of(path):
+    """A folder of grid/, "grid" for what lies in grid/ itself, or the layer."""
+    parts = pathlib.PurePosixPath(path).parts
+    if parts[0] == "grid":
+        return "/".join(parts[:2]) if len(parts) > 2 else "grid"
+    return parts[0]
+
+
+def broken_layer(path, included):
+    layer, of_included = path.parts[0], pathlib.PurePosixPath(included).parts[0]
+    if of_included in LAYERS and of_included != layer and of_included not in LAYERS[layer]:
+        return f"{layer} must not include {of_included}"
+    folder = "/".join(path.parts[:2])
+    if folder in WITHOUT_COMMAND_LINE and included.startswith("tools/cli/"):
+        return f"{folder} must not include tools/cli"
+    if folder_of(path) == "grid" and folder_of(included).startswith("grid/"):
+        return "what lies in grid/ itself must not include its folders"
+    return ""
+
+
+def circle(graph):
+    """One circle of folders, in the order of includes; empty where there is none."""
+    done = set()
+
+    def visit(folder, way):
+        if folder in way:
+            return way[way.index(folder):] + [folder]
+        if folder in done:
+            return []
+        for other in sorted(graph.get(folder, {})):
+            found = visit(other, way + [folder])
+            if found:
+                return found
+        done.add(folder)
+        return []
+
+    for folder in sorted(graph):
+        found = visit(folder, [])
+        if found:
+            return found
+    return []
+
+
+def failures_of(root):
+    failures = []
+    graph = {}  # folder -> included folder -> the first include
+    count = 0
+    for path in sources(root):
+        for included in INCLUDE.findall((root / path).read_text(encoding="utf-8")):
+            count += 1
+            why = broken_layer(path, included)
+            if why:
+                failures.append(f'{path} includes "{included}": {why}')
+            a, b = folder_of(path), folder_of(included)
+            if a.startswith("grid/") and b.startswith("grid/") and a != b:
+                graph.setdefault(a, {}).setdefault(b, f'{path} includes "{included}"')
+    way = circle(graph)
+    if way:
+        failures.append("folders of grid/ include each other in a circle: " + " -> ".join(way))
+        failures += ["  " + graph[a][b] for a, b in zip(way, way[1:])]
+    return failures, count
+
+
+def finds_what_is_broken():
+    """A small tree with one of each fault."""
+    files = {
+        "interp/spline.hpp": '#include "model/machine.hpp"\n',
+        "model/machine.hpp": "",
+        "grid/progress.hpp": '#include "grid/map/fit.hpp"\n',
+        "grid/map/fit.hpp": '#include "grid/estimation/estimate.hpp"\n',
+        "grid/estimation/estimate.hpp": '#include "grid/observation/observation.hpp"\n',
+        "grid/observation/observation.hpp": '#include "grid/map/fit.hpp"\n',
+        "tools/report/page.hpp": '#include "tools/cli/verb.hpp"\n',
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, text in files.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text, encoding="utf-8")
+        found = "\n".join(failures_of(root)[0])
+    return all(word in found for word in (
+        "interp must not include model", "tools/report must not include tools/cli",
+        "what lies in grid/ itself", "grid/estimation -> grid/observation -> grid/map -> grid/estimation"))
+
+
+def main():
+    failures, count = failures_of(pathlib.Path(sys.argv[1]))
+    if count < 1000:
+        failures.append(f"only {count} includes were found: is {sys.argv[1]} the source?")
+    if not finds_what_is_broken():
+        failures.append("the script does not find the faults of a tree that has them")
+    print("\n".join(failures) if failures else f"{count} includes, no layer broken, no circle")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
