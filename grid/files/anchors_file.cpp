@@ -259,10 +259,6 @@ FittedAnchors parse_anchors(const std::string& text,
   return anchors;
 }
 
-bool looks_like_anchors(std::string_view text) {
-  return text.find("\"chaintrue_anchors\"") != std::string_view::npos;
-}
-
 std::string write_anchors(const FittedAnchors& anchors) {
   return print_with_hash(fitted_anchors_record().write(anchors));
 }

@@ -28,7 +28,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "grid/belts/belts_and_holes.hpp"
@@ -48,8 +47,6 @@ struct FittedAnchors {
 [[nodiscard]] FittedAnchors parse_anchors(const std::string& text,
                                           const std::string& file,
                                           std::vector<Warning>* warnings = nullptr);
-/// True for the text of such a file, whole or damaged.
-[[nodiscard]] bool looks_like_anchors(std::string_view text);
 /// \throws std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_anchors(const FittedAnchors& anchors);
 

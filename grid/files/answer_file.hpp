@@ -14,9 +14,14 @@
 #include <string>
 
 #include "grid/synthetic/generator.hpp"
+#include "grid/synthetic/holes.hpp"
 
 namespace chaintrue::grid::files {
 
 [[nodiscard]] std::string write_answer(const synthetic::SyntheticAnswer& answer);
+/// Of holes: `points` are the holes where they truly are on the sheet, and what the controller paid
+/// out for them; "bad_distances", indices into the distances, stands in place of "bad_points".
+[[nodiscard]] std::string write_answer(const synthetic::SyntheticHoles& made,
+                                       const synthetic::HolesSpec& spec);
 
 }  // namespace chaintrue::grid::files

@@ -45,8 +45,4 @@ std::string write_belts(const MeasuredBelts& belts, const std::vector<std::strin
   return print_json(json);
 }
 
-bool looks_like_belts(std::string_view text) {
-  return text.find("\"chaintrue_belts\"") != std::string_view::npos;
-}
-
 }  // namespace chaintrue::grid::files

@@ -35,7 +35,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "grid/belts/measured_belts.hpp"
@@ -64,7 +63,5 @@ struct ReadBelts {
 /// std::logic_error where a number is not finite.
 [[nodiscard]] std::string write_belts(const MeasuredBelts& belts,
                                       const std::vector<std::string>& comments = {});
-/// True for the text of a chaintrue_belts file, whole or damaged.
-[[nodiscard]] bool looks_like_belts(std::string_view text);
 
 }  // namespace chaintrue::grid::files

@@ -1,16 +1,176 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/files/file_type.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "grid/files/csv_table.hpp"
+#include "grid/files/formats.hpp"
 #include "grid/files/json_text.hpp"
 
 namespace chaintrue::grid::files {
+namespace {
+
+constexpr std::string_view kTypeKey = "file_type";
+
+/// Stops the parser at the value of "file_type" of the outermost object.
+class TypeFinder : public nlohmann::json_sax<Json> {
+ public:
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(number_integer_t) override { return value(); }
+  bool number_unsigned(number_unsigned_t) override { return value(); }
+  bool number_float(number_float_t, const string_t&) override { return value(); }
+  bool string(string_t& text) override {
+    if (is_type_) {
+      found = true;
+      type = text;
+      return false;
+    }
+    return value();
+  }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(); }
+  bool start_array(std::size_t) override { return open(); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& name) override {
+    is_type_ = depth_ == 1 && name == kTypeKey;
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
+    return false;
+  }
+
+  bool found = false;
+  std::string type;
+
+ private:
+  bool value() {
+    is_type_ = false;
+    return true;
+  }
+  bool open() {
+    ++depth_;
+    return value();
+  }
+  bool close() {
+    --depth_;
+    return true;
+  }
+
+  int depth_ = 0;
+  bool is_type_ = false;
+};
+
+constexpr std::array<std::pair<const Format*, FileKind>, 7> kKinds = {
+    {{&kMachineFormat, FileKind::machine},
+     {&kGridFormat, FileKind::grid},
+     {&kHolesFormat, FileKind::holes},
+     {&kBeltsFormat, FileKind::belts},
+     {&kMapFormat, FileKind::map},
+     {&kAnchorsFormat, FileKind::anchors},
+     {&kDiagnosisFormat, FileKind::diagnosis}}};
+
+FileKind kind_of_csv(std::string_view text) {
+  const std::vector<std::string> header = csv_header(text);
+  const bool is_of_holes = !header.empty() && (header.front() == "hole" || header.front() == "from");
+  return is_of_holes ? FileKind::holes : FileKind::grid;
+}
+
+/// Anchors are what a machine on four belts has, and no other.
+bool names_belts(const std::string& text, const std::string& file) {
+  Problems problems(file);
+  const Json json = parse_json(text, problems);
+  const auto machine = json.find("machine");
+  return machine != json.end() && machine->is_object() && machine->contains("anchors");
+}
+
+std::string words_of(FileKind kind) {
+  if (kind == FileKind::belt_holes) return R"("chaintrue_holes" of a machine on four belts)";
+  const auto* const named =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& one) { return one.second == kind; });
+  return named == kKinds.end() ? "" : fmt::format("\"{}\"", named->first->file_type);
+}
+
+}  // namespace
+
+bool is_json(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && (text[first] == '{' || text[first] == '[');
+}
 
 std::string file_type_of(const std::string& text, const std::string& file) {
+  TypeFinder finder;
+  (void)Json::sax_parse(text, &finder);
+  if (finder.found) return finder.type;
+  // Without a type before the first fault: the whole text, read as leniently as files are.
   Problems problems(file);
   const Json json = parse_json(text, problems);
   if (!json.is_object()) return {};
-  const auto type = json.find("file_type");
+  const auto type = json.find(kTypeKey);
   return type != json.end() && type->is_string() ? type->get<std::string>() : std::string();
+}
+
+std::string what_takes(std::string_view file_type) {
+  struct Kind {
+    std::string_view file_type;
+    std::string_view noun;
+    std::string_view verbs;
+  };
+  constexpr Kind kKinds[] = {
+      {"chaintrue_machine", "a machine", "plan, simulate or export"},
+      {"chaintrue_grid", "a grid of measured points", "fit, diagnose or check"},
+      {"chaintrue_holes", "a set of holes", "fit, diagnose or check"},
+      {"chaintrue_belts", "a set of belt lengths", "fit, diagnose or check"},
+      {"chaintrue_anchors", "a set of fitted anchors", "report, query, gcode or export maslow4"},
+      {"chaintrue_map", "a map", "report, query, gcode or export"},
+      {"chaintrue_diagnosis", "a diagnosis", "report or plan --after"},
+      {"chaintrue_sweep", "a sweep", "sweep"},
+  };
+  for (const Kind& kind : kKinds) {
+    if (file_type == kind.file_type) {
+      return fmt::format("; this is {}; did you mean chaintrue {}?", kind.noun, kind.verbs);
+    }
+  }
+  return {};
+}
+
+FileKind kind_of(const std::string& text, const std::string& file) {
+  if (!is_json(text)) return kind_of_csv(text);
+  const std::string type = file_type_of(text, file);
+  const auto* const named = std::find_if(
+      kKinds.begin(), kKinds.end(), [&](const auto& one) { return one.first->file_type == type; });
+  if (named == kKinds.end()) return FileKind::other;
+  if (named->second != FileKind::holes) return named->second;
+  return names_belts(text, file) ? FileKind::belt_holes : FileKind::holes;
+}
+
+std::string expected_kinds(const std::vector<FileKind>& kinds) {
+  const auto takes = [&](FileKind kind) {
+    return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+  };
+  std::string words;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    // Both sorts of holes bear one name.
+    if (kinds[k] == FileKind::belt_holes && takes(FileKind::holes)) continue;
+    const bool is_last = k + 1 == kinds.size();
+    words += (words.empty() ? "" : is_last ? " or " : ", ") + words_of(kinds[k]);
+  }
+  return words;
+}
+
+std::string found_kind(const std::string& text, const std::string& file) {
+  if (!is_json(text))
+    return kind_of_csv(text) == FileKind::holes ? "a CSV of holes" : "a CSV of points";
+  if (kind_of(text, file) == FileKind::belt_holes) return words_of(FileKind::belt_holes);
+  const std::string type = file_type_of(text, file);
+  return type.empty() ? "" : fmt::format("\"{}\"", type);
 }
 
 }  // namespace chaintrue::grid::files

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -36,13 +37,16 @@ class YamlReader {
 
 }  // namespace
 
-bool looks_like_fluidnc(std::string_view text) {
-  return text.find("WallPlotter:") != std::string_view::npos;
+bool is_fluidnc(const std::string& text) {
+  const auto values = yaml_values(text);
+  return std::any_of(values.begin(), values.end(), [](const auto& value) {
+    return value.first.starts_with("kinematics/WallPlotter/");
+  });
 }
 
 ReadMachine parse_fluidnc(const std::string& text, const std::string& file) {
   Problems problems(file);
-  if (!looks_like_fluidnc(text)) {
+  if (!is_fluidnc(text)) {
     problems.add(
         "", "no WallPlotter", "kinematics: WallPlotter: with its anchors, as FluidNC has it");
     problems.throw_if_any();

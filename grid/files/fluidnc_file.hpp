@@ -21,13 +21,12 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "grid/files/machine_file.hpp"
 
 namespace chaintrue::grid::files {
 
-[[nodiscard]] bool looks_like_fluidnc(std::string_view text);
+[[nodiscard]] bool is_fluidnc(const std::string& text);
 /// `file` is the name used in messages and, without its folder, the machine's.
 /// \throws InputError with every problem of the file.
 [[nodiscard]] ReadMachine parse_fluidnc(const std::string& text, const std::string& file);

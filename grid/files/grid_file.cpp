@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "grid/files/csv_table.hpp"
+#include "grid/files/file_type.hpp"
 #include "grid/files/grid_checks.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/machine_record.hpp"
@@ -264,21 +265,12 @@ ReadGrid parse_csv_grid(const std::string& text, const GridOptions& options, Pro
   return finish(std::move(stated), places, options, problems);
 }
 
-/// Marks which of the two formats the text is in; a byte order mark may stand before either.
-bool is_json_text(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark)
-    text.remove_prefix(kByteOrderMark.size());
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != std::string_view::npos && (text[first] == '{' || text[first] == '[');
-}
-
 }  // namespace
 
 ReadGrid parse_grid(const std::string& text, const std::string& file, const GridOptions& options) {
   Problems problems(file);
-  return is_json_text(text) ? parse_json_grid(text, options, problems)
-                            : parse_csv_grid(text, options, problems);
+  return is_json(text) ? parse_json_grid(text, options, problems)
+                       : parse_csv_grid(text, options, problems);
 }
 
 ReadGrid read_grid(const fs::path& path, const GridOptions& options) {

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "grid/files/file_type.hpp"
 #include "grid/files/holes_record.hpp"
 #include "grid/files/machine_file.hpp"
 #include "grid/files/whole_file.hpp"
@@ -89,31 +90,7 @@ ReadHoles parse_csv_holes(const std::string& text,
   return finish(std::move(tables.stated), tables.places, options, problems);
 }
 
-std::string_view without_lead(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark)
-    text.remove_prefix(kByteOrderMark.size());
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first == std::string_view::npos ? std::string_view{} : text.substr(first);
-}
-
-bool is_json(std::string_view text) {
-  const std::string_view rest = without_lead(text);
-  return !rest.empty() && (rest.front() == '{' || rest.front() == '[');
-}
-
 }  // namespace
-
-bool looks_like_holes(std::string_view text) {
-  if (is_json(text)) return text.find("\"chaintrue_holes\"") != std::string_view::npos;
-  const std::vector<std::string> header = csv_header(text);
-  return !header.empty() && (header.front() == "hole" || header.front() == "from");
-}
-
-bool looks_like_holes_of_belts(std::string_view text) {
-  return is_json(text) && looks_like_holes(text) &&
-         text.find("\"anchors\"") != std::string_view::npos;
-}
 
 ReadHoles parse_holes(const std::string& text,
                       const std::string& file,

@@ -35,7 +35,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "grid/files/input_error.hpp"
@@ -77,9 +76,5 @@ struct ReadHoles {
     const MeasuredHoles& holes, const std::optional<model::BeltMachine>& belts = std::nullopt);
 /// A list to fill in, of the same kind: null for every distance.
 [[nodiscard]] std::string write_holes_sheet(const MeasuredHoles& plan);
-/// True where its machine hangs on four belts.
-[[nodiscard]] bool looks_like_holes_of_belts(std::string_view text);
-/// True for the text of a chaintrue_holes file or of such a CSV, whole or damaged.
-[[nodiscard]] bool looks_like_holes(std::string_view text);
 
 }  // namespace chaintrue::grid::files

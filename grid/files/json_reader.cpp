@@ -22,31 +22,6 @@ Json or_null(Json schema) {
   return schema;
 }
 
-/// What a file of another kind is, and which verbs take it.
-std::string what_takes(const Json& file_type) {
-  struct Kind {
-    std::string_view file_type;
-    std::string_view noun;
-    std::string_view verbs;
-  };
-  constexpr Kind kKinds[] = {
-      {"chaintrue_machine", "a machine", "plan, simulate or export"},
-      {"chaintrue_grid", "a grid of measured points", "fit, diagnose or check"},
-      {"chaintrue_holes", "a set of holes", "fit, diagnose or check"},
-      {"chaintrue_belts", "a set of belt lengths", "fit"},
-      {"chaintrue_anchors", "a set of fitted anchors", "export maslow4"},
-      {"chaintrue_map", "a map", "report, query, gcode or export"},
-      {"chaintrue_diagnosis", "a diagnosis", "report or plan --after"},
-      {"chaintrue_sweep", "a sweep", "sweep"},
-  };
-  for (const Kind& kind : kKinds) {
-    if (file_type == std::string(kind.file_type)) {
-      return fmt::format("; this is {}; did you mean chaintrue {}?", kind.noun, kind.verbs);
-    }
-  }
-  return {};
-}
-
 }  // namespace
 
 bool RecordTable::open(const Cursor& at, bool is_root) const {
@@ -59,7 +34,8 @@ bool RecordTable::open(const Cursor& at, bool is_root) const {
   if (!at.has("file_type")) {
     if (is_root) type.missing(fmt::format("\"{}\"", format_->file_type));
   } else if (type.json() != format_->file_type) {
-    type.expect(fmt::format("\"{}\"{}", format_->file_type, what_takes(type.json())));
+    const std::string found = type.json().is_string() ? type.json().get<std::string>() : "";
+    type.expect(fmt::format("\"{}\"{}", format_->file_type, what_takes(found)));
     return false;
   }
   const Cursor version = at.child("format_version");

@@ -17,9 +17,10 @@ std::string text_of(const Json& value) {
 
 }  // namespace
 
-bool looks_like_webcontrol(std::string_view text) {
-  return text.find("\"Maslow Settings\"") != std::string_view::npos &&
-         text.find("\"Advanced Settings\"") != std::string_view::npos;
+bool is_webcontrol(const std::string& text, const std::string& file) {
+  Problems problems(file);
+  const Json json = parse_json(text, problems);
+  return json.is_object() && json.contains("Maslow Settings") && json.contains("Advanced Settings");
 }
 
 ReadMachine parse_webcontrol(const std::string& text, const std::string& file) {

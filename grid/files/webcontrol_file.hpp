@@ -17,8 +17,8 @@
 
 namespace chaintrue::grid::files {
 
-/// Two of its section names stand in the text.
-[[nodiscard]] bool looks_like_webcontrol(std::string_view text);
+/// JSON with its two sections. \throws InputError for a text that is not JSON.
+[[nodiscard]] bool is_webcontrol(const std::string& text, const std::string& file);
 /// `file` is the name used in messages and, without its folder, the machine's.
 /// \throws InputError with every problem of the file.
 [[nodiscard]] ReadMachine parse_webcontrol(const std::string& text, const std::string& file);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -68,6 +69,7 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
     const double dx = design.hole_sigma_mm * hole_noise.normal();
     const double dy = design.hole_sigma_mm * hole_noise.normal();
     made.places.push_back({at.x_mm + dx, at.y_mm + dy});
+    made.lengths.push_back(distances->places()[i].lengths);
   }
   const observation::DistanceGeometry geometry =
       observation::distance_geometry(design, made.places);
@@ -87,7 +89,9 @@ tl::expected<SyntheticHoles, CutFailure> simulate_holes(
   for (std::size_t k = 0; k < order.size() && static_cast<int>(k) < spec.bad_readings; ++k) {
     made.set.distances[order[k]].distance_mm +=
         bad.uniform() < 0.5 ? -spec.bad_size_mm : spec.bad_size_mm;
+    made.bad_readings.push_back(order[k]);
   }
+  std::sort(made.bad_readings.begin(), made.bad_readings.end());
   return made;
 }
 

@@ -9,6 +9,7 @@
 /// \endcode
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <tl/expected.hpp>
@@ -39,6 +40,10 @@ struct SyntheticHoles {
   MeasuredHoles set;                     ///< with the machine as stated
   model::Machine truth;                  ///< with what is hidden
   std::vector<model::MarkPoint> places;  ///< where the holes truly are, on the sheet
+  /// Per hole: what the controller paid out for it.
+  std::vector<model::ChainLengths> lengths{};
+  /// Indices into the distances: readings that are wrong.
+  std::vector<std::size_t> bad_readings{};
 };
 
 struct CutFailure {

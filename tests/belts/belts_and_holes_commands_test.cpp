@@ -153,7 +153,7 @@ TEST_F(BeltAndHoleCommands, WhatDoesNotBelongTogetherIsRefused) {
   const Outcome grid =
       run("fit belts.json --with " CHAINTRUE_FIXTURES "/grids/seven_by_four.json -o anchors.json");
   EXPECT_EQ(grid.code, 3);
-  EXPECT_THAT(grid.err, HasSubstr("beside four belts nothing else was measured"));
+  EXPECT_THAT(grid.err, HasSubstr("with four belts nothing else was measured"));
   const Outcome chains =
       run("fit belts.json --with " CHAINTRUE_FIXTURES "/holes/nine_holes.json -o anchors.json");
   EXPECT_EQ(chains.code, 3);

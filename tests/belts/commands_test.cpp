@@ -217,7 +217,7 @@ TEST_F(BeltCommands, BadInputWritesNothing) {
   EXPECT_EQ(run("import maslow4 " + log_ + " --points 9 -o belts.json").code, 3);
   EXPECT_EQ(run("import maslow4 " + log_ + " --lengths cubits -o belts.json").code, 2);
   EXPECT_FALSE(exists("belts.json"));
-  EXPECT_EQ(run("fit " + belts_ + " --surface direct -o anchors.json").code, 2);
+  EXPECT_EQ(run("fit " + belts_ + " --surface direct -o anchors.json").code, 3);
   const Outcome twice = run("fit " + belts_ + " --with " + belts_ + " -o anchors.json");
   EXPECT_EQ(twice.code, 3);
   EXPECT_THAT(twice.err, HasSubstr("anchors of two sessions are two fits"));

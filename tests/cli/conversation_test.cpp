@@ -122,7 +122,7 @@ TEST_F(Conversation, NamesAFileOfTheWrongKind) {
   EXPECT_EQ(diagnose.code, 3);
   EXPECT_THAT(
       diagnose.err,
-      HasSubstr("expected \"chaintrue_grid\"; this is a map; did you mean chaintrue report, "
+      HasSubstr("\"chaintrue_belts\"; this is a map; did you mean chaintrue report, "
                 "query, gcode or export?"));
   write("marks.xlsx", std::string("PK\x03\x04", 4) + "zip");
   write("marks.pdf", "%PDF-1.7");

@@ -84,8 +84,8 @@ TEST_F(HolesCommands, FitTakesPointsAndDistancesTogether) {
   }
   const Outcome direct =
       run("fit " + grid + " --with " + holes_ + " --surface direct -o none.json");
-  EXPECT_EQ(direct.code, 2);
-  EXPECT_THAT(direct.err, HasSubstr("leave --surface or --with out"));
+  EXPECT_EQ(direct.code, 3);
+  EXPECT_THAT(direct.err, HasSubstr("a direct surface is of one grid alone"));
   EXPECT_FALSE(exists("none.json"));
 }
 

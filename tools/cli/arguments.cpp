@@ -112,6 +112,23 @@ bool Verb::is_given(const std::string& name) const {
   return option != nullptr && option->count() > 0;
 }
 
+std::string Verb::value_of(const std::string& name) const {
+  const CLI::Option* option = app_->get_option_no_throw(name);
+  if (option == nullptr || option->count() == 0) return "";
+  if (option->get_items_expected_max() == 0) return "given";
+  std::string text;
+  for (const std::string& word : option->results()) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+std::string Verb::path() const {
+  std::string words;
+  for (const CLI::App* app = with_name().app_; app->get_parent() != nullptr;
+       app = app->get_parent())
+    words = app->get_name() + (words.empty() ? "" : " ") + words;
+  return words;
+}
+
 bool Verb::is_chosen() const { return app_->parsed(); }
 
 Verb Verb::with_name() const {

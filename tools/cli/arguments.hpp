@@ -81,6 +81,10 @@ class Verb {
   [[nodiscard]] Option option(const std::string& name) const;
   [[nodiscard]] bool has_option(const std::string& name) const;
   [[nodiscard]] bool is_given(const std::string& name) const;
+  /// What was given for it, its words with blanks between; of a flag "given".
+  [[nodiscard]] std::string value_of(const std::string& name) const;
+  /// As it is typed: "gcode check".
+  [[nodiscard]] std::string path() const;
   /// On the command line that was parsed.
   [[nodiscard]] bool is_chosen() const;
   /// The verb that a choice of options stands under; of a verb, itself.

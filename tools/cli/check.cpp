@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "grid/files/anchors_file.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/map_check.hpp"
@@ -16,7 +15,8 @@
 #include "tools/cli/check_document.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
-#include "tools/cli/map_input.hpp"
+#include "tools/cli/input_file.hpp"
+#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
@@ -48,33 +48,13 @@ void say_next_of(const grid::MapCheck& check, const CheckCommand& command) {
   say_next({"plan", "--check", command.map, "-o", "check.csv"});
 }
 
-/// What points and holes alone have.
-void check_options_of_belts(const CheckCommand& command) {
-  OptionProblems problems;
-  if (!command.input.machine.empty())
-    problems.add("--machine", command.input.machine, "to be left out: belts name their own machine");
-  if (!command.with.empty())
-    problems.add("--with", command.with.front(), "to be left out: one file of new places");
-  problems.throw_if_any();
-}
-
-int run_check(const CheckCommand& command) {
-  const std::string text = grid::files::read_whole_file(command.map);
-  if (grid::files::looks_like_anchors(text)) {
-    check_options_of_belts(command);
-    return check_the_anchors({command.map, text, command.input.grid, command.output, command.json});
-  }
-  const grid::CompensationMap map =
-      parse_map_input(text, grid::files::name_in_messages(command.map));
+int check_the_map(const CheckCommand& command,
+                  const std::vector<InputFile>& files,
+                  const grid::CompensationMap& map) {
   grid::Measured measured;
-  std::vector<std::string> names = {command.input.grid};
-  names.insert(names.end(), command.with.begin(), command.with.end());
-  for (const std::string& name : names) {
-    GridInput input = command.input;
-    input.grid = name;
-    measured.add({grid::files::name_in_messages(name),
-                  read_measured_input(input, command.tape, MeasuredUse::check, map.machine())});
-  }
+  for (const InputFile& file : files)
+    measured.add(
+        load_measured(file, command.input, command.tape, MeasuredUse::check, map.machine()));
   const auto check = grid::check_map(map, measured, shown_progress());
   if (!check) {
     fmt::print(stderr,
@@ -88,6 +68,23 @@ int run_check(const CheckCommand& command) {
   return check->is_valid_as_it_is() ? kDone : kCheckFailed;
 }
 
+int run_check(Verb verb, const CheckCommand& command) {
+  const InputFile map = open_input(command.map);
+  require_kind(map, {FileKind::map, FileKind::anchors});
+  const bool of_belts = map.kind == FileKind::anchors;
+  const std::vector<InputFile> files = open_inputs(command.input.grid, command.with);
+  Facts facts = of_belts ? facts::anchors : facts::map;
+  for (const InputFile& file : files) {
+    if (file.kind == FileKind::grid && !of_belts) facts |= facts::grid;
+    if (file.kind == FileKind::holes && !of_belts) facts |= facts::holes;
+  }
+  refuse_what_does_nothing(verb, facts);
+  if (of_belts) return check_the_anchors({map, files.front(), command.output, command.json});
+  return with_map(map, [&](const grid::CompensationMap& loaded) {
+    return check_the_map(command, files, loaded);
+  });
+}
+
 }  // namespace
 
 void add_check(Verb app, Run& run) {
@@ -97,9 +94,10 @@ void add_check(Verb app, Run& run) {
   add_input(verb, "map", command->map, "A chaintrue_map or chaintrue_anchors file").required();
   add_grid_options(verb, command->input);
   add_tape_options(verb, command->tape);
-  verb.add_option("--with",
-                  command->with,
-                  "More new points, or holes and distances: all are held against the map");
+  add_input(verb,
+            "--with",
+            command->with,
+            "More new points, or holes and distances: all are held against the map");
   verb.add_flag("--json", command->json, "All numbers, for scripts");
   add_output(
       verb, "-o,--output", command->output, {Origin::table, Origin::check}, "- is standard output")
@@ -112,7 +110,8 @@ void add_check(Verb app, Run& run) {
       "Example:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue check map.json fixtures/grids/five_new_points.json");
-  verb.when_chosen([command, &run] { run = [command] { return run_check(*command); }; });
+  verb.when_chosen(
+      [command, verb, &run] { run = [command, verb] { return run_check(verb, *command); }; });
 }
 
 }  // namespace chaintrue::cli

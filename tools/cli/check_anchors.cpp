@@ -9,7 +9,6 @@
 #include "grid/files/belts_file.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/belts_input.hpp"
 #include "tools/cli/check_document.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
@@ -20,29 +19,22 @@ namespace chaintrue::cli {
 namespace files = grid::files;
 
 int check_the_anchors(const AnchorsCheckCommand& command) {
-  const files::FittedAnchors anchors =
-      parse_anchors_input(command.text, files::name_in_messages(command.anchors));
-  const std::string file = files::name_in_messages(command.belts);
-  const std::string text = files::read_whole_file(command.belts);
-  if (!files::looks_like_belts(text)) {
-    throw files::InputError(
-        {{file,
-          "/file_type",
-          "",
-          "\"chaintrue_belts\": anchors are checked by what the machine has measured since; holes "
-          "and belts together are fitted (chaintrue fit BELTS --with HOLES)"}});
-  }
-  const files::ReadBelts read = parse_belts_input(text, file, "a check");
+  const files::FittedAnchors anchors = load_anchors(command.anchors);
+  require_kind(command.belts,
+               {FileKind::belts},
+               "anchors are checked by what the machine has measured since; holes and belts "
+               "together are fitted (chaintrue fit BELTS --with HOLES)");
+  const files::ReadBelts read = load_belts(command.belts, "a check");
   const auto check = grid::check_anchors(anchors.fit, read.belts);
   if (!check) {
-    fmt::print(stderr, "{}: {}\n", file, check.error().sentence);
+    fmt::print(stderr, "{}: {}\n", command.belts.name, check.error().sentence);
     return kBadInput;
   }
   write_output(command.output, command.json ? files::write_check(*check) : report::render_text(check_document(*check)));
   if (check->is_valid_as_it_is()) {
-    say_next({"report", command.anchors, "-o", "anchors.html"});
+    say_next({"report", command.anchors.path, "-o", "anchors.html"});
   } else {
-    say_next({"diagnose", command.belts, "-o", "diagnosis.json"});
+    say_next({"diagnose", command.belts.path, "-o", "diagnosis.json"});
   }
   return check->is_valid_as_it_is() ? kDone : kCheckFailed;
 }

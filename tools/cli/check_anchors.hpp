@@ -5,12 +5,13 @@
 
 #include <string>
 
+#include "tools/cli/input_file.hpp"
+
 namespace chaintrue::cli {
 
 struct AnchorsCheckCommand {
-  std::string anchors;
-  std::string text;   ///< of that file
-  std::string belts;  ///< the new places
+  InputFile anchors;
+  InputFile belts;  ///< the new places
   std::string output = "-";
   bool json = false;
 };

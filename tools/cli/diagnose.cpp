@@ -26,12 +26,13 @@
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
+#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -170,24 +171,6 @@ Outcome diagnosis_of(const DiagnoseCommand& command, const grid::Measured& measu
   return *std::move(found);
 }
 
-/// What one grid by itself allows for.
-void refuse_for_others(const DiagnoseCommand& command, const grid::Measured& measured) {
-  if (measured.holes().empty() && measured.grids().size() == 1) return;
-  OptionProblems problems;
-  const auto refuse = [&](const char* option, const std::string& value, const char* why) {
-    if (value.empty()) return;
-    const char* of = measured.grids().empty() ? "holes" : "several files";
-    problems.add(option, value, fmt::format("to be left out of {}: {}", of, why));
-  };
-  refuse(
-      "--corrected-grid", command.corrected_grid, "a tape's distances are no marks and readings");
-  refuse("--held-out", command.held_out, "each set of holes is diagnosed by itself");
-  if (measured.grids().empty()) {
-    refuse("--assume-order", command.assume_order, "distances do not know the order of the cuts");
-  }
-  problems.throw_if_any();
-}
-
 /// How well what was found predicts the grid of --held-out.
 tl::expected<grid::diagnosis::Transfer, std::string> held_out(const DiagnoseCommand& command,
                                                               const grid::MeasuredGrid& measured,
@@ -203,7 +186,6 @@ tl::expected<grid::diagnosis::Transfer, std::string> held_out(const DiagnoseComm
 }
 
 Outcome diagnosed(const DiagnoseCommand& command, grid::Measured& measured) {
-  refuse_for_others(command, measured);
   if (grid::MeasuredGrid* own = measured.first_grid()) assume_order(command, *own);
   if (const std::string sentence = too_many_to_diagnose(measured); !sentence.empty()) {
     return tl::unexpected(
@@ -252,26 +234,8 @@ void say_next_of(const DiagnoseCommand& command, const Diagnosis& found) {
 }
 
 /// Belts are diagnosed by themselves, on the machine in their own file.
-Outcome diagnosed_belts(const DiagnoseCommand& command) {
-  OptionProblems problems;
-  const auto refuse = [&](const char* option, const std::string& value) {
-    if (!value.empty()) {
-      problems.add(option,
-                   value,
-                   "to be left out of belts: they are diagnosed by themselves, on the machine in "
-                   "their own file");
-    }
-  };
-  refuse("--machine", command.input.machine);
-  refuse("--with", command.with.empty() ? "" : command.with.front());
-  refuse("--extended-machine", command.extended_machine);
-  refuse("--corrected-grid", command.corrected_grid);
-  refuse("--held-out", command.held_out);
-  refuse("--assume-order", command.assume_order);
-  problems.throw_if_any();
-  const std::string file = files::name_in_messages(command.input.grid);
-  const files::ReadBelts read = files::parse_belts(*command.input.text, file);
-  print_warnings(read.warnings);
+Outcome diagnosed_belts(const DiagnoseCommand& command, const InputFile& file) {
+  const files::ReadBelts read = load_belts(file, "a diagnosis");
   // Twice as many take four times as long (docs/maslow4.md).
   constexpr std::size_t kMostPlaces = 2000;
   if (read.belts.points.size() > kMostPlaces) {
@@ -279,7 +243,7 @@ Outcome diagnosed_belts(const DiagnoseCommand& command) {
         fmt::format("{}: {} places are more than a diagnosis takes ({}): leave some out, evenly "
                     "over the sheet; "
                     "chaintrue fit takes them all",
-                    file,
+                    file.name,
                     read.belts.points.size(),
                     kMostPlaces));
   }
@@ -292,27 +256,44 @@ Outcome diagnosed_belts(const DiagnoseCommand& command) {
   return *std::move(found);
 }
 
-int run_diagnose(DiagnoseCommand command) {
+/// Belts are diagnosed by themselves, whatever is given with them.
+Facts facts_of(const std::vector<InputFile>& files) {
+  if (files.front().kind == FileKind::belts) return facts::belts;
+  Facts facts = 0;
+  for (const InputFile& file : files) {
+    if (file.kind == FileKind::grid) facts |= facts::grid;
+    if (file.kind == FileKind::holes) facts |= facts::holes;
+  }
+  if (files.size() == 1) facts |= facts & facts::grid ? facts::one_grid : 0U;
+  return facts;
+}
+
+int run_diagnose(Verb verb, const DiagnoseCommand& command) {
   // A wrong file is told before the work.
   std::optional<Diagnosis> before;
   if (!command.before.empty()) before = files::read_diagnosis(command.before, nullptr);
-  command.input.text = files::read_whole_file(command.input.grid);
-  const bool of_belts = files::looks_like_belts(*command.input.text);
+  const std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
+  const InputFile& file = opened.front();
+  require_kind(file,
+               {FileKind::grid, FileKind::holes, FileKind::belts},
+               file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
+  refuse_what_does_nothing(verb, facts_of(opened));
+  const bool of_belts = file.kind == FileKind::belts;
   grid::Measured input;
-  if (!of_belts) input = read_measured(command.input, command.tape, command.with, MeasuredUse::fit);
-  auto found = of_belts ? diagnosed_belts(command) : diagnosed(command, input);
+  if (!of_belts) input = load_measured(opened, command.input, command.tape, MeasuredUse::fit);
+  auto found = of_belts ? diagnosed_belts(command, file) : diagnosed(command, input);
   if (!found) {
     fmt::print(stderr, "{}\n", found.error());
     return kBadInput;
   }
   if (before) found->trend = grid::diagnosis::trend(*before, *found, file_name(command.before));
   const std::string source = file_name(command.input.grid);
-  const std::string file = files::write_diagnosis(*found);
+  const std::string written = files::write_diagnosis(*found);
   std::vector<files::OutputFile> outputs;
   const auto add = [&outputs](const std::string& path, auto&& text) {
     if (!path.empty()) outputs.push_back({path, text()});
   };
-  add(command.output, [&] { return file; });
+  add(command.output, [&] { return written; });
   const report::Document document = diagnosis_document(
       *found, source, command.report.empty() ? report::Detail::verbose : report::Detail::page);
   add(command.report, [&] { return report::render_html(document); });
@@ -324,7 +305,7 @@ int run_diagnose(DiagnoseCommand command) {
       outputs.begin(), outputs.end(), [](const auto& output) { return output.path == "-"; });
   write_outputs(outputs);
   if (command.json && !is_stdout_taken) {
-    fmt::print("{}", file);
+    fmt::print("{}", written);
   } else {
     fmt::print(is_stdout_taken ? stderr : stdout, "{}", report::render_text(document));
   }
@@ -408,7 +389,9 @@ void add_diagnose(Verb app, Run& run) {
       "  build/chaintrue diagnose fixtures/holes/nine_holes.json --report holes.html\n"
       "  build/chaintrue diagnose fixtures/belts/thirty_one_places.json -o belts_diagnosis.json\n"
       "  build/chaintrue diagnose worn.json --before diagnosis.json");
-  verb.when_chosen([command, &run] { run = [command] { return run_diagnose(*command); }; });
+  verb.when_chosen([command, verb, &run] {
+    run = [command, verb] { return run_diagnose(verb, *command); };
+  });
 }
 
 }  // namespace chaintrue::cli

@@ -19,7 +19,7 @@
 #include "model/reading_model.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/effect_drawing.hpp"
-#include "tools/cli/machine_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"

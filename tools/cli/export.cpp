@@ -12,17 +12,13 @@
 #include <vector>
 
 #include "grid/files/anchors_file.hpp"
-#include "grid/files/diagnosis_file.hpp"
-#include "grid/files/file_type.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/settings_to_type.hpp"
-#include "tools/cli/belts_input.hpp"
-#include "tools/cli/map_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -85,24 +81,32 @@ Exported of_map(const grid::CompensationMap& map,
   return result;
 }
 
-Exported export_of(const std::string& path) {
-  const std::string text = files::read_whole_file(path);
-  const std::string file = files::name_in_messages(path);
-  const std::string type = files::file_type_of(text, file);
-  if (type == "chaintrue_map") return of_map(parse_map_input(text, file), file, path);
-  if (type == "chaintrue_diagnosis") {
-    std::vector<files::Warning> warnings;
-    const auto found = files::parse_diagnosis(text, file, &warnings);
-    print_warnings(warnings);
-    return of_machine(found.extended_machine, settings_page(path));
+Exported export_of(const InputFile& file) {
+  require_kind(file,
+               {FileKind::machine, FileKind::map, FileKind::diagnosis},
+               file.kind == FileKind::anchors ? "anchors of four belts are taken by export maslow4"
+                                              : "");
+  if (file.kind == FileKind::map) {
+    return with_map(file, [&](const grid::CompensationMap& map) {
+      return of_map(map, file.name, file.path);
+    });
   }
-  const files::ReadMachine read = files::parse_machine_with_warnings(text, file);
-  print_warnings(read.warnings);
-  return of_machine(read.machine, {"plan", "--machine", path, "-o", "marks.csv"});
+  if (file.kind == FileKind::diagnosis) {
+    const grid::diagnosis::Diagnosis found = load_diagnosis(file);
+    if (found.belts) {
+      throw files::InputError(
+          {{file.name,
+            "/observations",
+            "a diagnosis of four belts",
+            "one of a machine on chains; of belts export maslow4 has the lines"}});
+    }
+    return of_machine(found.extended_machine, settings_page(file.path));
+  }
+  return of_machine(load_machine(file), {"plan", "--machine", file.path, "-o", "marks.csv"});
 }
 
 int export_groundcontrol(const ExportCommand& command) {
-  const Exported exported = export_of(command.input);
+  const Exported exported = export_of(open_input(command.input));
   write_output(command.output, exported.settings.text);
   for (const std::string& remark : exported.settings.remarks) fmt::print(stderr, "{}\n", remark);
   if (exported.settings.remarks.empty() && exported.words.empty())
@@ -113,17 +117,14 @@ int export_groundcontrol(const ExportCommand& command) {
 }
 
 /// Of a fit of belts, or of a diagnosis of them.
-files::Maslow4Settings maslow4_settings_of(const std::string& path) {
-  const std::string text = files::read_whole_file(path);
-  const std::string file = files::name_in_messages(path);
-  if (files::file_type_of(text, file) != "chaintrue_diagnosis")
-    return files::write_maslow4_settings(parse_anchors_input(text, file).fit);
-  std::vector<files::Warning> warnings;
-  const auto found = files::parse_diagnosis(text, file, &warnings);
-  print_warnings(warnings);
+files::Maslow4Settings maslow4_settings_of(const InputFile& file) {
+  require_kind(file, {FileKind::anchors, FileKind::diagnosis});
+  if (file.kind == FileKind::anchors)
+    return files::write_maslow4_settings(load_anchors(file).fit);
+  const grid::diagnosis::Diagnosis found = load_diagnosis(file);
   if (!found.belts) {
     throw files::InputError(
-        {{file,
+        {{file.name,
           "/observations",
           "a diagnosis of a machine on chains",
           "one of four belts; of chains export groundcontrol has the numbers"}});
@@ -132,7 +133,7 @@ files::Maslow4Settings maslow4_settings_of(const std::string& path) {
 }
 
 int export_maslow4(const ExportCommand& command) {
-  const files::Maslow4Settings settings = maslow4_settings_of(command.input);
+  const files::Maslow4Settings settings = maslow4_settings_of(open_input(command.input));
   write_output(command.output, settings.text);
   for (const std::string& remark : settings.remarks) fmt::print(stderr, "{}\n", remark);
   return kDone;

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "grid/files/belts_file.hpp"
 #include "grid/files/fit_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
@@ -20,8 +19,10 @@
 #include "tools/cli/fit_the_belts.hpp"
 #include "tools/cli/grid_input.hpp"
 #include "tools/cli/holes_words.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/map_document.hpp"
 #include "tools/cli/map_words.hpp"
+#include "tools/cli/option_rules.hpp"
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
@@ -159,50 +160,33 @@ int fit_directly(const FitCommand& command, const grid::MeasuredFile& file) {
   return finish(command, grid::fit(*file.grid(), options), {});
 }
 
-/// The file, and those of --with.
-grid::Measured read_all(const FitCommand& command) {
-  std::vector<std::string> names = {command.input.grid};
-  names.insert(names.end(), command.with.begin(), command.with.end());
-  grid::Measured measured;
-  for (const std::string& name : names) {
-    GridInput input = command.input;
-    input.grid = name;
-    if (&name != &names.front()) input.text.reset();
-    measured.add({grid::files::name_in_messages(name),
-                  read_measured_input(input, command.tape, MeasuredUse::fit)});
+Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
+  const bool of_belts = std::any_of(files.begin(), files.end(), is_of_four_belts);
+  Facts facts = command.surface == "direct" ? facts::direct : facts::residual;
+  if (command.outside.way == "fade") facts |= facts::fade;
+  for (const InputFile& file : files) {
+    if (file.kind == FileKind::belts) facts |= facts::belts;
+    if (file.kind == FileKind::belt_holes) facts |= facts::belt_holes;
+    if (file.kind == FileKind::holes) facts |= of_belts ? facts::belt_holes : facts::holes;
+    if (file.kind == FileKind::grid && !of_belts) facts |= facts::grid;
   }
-  return measured;
+  if (files.size() == 1 && files.front().kind == FileKind::grid) facts |= facts::one_grid;
+  return facts;
 }
 
-/// Four belts have anchors for an answer.
-std::optional<int> fit_four_belts(const FitCommand& command) {
-  std::vector<BeltsFitCommand::File> read = {
-      {*command.input.text, grid::files::name_in_messages(command.input.grid)}};
-  for (const std::string& name : command.with)
-    read.push_back({grid::files::read_whole_file(name), grid::files::name_in_messages(name)});
-  const bool any = std::any_of(
-      read.begin(), read.end(), [](const auto& file) { return is_of_four_belts(file.text); });
-  if (!any) return std::nullopt;
-  if (!command.input.machine.empty() || command.surface != "residual") {
-    fmt::print(stderr,
-               "chaintrue fit: belts are fitted to the machine in their own file: leave --machine "
-               "and --surface out\n");
-    return kUsage;
+int run_fit(Verb verb, const FitCommand& command) {
+  std::vector<InputFile> opened = open_inputs(command.input.grid, command.with);
+  for (const InputFile& file : opened)
+    require_kind(file, {FileKind::grid, FileKind::holes, FileKind::belt_holes, FileKind::belts});
+  const Facts facts = facts_of(command, opened);
+  refuse_what_does_nothing(verb, facts);
+  if ((facts & (facts::belts | facts::belt_holes)) != 0) {
+    return fit_the_belts(
+        {std::move(opened), command.tape, command.output, command.verbose, command.json});
   }
-  return fit_the_belts(
-      {std::move(read), command.tape, command.output, command.verbose, command.json});
-}
-
-int run_fit(FitCommand command) {
-  command.input.text = grid::files::read_whole_file(command.input.grid);
-  if (const auto code = fit_four_belts(command)) return *code;
-  if (command.surface == "direct" && !command.with.empty()) {
-    fmt::print(stderr,
-               "chaintrue fit: a direct surface is of one grid alone: leave --surface or --with "
-               "out\n");
-    return kUsage;
-  }
-  const grid::Measured all = read_all(command);
+  grid::Measured all;
+  for (const InputFile& file : opened)
+    all.add(load_measured(file, command.input, command.tape, MeasuredUse::fit));
   const std::vector<grid::MeasuredFile>& files = all.files();
   if (const std::string sentence = too_many(all); !sentence.empty()) {
     fmt::print(stderr, "{}: {}\n", files.front().name, sentence);
@@ -255,7 +239,7 @@ void add_fit(Verb app, Run& run) {
       "fixtures/holes/nine_holes.json "
       "-o map.json\n"
       "  build/chaintrue fit fixtures/belts/thirty_one_places.json -o anchors.json");
-  verb.when_chosen([command, &run] {
+  verb.when_chosen([command, verb, &run] {
     if (command->json && command->output == "-") {
       usage_error("fit", "--json and the map cannot both go to standard output");
     }
@@ -263,7 +247,7 @@ void add_fit(Verb app, Run& run) {
       usage_error("fit",
                   "--outside fade leaves the bare machine, which a direct surface does not have");
     }
-    run = [command] { return run_fit(*command); };
+    run = [command, verb] { return run_fit(verb, *command); };
   });
 }
 

@@ -13,7 +13,6 @@
 #include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/anchors_document.hpp"
-#include "tools/cli/belts_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
@@ -31,7 +30,7 @@ struct BeltFiles {
   std::vector<grid::BeltHoles> holes;
 };
 
-void read_belts_file(const BeltsFitCommand::File& file, BeltFiles& all) {
+void read_belts_file(const InputFile& file, BeltFiles& all) {
   if (all.belts) {
     throw files::InputError({{file.name,
                               "",
@@ -39,17 +38,13 @@ void read_belts_file(const BeltsFitCommand::File& file, BeltFiles& all) {
                               "one file of belts and any number of chaintrue_holes: anchors of two "
                               "sessions are two fits"}});
   }
-  all.belts = parse_belts_input(file.text, file.name, "a fit").belts;
+  all.belts = load_belts(file, "a fit").belts;
 }
 
-void read_holes_file(const BeltsFitCommand::File& file, const TapeInput& tape, BeltFiles& all) {
-  if (!files::looks_like_holes(file.text)) {
-    throw files::InputError({{file.name,
-                              "",
-                              "",
-                              "a chaintrue_belts or a chaintrue_holes file: beside four belts "
-                              "nothing else was measured of one machine"}});
-  }
+void read_holes_file(const InputFile& file, const TapeInput& tape, BeltFiles& all) {
+  require_kind(file,
+               {FileKind::belts, FileKind::holes, FileKind::belt_holes},
+               "with four belts nothing else was measured of one machine");
   files::ReadHoles read = files::parse_holes(file.text, file.name, holes_options(tape));
   print_warnings(read.warnings);
   if (!read.belt_machine && all.belts && all.belts->machine.anchors_known && !read.holes.machine)
@@ -68,10 +63,10 @@ void read_holes_file(const BeltsFitCommand::File& file, const TapeInput& tape, B
 BeltFiles read_all(const BeltsFitCommand& command) {
   BeltFiles all;
   for (const auto& file : command.files) {
-    if (files::looks_like_belts(file.text)) read_belts_file(file, all);
+    if (file.kind == FileKind::belts) read_belts_file(file, all);
   }
   for (const auto& file : command.files) {
-    if (!files::looks_like_belts(file.text)) read_holes_file(file, command.tape, all);
+    if (file.kind != FileKind::belts) read_holes_file(file, command.tape, all);
   }
   return all;
 }
@@ -93,8 +88,8 @@ tl::expected<files::FittedAnchors, grid::BeltsFitFailure> fitted(const BeltFiles
 
 }  // namespace
 
-bool is_of_four_belts(const std::string& text) {
-  return files::looks_like_belts(text) || files::looks_like_holes_of_belts(text);
+bool is_of_four_belts(const InputFile& file) {
+  return file.kind == FileKind::belts || file.kind == FileKind::belt_holes;
 }
 
 int fit_the_belts(const BeltsFitCommand& command) {

@@ -12,18 +12,14 @@ namespace chaintrue::cli {
 
 struct BeltsFitCommand {
   /// The chaintrue_belts file, and the holes that join it; or holes alone.
-  struct File {
-    std::string text;
-    std::string name;  ///< in messages
-  };
-  std::vector<File> files;
+  std::vector<InputFile> files;
   TapeInput tape;
   std::string output;
   bool verbose = false;
   bool json = false;
 };
 /// True for files of such a machine.
-[[nodiscard]] bool is_of_four_belts(const std::string& text);
+[[nodiscard]] bool is_of_four_belts(const InputFile& file);
 /// Anchors go to their file, the words to standard error. An exit code.
 [[nodiscard]] int fit_the_belts(const BeltsFitCommand& command);
 

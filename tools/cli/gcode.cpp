@@ -7,6 +7,7 @@
 #include "tools/cli/gcode_verbs.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
+#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 
 namespace chaintrue::cli {
@@ -15,6 +16,16 @@ namespace {
 using Action = int (*)(const GcodeOptions&);
 
 constexpr grid::files::Range kToleranceMm{"mm", 1e-4, 100.0};
+
+void open_map(Verb verb, GcodeOptions& options) {
+  Facts facts = facts::no_map;
+  if (!options.map.empty()) {
+    options.map_file = open_input(options.map);
+    require_kind(*options.map_file, {FileKind::map, FileKind::anchors});
+    facts = options.map_file->kind == FileKind::map ? facts::map : facts::anchors;
+  }
+  refuse_what_does_nothing(verb, facts);
+}
 
 Verb add(Verb parent,
          Run& run,
@@ -39,14 +50,26 @@ Verb add(Verb parent,
   add_option_check(verb, [options](OptionProblems& problems) {
     problems.take_from([&options] { (void)options->home_mm(); });
   });
-  verb.when_chosen(
-      [options, action, &run] { run = [options, action] { return action(*options); }; });
+  verb.when_chosen([options, action, verb, &run] {
+    run = [options, action, verb] {
+      open_map(verb, *options);
+      return action(*options);
+    };
+  });
   return verb;
 }
 
-void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
-  const Option map = add_input(verb, "--map", options.map, "The compensation map");
+void add_map_options(Verb verb, GcodeOptions& options, bool map_required) {
+  const Option map = add_input(
+      verb, "--map", options.map, "The compensation map, or the anchors of four belts");
   if (map_required) map.required();
+  verb.add_option("--frame", options.frame, "The program's zero: the marks' or the bed's")
+      .one_of({"marks", "bed"})
+      .shows_default();
+}
+
+void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
+  add_map_options(verb, options, map_required);
   add_input(
       verb,
       "--machine",
@@ -54,9 +77,6 @@ void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
       "A machine file: what the controller believes, if not the map's machine as it was stated");
   verb.add_option("--controller", options.controller, "In place of the machine file's")
       .one_of({"maslow_classic", "holey", "fluidnc_wallplotter", "maslow4", "ideal"});
-  verb.add_option("--frame", options.frame, "The program's zero: the marks' or the bed's")
-      .one_of({"marks", "bed"})
-      .shows_default();
 }
 
 void add_limits(Verb verb, GcodeOptions& options) {
@@ -64,23 +84,27 @@ void add_limits(Verb verb, GcodeOptions& options) {
       verb, "--tolerance-mm", options.tolerance_mm, kToleranceMm, "How far the tool may stray");
   add_number(verb, "--decimals", options.decimals, {"", 2.0, 6.0}, "Of the output's coordinates");
   add_number(verb,
-             "--largest-correction-mm",
-             options.largest_correction_mm,
-             {"mm", 0.001, 1000.0},
-             "Refuse larger ones");
-  add_number(verb,
              "--steepest-correction",
              options.steepest_correction,
              {"mm per mm", 1e-6, 10.0},
              "Refuse changes above this, in mm per mm");
   verb.add_flag(
       "--keep-rapids-whole", options.keep_rapids_whole, "Only the ends of rapids are made true");
-  verb.add_flag("--home-is-zero",
-                options.home_is_zero,
-                "G28 and G30 go to the machine's zero; otherwise they are refused");
   add_option_check(verb, [&options](OptionProblems& problems) {
     if (!options.map.empty()) check_limits(options, problems);
   });
+}
+
+/// What is refused of a program that is compensated.
+void add_refusals(Verb verb, GcodeOptions& options) {
+  add_number(verb,
+             "--largest-correction-mm",
+             options.largest_correction_mm,
+             {"mm", 0.001, 1000.0},
+             "Refuse larger ones");
+  verb.add_flag("--home-is-zero",
+                options.home_is_zero,
+                "G28 and G30 go to the machine's zero; otherwise they are refused");
 }
 
 }  // namespace
@@ -100,6 +124,7 @@ void add_gcode(Verb app, Run& run) {
   add_input(check, "file", options->program, "G-code; - is standard input").required();
   add_machine_options(check, *options, false);
   add_limits(check, *options);
+  add_refusals(check, *options);
   check.add_flag("--json", options->json, "JSON in place of words");
   check.footer(
       "Example:\n"
@@ -108,7 +133,7 @@ void add_gcode(Verb app, Run& run) {
   Verb lengths =
       add(gcode, run, options, "lengths", "The chain lengths along the path", run_gcode_lengths);
   add_input(lengths, "file", options->program, "G-code; - is standard input").required();
-  add_machine_options(lengths, *options, true);
+  add_map_options(lengths, *options, true);
   add_output(lengths, "-o,--output", options->output, {Origin::table}, "CSV; - is standard output")
       .shows_default();
   add_number(lengths,
@@ -142,6 +167,7 @@ void add_gcode(Verb app, Run& run) {
              {Origin::page},
              "A page with the path before and after, coloured by the correction");
   add_limits(compensate, *options);
+  add_refusals(compensate, *options);
   compensate.add_flag("--no-verify",
                       options->no_verify,
                       "Write the output without having run it on the simulated machine");

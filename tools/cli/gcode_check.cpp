@@ -10,7 +10,6 @@
 
 #include "grid/files/input_error.hpp"
 #include "tools/cli/gcode_verbs.hpp"
-#include "tools/cli/machine_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
@@ -22,12 +21,6 @@ namespace chaintrue::cli {
 namespace {
 
 using gcode::Findings;
-
-gcode::BedRectangle sheet(const GcodeOptions& options) {
-  const model::Bed bed =
-      options.machine.empty() ? model::Bed{} : read_machine_input(options.machine).bed;
-  return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
-}
 
 void print_survey(const gcode::Survey& survey, bool json) {
   end_progress();
@@ -85,7 +78,7 @@ double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
   auto source = text.open({"the length of the path", 1, 2});
   Findings ignored;
   const auto survey =
-      gcode::survey(source, options.dialect(), options.home_mm(), sheet(options), ignored);
+      gcode::survey(source, options.dialect(), options.home_mm(), gcode::BedRectangle{}, ignored);
   if (!survey) return 0.0;
   const double rows = survey->path_mm / options.every_mm;
   if (rows <= kMostRows) return rows;
@@ -115,16 +108,17 @@ void say_next_of_program(const GcodeOptions& options) {
             options.program == "-" ? "-" : compensated_name(options.program)});
 }
 
-}  // namespace
-
-int run_gcode_check(const GcodeOptions& options) {
+/// `machine` is null without a map.
+int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
   const GcodeText text(options.program);
   const gcode::Firmware* firmware = stated_firmware(options.controller);
   const int steps = 1 + (firmware != nullptr ? 1 : 0) + (options.map.empty() ? 0 : 1);
   auto source = text.open({"the program", 1, steps});
   Findings findings;
+  const gcode::BedRectangle sheet =
+      machine == nullptr ? sheet_of(options) : machine->controller().sheet;
   const auto survey =
-      gcode::survey(source, options.dialect(), options.home_mm(), sheet(options), findings);
+      gcode::survey(source, options.dialect(), options.home_mm(), sheet, findings);
   if (!survey) {
     report(options.program, findings);
     return report(options.program, survey.error());
@@ -135,16 +129,15 @@ int run_gcode_check(const GcodeOptions& options) {
     const auto outcome = gcode::run_program(once_more, options.dialect(), check);
     if (!outcome) return report(options.program, outcome.error());
   }
-  if (options.map.empty()) {
+  if (machine == nullptr) {
     print_survey(*survey, options.json);
     const int code = report(options.program, findings);
     if (code == kDone) say_next_of_program(options);
     return code;
   }
   // With a map: everything that compensating would object to; what it would write is thrown away.
-  const GcodeMachine machine(options);
   gcode::Compensator compensator(
-      machine.corrector(), compensate_options(options, machine), [](std::string_view) {});
+      machine->corrector(), compensate_options(options, *machine), [](std::string_view) {});
   auto again = text.open({"its compensation", steps, steps});
   const auto outcome = compensator.run(again, options.dialect());
   print_survey(*survey, options.json);
@@ -163,8 +156,7 @@ int run_gcode_check(const GcodeOptions& options) {
   return code;
 }
 
-int run_gcode_lengths(const GcodeOptions& options) {
-  const GcodeMachine machine(options);
+int write_lengths(const GcodeTarget& target, const GcodeOptions& options) {
   const GcodeText text(options.program);
   const double rows = rows_of_lengths(options, text);
   auto source = text.open();
@@ -220,7 +212,7 @@ int run_gcode_lengths(const GcodeOptions& options) {
   Findings findings;
   const auto outcome = gcode::path_lengths(source,
                                            options.dialect(),
-                                           machine.target(),
+                                           target.target(),
                                            options.home_mm(),
                                            options.every_mm,
                                            write,
@@ -230,6 +222,19 @@ int run_gcode_lengths(const GcodeOptions& options) {
   const int code = report(options.program, findings);
   if (code == kDone) say_next_of_program(options);
   return code;
+}
+
+}  // namespace
+
+int run_gcode_check(const GcodeOptions& options) {
+  if (options.map.empty()) return check_program(nullptr, options);
+  const GcodeMachine machine(options);
+  return blaming(machine.on_trust(), [&] { return check_program(&machine, options); });
+}
+
+int run_gcode_lengths(const GcodeOptions& options) {
+  const GcodeTarget target(options);
+  return blaming(target.on_trust(), [&] { return write_lengths(target, options); });
 }
 
 }  // namespace chaintrue::cli

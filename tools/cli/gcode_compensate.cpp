@@ -63,10 +63,7 @@ std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, co
       options.tolerance_mm);
 }
 
-}  // namespace
-
-int run_gcode_compensate(const GcodeOptions& options) {
-  const GcodeMachine machine(options);
+int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   const GcodeText text(options.program);
   auto source = text.open({"the program", 1, options.no_verify ? 1 : 2});
   gcode::CompensateOptions settings = compensate_options(options, machine);
@@ -115,13 +112,12 @@ int run_gcode_compensate(const GcodeOptions& options) {
       summary->largest_correction_line);
   std::string page;
   if (!options.report.empty()) {
-    const model::Bed& bed = machine.machine().bed;
+    const gcode::BedRectangle& sheet = machine.controller().sheet;
     picture.name = options.program == "-"
                        ? "A program"
                        : std::filesystem::path(options.program).filename().string();
     picture.verdict = verdict(options, machine, proof);
-    picture.sheet = {
-        -0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
+    picture.sheet = {sheet.left_mm, sheet.right_mm, sheet.bottom_mm, sheet.top_mm};
     picture.figures = {
         {fmt::format("{:.2f} mm", summary->largest_correction_mm), "largest correction"},
         {fmt::format("{:g} mm", options.tolerance_mm), "tolerance of the path"},
@@ -162,6 +158,13 @@ int run_gcode_compensate(const GcodeOptions& options) {
   if (holds && is_usual(options))
     say_next({"gcode", "verify", options.program, options.output, "--map", options.map});
   return holds ? kDone : kCheckFailed;
+}
+
+}  // namespace
+
+int run_gcode_compensate(const GcodeOptions& options) {
+  const GcodeMachine machine(options);
+  return blaming(machine.on_trust(), [&] { return compensate_for(machine, options); });
 }
 
 }  // namespace chaintrue::cli

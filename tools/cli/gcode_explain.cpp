@@ -5,7 +5,6 @@
 
 #include <charconv>
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -67,9 +66,8 @@ void explain_move(const gcode::Move& move, model::BedPoint home, const GcodeMach
              command->y_mm - target.y_mm);
 }
 
-}  // namespace
-
-int run_gcode_explain(const GcodeOptions& options) {
+/// `machine` is null without a map.
+int explain_line(const GcodeMachine* machine, const GcodeOptions& options) {
   const std::size_t colon = options.program.rfind(':');
   std::size_t line = 0;
   const char* begin = options.program.data() + (colon == std::string::npos ? 0 : colon + 1);
@@ -79,8 +77,6 @@ int run_gcode_explain(const GcodeOptions& options) {
         {{"explain", "", options.program, "a file and a line, such as part.nc:12"}});
   }
   const std::string file = options.program.substr(0, colon);
-  std::unique_ptr<GcodeMachine> machine;
-  if (!options.map.empty()) machine = std::make_unique<GcodeMachine>(options);
   const GcodeText text(file);
   auto source = text.open({"the program up to that line"});
   LineEvents events;
@@ -103,7 +99,7 @@ int run_gcode_explain(const GcodeOptions& options) {
   const auto more = program.step();
   if (!more) return report(file, more.error());
   fmt::print("line {}:{}\n", line, events.words.empty() ? "" : " passes" + events.words);
-  for (const gcode::Move& move : events.moves) explain_move(move, options.home_mm(), machine.get());
+  for (const gcode::Move& move : events.moves) explain_move(move, options.home_mm(), machine);
   print_state("after:");
   if (options.map.empty()) {
     say_next({"gcode", "check", file});
@@ -111,6 +107,14 @@ int run_gcode_explain(const GcodeOptions& options) {
     say_next({"gcode", "check", file, "--map", options.map});
   }
   return kDone;
+}
+
+}  // namespace
+
+int run_gcode_explain(const GcodeOptions& options) {
+  if (options.map.empty()) return explain_line(nullptr, options);
+  const GcodeMachine machine(options);
+  return blaming(machine.on_trust(), [&] { return explain_line(&machine, options); });
 }
 
 }  // namespace chaintrue::cli

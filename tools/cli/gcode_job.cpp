@@ -20,9 +20,6 @@
 #include "grid/files/parse_double.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/belts/belt_controller.hpp"
-#include "tools/cli/belts_input.hpp"
-#include "tools/cli/machine_input.hpp"
-#include "tools/cli/map_input.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/gcode/belt_target.hpp"
 #include "tools/gcode/file_hash.hpp"
@@ -92,47 +89,108 @@ std::optional<model::ControllerKind> controller_kind(std::string_view name) {
   return std::nullopt;
 }
 
-GcodeMachine::GcodeMachine(const GcodeOptions& options) {
-  const std::string text = grid::files::read_whole_file(options.map);
-  gcode::FileHash hash;
-  hash.add(text);
-  map_hash_ = hash.text();
-  grid::files::looks_like_anchors(text) ? take_belts(options, text) : take_map(options, text);
+namespace {
+
+gcode::BedRectangle rectangle_of(const model::Bed& bed) {
+  return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
 }
 
-void GcodeMachine::take_belts(const GcodeOptions& options, const std::string& text) {
-  const std::string file = grid::files::name_in_messages(options.map);
-  const grid::files::FittedAnchors found = parse_anchors_input(text, file);
-  OptionProblems problems;
+/// That of the anchors, where commands count from at 0, 0.
+gcode::BedRectangle rectangle_of(const model::BeltMachine& machine) {
+  const auto& anchors = machine.anchors;
+  const model::FramePoint centre = model::centre_of(machine);
+  return {std::min(anchors.tl.x_mm, anchors.bl.x_mm) - centre.x_mm,
+          std::max(anchors.tr.x_mm, anchors.br.x_mm) - centre.x_mm,
+          std::min(anchors.bl.y_mm, anchors.br.y_mm) - centre.y_mm,
+          std::max(anchors.tl.y_mm, anchors.tr.y_mm) - centre.y_mm};
+}
+
+GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarget& target) {
   if (!options.controller.empty() && options.controller != kFourBeltsName) {
-    problems.add("--controller",
-                 options.controller,
-                 "\"maslow4\", or to be left out: anchors of four belts are of a Maslow 4");
+    throw InputError(
+        {{"--controller",
+          "",
+          options.controller,
+          "\"maslow4\", or to be left out: anchors of four belts are of a Maslow 4"}});
   }
+  const model::BeltMachine believed = options.machine.empty()
+                                          ? *target.belts_in_force()
+                                          : read_belt_machine_input(options.machine);
+  return {std::make_unique<const model::BeltController>(believed),
+          &gcode::firmware_of_four_belts(),
+          std::nullopt,
+          rectangle_of(believed),
+          {}};
+}
+
+model::Machine believed_machine(const GcodeOptions& options, const grid::CompensationMap& map) {
+  if (!options.machine.empty()) return read_machine_input(options.machine);
+  if (const auto stated = gcode::stated_machine(map)) return *stated;
+  throw InputError({{options.map,
+                     "",
+                     "",
+                     "a map that knows its machine; this one does not, so say with --machine "
+                     "what the controller believes"}});
+}
+
+GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& target) {
+  if (target.map() == nullptr) return controller_of_belts(options, target);
+  model::Machine machine = believed_machine(options, *target.map());
+  if (const auto kind = controller_kind(options.controller)) machine.controller.kind = *kind;
+  return {model::make_controller_kinematics(machine),
+          &gcode::firmware(machine.controller.kind),
+          gcode::clamp_box(machine),
+          rectangle_of(machine.bed),
+          gcode::half_play_mm(machine)};
+}
+
+}  // namespace
+
+GcodeTarget::GcodeTarget(const GcodeOptions& options)
+    : GcodeTarget(options.map_file->kind == FileKind::anchors ? of_belts(options) : of_map(options),
+                  *options.map_file) {}
+
+GcodeTarget::GcodeTarget(Parts parts, const InputFile& file)
+    : source_(std::move(parts.source)),
+      target_(std::move(parts.target)),
+      on_trust_(std::move(parts.on_trust)) {
+  gcode::FileHash hash;
+  hash.add(file.text);
+  map_hash_ = hash.text();
+}
+
+const grid::CompensationMap* GcodeTarget::map() const {
+  const auto* map = std::get_if<std::unique_ptr<const grid::CompensationMap>>(&source_);
+  return map == nullptr ? nullptr : map->get();
+}
+
+const model::BeltMachine* GcodeTarget::belts_in_force() const {
+  return std::get_if<model::BeltMachine>(&source_);
+}
+
+GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
+  const grid::files::FittedAnchors found = load_anchors(*options.map_file);
   const grid::HolesBesideBelts* holes = found.holes ? &*found.holes : nullptr;
   if (holes == nullptr && !found.fit.coordinates.front().stated_mm) {
+    OptionProblems problems;
     problems.add("--map",
                  options.map,
                  "anchors fitted to a file that states those in force: where commands count from "
                  "follows from them (import maslow4 --settings maslow.yaml)");
+    problems.throw_if_any();
   }
-  problems.throw_if_any();
   grid::BeltMap map(found.fit, holes);
-  const model::BeltMachine believed =
-      options.machine.empty() ? map.in_force() : read_belt_machine_input(options.machine);
   if (!found.fit.scale) {
     fmt::print(stderr,
                "The scale is not known: parts come out as true as a turn of the encoder is {:g} mm "
                "of belt. One long taped distance, or holes, tells it.\n",
                found.fit.machine.belt_turn_mm);
   }
-  target_ = std::make_unique<gcode::BeltTarget>(std::move(map));
-  kinematics_ = std::make_unique<const model::BeltController>(believed);
-  corrector_ =
-      std::make_unique<gcode::Corrector>(*target_, *kinematics_, gcode::firmware_of_four_belts());
+  const model::BeltMachine in_force = map.in_force();
+  return {in_force, std::make_unique<const gcode::BeltTarget>(std::move(map)), ""};
 }
 
-void GcodeMachine::take_map(const GcodeOptions& options, const std::string& text) {
+GcodeTarget::Parts GcodeTarget::of_map(const GcodeOptions& options) {
   if (options.controller == kFourBeltsName) {
     throw InputError({{options.map,
                        "/file_type",
@@ -140,26 +198,24 @@ void GcodeMachine::take_map(const GcodeOptions& options, const std::string& text
                        "\"chaintrue_anchors\", as chaintrue fit makes of belts: a Maslow 4 goes by "
                        "these in place of a map"}});
   }
-  map_ = std::make_unique<grid::CompensationMap>(
-      parse_map_input(text, grid::files::name_in_messages(options.map)));
-  target_ = std::make_unique<gcode::CompensationTarget>(
-      *map_, options.frame == "bed" ? gcode::ProgramFrame::bed : gcode::ProgramFrame::marks);
-  if (!options.machine.empty()) {
-    machine_ = read_machine_input(options.machine);
-  } else if (const auto stated = gcode::stated_machine(*map_)) {
-    machine_ = *stated;
-  } else {
-    throw InputError({{options.map,
-                       "",
-                       "",
-                       "a map that knows its machine; this one does not, so say with --machine "
-                       "what the controller believes"}});
-  }
-  if (const auto kind = controller_kind(options.controller)) machine_.controller.kind = *kind;
-  half_play_mm_ = gcode::half_play_mm(machine_);
-  kinematics_ = model::make_controller_kinematics(machine_);
-  corrector_ = std::make_unique<gcode::Corrector>(
-      *target_, *kinematics_, gcode::firmware(machine_.controller.kind));
+  LoadedMap loaded = load_map(*options.map_file);
+  auto map = std::make_unique<const grid::CompensationMap>(std::move(loaded.map));
+  auto target = std::make_unique<const gcode::CompensationTarget>(
+      *map, options.frame == "bed" ? gcode::ProgramFrame::bed : gcode::ProgramFrame::marks);
+  return {std::move(map), std::move(target), std::move(loaded.on_trust)};
+}
+
+GcodeMachine::GcodeMachine(const GcodeOptions& options)
+    : target_(options),
+      controller_(controller_of(options, target_)),
+      corrector_(target_.target(), *controller_.kinematics, *controller_.firmware) {}
+
+gcode::BedRectangle sheet_of(const GcodeOptions& options) {
+  if (options.machine.empty()) return rectangle_of(model::Bed{});
+  const FileKind kind = open_input(options.machine).kind;
+  const bool of_belts = kind == FileKind::belts || kind == FileKind::anchors;
+  return of_belts ? rectangle_of(read_belt_machine_input(options.machine))
+                  : rectangle_of(read_machine_input(options.machine).bed);
 }
 
 void check_limits(const GcodeOptions& options, OptionProblems& problems) {
@@ -183,8 +239,8 @@ gcode::CompensateOptions compensate_options(const GcodeOptions& options,
   result.steepest_correction = options.steepest_correction;
   result.keep_rapids_whole = options.keep_rapids_whole;
   result.home_is_zero = options.home_is_zero;
-  result.clamp_box = gcode::clamp_box(machine.machine());
-  result.half_play_mm = machine.half_play_mm();
+  result.clamp_box = machine.controller().clamp_box;
+  result.half_play_mm = machine.controller().half_play_mm;
   result.map_hash = machine.map_hash();
   return result;
 }

@@ -8,11 +8,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "grid/files/pending_file.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/progress.hpp"
 #include "tools/cli/effect_argument.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/gcode/compensation_target.hpp"
 #include "tools/gcode/compensator.hpp"
@@ -24,6 +26,8 @@ struct GcodeOptions {
   std::string program;
   std::string other;  ///< verify: the file that is run
   std::string map;
+  /// Of --map; opened before any verb begins.
+  std::optional<InputFile> map_file;
   std::string machine;
   std::string controller;
   std::string frame = "marks";
@@ -53,32 +57,69 @@ struct GcodeOptions {
 /// That of --controller, a Maslow 4 among them; null where nothing is stated.
 [[nodiscard]] const gcode::Firmware* stated_firmware(std::string_view name);
 
+/// The map, or the fit of four belts, that a program aims at.
+class GcodeTarget {
+ public:
+  /// Of --map. \throws InputError for a bad file.
+  explicit GcodeTarget(const GcodeOptions& options);
+  [[nodiscard]] const gcode::TargetMap& target() const { return *target_; }
+  /// Null of four belts.
+  [[nodiscard]] const grid::CompensationMap* map() const;
+  /// The machine that was in force when they were measured; null of chains.
+  [[nodiscard]] const model::BeltMachine* belts_in_force() const;
+  [[nodiscard]] const std::string& map_hash() const { return map_hash_; }
+  /// As LoadedMap::on_trust.
+  [[nodiscard]] const std::string& on_trust() const { return on_trust_; }
+
+ private:
+  using Source = std::variant<std::unique_ptr<const grid::CompensationMap>, model::BeltMachine>;
+  struct Parts {
+    Source source;
+    std::unique_ptr<const gcode::TargetMap> target;
+    std::string on_trust;
+  };
+  explicit GcodeTarget(Parts parts, const InputFile& file);
+  static Parts of_map(const GcodeOptions& options);
+  static Parts of_belts(const GcodeOptions& options);
+
+  Source source_;
+  std::unique_ptr<const gcode::TargetMap> target_;
+  std::string map_hash_;
+  std::string on_trust_;
+};
+
+/// What the machine's controller does with a program.
+struct GcodeController {
+  std::unique_ptr<const model::ControllerKinematics> kinematics;
+  const gcode::Firmware* firmware;
+  /// Empty where it does not clamp.
+  std::optional<gcode::ClampBox> clamp_box;
+  /// Where programs may go: the bed, or the frame of the anchors of four belts.
+  gcode::BedRectangle sheet;
+  /// Of the machine that the map was extended with; none of belts.
+  model::ChainLengths half_play_mm;
+};
+
 /// Map, machine and controller, which belong together.
 class GcodeMachine {
  public:
   /// \throws InputError for bad files, or where neither map nor --machine says what the controller
   /// believes.
   explicit GcodeMachine(const GcodeOptions& options);
-  [[nodiscard]] const gcode::TargetMap& target() const { return *target_; }
-  [[nodiscard]] const gcode::Corrector& corrector() const { return *corrector_; }
-  [[nodiscard]] const model::Machine& machine() const { return machine_; }
-  [[nodiscard]] const std::string& map_hash() const { return map_hash_; }
-  /// Of the machine that the map was extended with.
-  [[nodiscard]] model::ChainLengths half_play_mm() const { return half_play_mm_; }
+  [[nodiscard]] const gcode::TargetMap& target() const { return target_.target(); }
+  [[nodiscard]] const gcode::Corrector& corrector() const { return corrector_; }
+  [[nodiscard]] const GcodeController& controller() const { return controller_; }
+  [[nodiscard]] const std::string& map_hash() const { return target_.map_hash(); }
+  [[nodiscard]] const std::string& on_trust() const { return target_.on_trust(); }
 
  private:
-  void take_map(const GcodeOptions& options, const std::string& text);
-  /// Of a fit of four belts, with the anchors that its controller goes by.
-  void take_belts(const GcodeOptions& options, const std::string& text);
-
-  std::unique_ptr<grid::CompensationMap> map_;
-  std::unique_ptr<gcode::TargetMap> target_;
-  model::Machine machine_;
-  std::unique_ptr<const model::ControllerKinematics> kinematics_;
-  std::unique_ptr<gcode::Corrector> corrector_;
-  std::string map_hash_;
-  model::ChainLengths half_play_mm_;
+  GcodeTarget target_;
+  GcodeController controller_;
+  gcode::Corrector corrector_;
 };
+
+/// Where programs of --machine may go; without it the usual bed. \throws InputError.
+[[nodiscard]] gcode::BedRectangle sheet_of(const GcodeOptions& options);
 
 /// That the tolerance leaves room for rounding.
 void check_limits(const GcodeOptions& options, OptionProblems& problems);

@@ -94,15 +94,16 @@ gcode::VerifyOptions verify_options(const GcodeOptions& options, const GcodeMach
   result.tolerance_mm = options.tolerance_mm;
   result.decimals = options.decimals;
   result.home = options.home_mm();
-  result.half_play_mm = machine.half_play_mm();
+  result.half_play_mm = machine.controller().half_play_mm;
   result.rapids_whole = options.keep_rapids_whole;
   // The rounding of F, and of short pieces, takes a hundredth.
   result.speed_share = options.steepest_correction + 0.01;
   return result;
 }
 
-int run_gcode_verify(const GcodeOptions& options) {
-  const GcodeMachine machine(options);
+namespace {
+
+int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   const GcodeText original(options.program);
   const GcodeText other(options.other);
   const gcode::VerifyOptions settings = verify_options(options, machine);
@@ -136,6 +137,13 @@ int run_gcode_verify(const GcodeOptions& options) {
               options.map});
   }
   return summary->holds() ? kDone : kCheckFailed;
+}
+
+}  // namespace
+
+int run_gcode_verify(const GcodeOptions& options) {
+  const GcodeMachine machine(options);
+  return blaming(machine.on_trust(), [&] { return verify_on(machine, options); });
 }
 
 }  // namespace chaintrue::cli

@@ -10,7 +10,6 @@
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/effect_argument.hpp"
-#include "tools/cli/machine_input.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/warnings.hpp"
@@ -46,11 +45,10 @@ namespace {
 
 namespace files = grid::files;
 
-grid::MeasuredGrid grid_of(const std::string& text,
+grid::MeasuredGrid grid_of(const InputFile& file,
                            const GridInput& input,
-                           files::GridOptions options) {
-  files::ReadGrid read =
-      files::parse_grid(text, files::name_in_messages(input.grid), std::move(options));
+                           const files::GridOptions& options) {
+  files::ReadGrid read = files::parse_grid(file.text, file.name, options);
   print_warnings(read.warnings);
   if (input.length_noise_mm || input.position_noise_mm || input.noise_dof) {
     const grid::StatedNoise own = read.grid.noise.value_or(grid::StatedNoise{});
@@ -116,63 +114,62 @@ void add_tape_options(Verb verb, TapeInput& input) {
 }
 
 grid::MeasuredGrid read_grid_input(const GridInput& input) {
+  const InputFile file = open_input(input.grid);
+  require_kind(file, {FileKind::grid});
   files::GridOptions options;
   options.machine = machine_of(input);
-  return grid_of(files::read_whole_file(input.grid), input, std::move(options));
+  return grid_of(file, input, options);
 }
 
-std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(
-    const GridInput& input,
-    const TapeInput& tape,
-    MeasuredUse use,
-    const model::Machine* otherwise) {
-  const std::string text = input.text ? *input.text : files::read_whole_file(input.grid);
-  if (!files::looks_like_holes(text)) {
+grid::MeasuredFile load_measured(const InputFile& file,
+                                 const GridInput& input,
+                                 const TapeInput& tape,
+                                 MeasuredUse use,
+                                 const model::Machine* otherwise) {
+  require_kind(file,
+               {FileKind::grid, FileKind::holes},
+               file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
+  if (file.kind == FileKind::grid) {
     files::GridOptions options;
     options.machine = machine_of(input);
     if (otherwise != nullptr) options.otherwise = *otherwise;
     if (use == MeasuredUse::check) options.fewest_points = 1;
-    return grid_of(text, input, std::move(options));
+    return {file.name, grid_of(file, input, options)};
   }
   files::HolesOptions options = holes_options(tape);
   options.machine = machine_of(input);
   if (otherwise != nullptr) options.otherwise = *otherwise;
   if (use == MeasuredUse::check) options.fewest_distances = 1;
-  files::ReadHoles read = files::parse_holes(text, files::name_in_messages(input.grid), options);
-  if (read.belt_machine) {
-    throw files::InputError({{files::name_in_messages(input.grid),
-                              "/machine",
-                              "a machine on four belts",
-                              "holes that a machine on two chains cut; those of four belts go into "
-                              "one fit with its lengths: chaintrue fit belts.json --with FILE"}});
-  }
+  files::ReadHoles read = files::parse_holes(file.text, file.name, options);
   print_warnings(read.warnings);
-  return std::move(read.holes);
+  return {file.name, std::move(read.holes)};
 }
 
-grid::Measured read_measured(const GridInput& input,
+std::vector<InputFile> open_inputs(const std::string& path, const std::vector<std::string>& with) {
+  std::vector<InputFile> files = {open_input(path)};
+  for (const std::string& other : with) files.push_back(open_input(other));
+  return files;
+}
+
+grid::Measured load_measured(const std::vector<InputFile>& files,
+                             const GridInput& input,
                              const TapeInput& tape,
-                             const std::vector<std::string>& with,
                              MeasuredUse use) {
   grid::Measured measured;
-  measured.add({files::name_in_messages(input.grid), read_measured_input(input, tape, use)});
+  measured.add(load_measured(files.front(), input, tape, use));
   OptionProblems problems;
-  for (const std::string& path : with) {
-    GridInput other = input;
-    other.grid = path;
-    other.text.reset();
-    // A few more readings are welcome beside enough of them.
-    grid::MeasuredFile file{files::name_in_messages(path),
-                            read_measured_input(other, tape, MeasuredUse::check)};
-    const auto& machine = file.machine();
+  for (std::size_t k = 1; k < files.size(); ++k) {
+    // A few more readings are welcome with enough of them.
+    grid::MeasuredFile other = load_measured(files[k], input, tape, MeasuredUse::check);
+    const auto& machine = other.machine();
     if (machine && measured.machine()) {
       const std::string difference = grid::difference_of_settings(*measured.machine(), *machine);
       if (!difference.empty()) {
         problems.add(
-            "--with", path, fmt::format("a file of the same machine as the first: {}", difference));
+            "--with", files[k].path, fmt::format("a file of the same machine as the first: {}", difference));
       }
     }
-    measured.add(std::move(file));
+    measured.add(std::move(other));
   }
   problems.throw_if_any();
   return measured;

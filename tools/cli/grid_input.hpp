@@ -6,19 +6,17 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "grid/files/holes_file.hpp"
 #include "grid/observation/measured.hpp"
 #include "tools/cli/arguments.hpp"
+#include "tools/cli/input_file.hpp"
 
 namespace chaintrue::cli {
 
 struct GridInput {
   std::string grid;
-  /// Of the file, where somebody has read it already.
-  std::optional<std::string> text = std::nullopt;
   std::string machine;
   std::optional<double> length_noise_mm;
   std::optional<double> position_noise_mm;
@@ -45,22 +43,30 @@ void add_tape_options(Verb verb, TapeInput& input);
 /// What reading holes goes by of that. \throws files::InputError.
 [[nodiscard]] grid::files::HolesOptions holes_options(const TapeInput& tape);
 
+/// Where a verb that takes holes of two chains is given those of four belts.
+inline constexpr const char* kBeltHolesAreFitted =
+    "those of four belts go into one fit with its lengths: chaintrue fit belts.json --with FILE";
+
 /// Enough for a fit, or for a check of what a map says.
 enum class MeasuredUse { fit, check };
 
 /// A grid or a set of holes, as the file is; `otherwise` is the machine of a file that names none,
 /// where there is one. \throws files::InputError.
-[[nodiscard]] std::variant<grid::MeasuredGrid, grid::MeasuredHoles> read_measured_input(
-    const GridInput& input,
-    const TapeInput& tape,
-    MeasuredUse use,
-    const model::Machine* otherwise = nullptr);
+[[nodiscard]] grid::MeasuredFile load_measured(const InputFile& file,
+                                               const GridInput& input,
+                                               const TapeInput& tape,
+                                               MeasuredUse use,
+                                               const model::Machine* otherwise = nullptr);
 
-/// That and the files of --with: any mix of grids and holes of one machine, whose settings all that
+/// The first file and those of --with: any mix of grids and holes of one machine, whose settings all that
 /// state some share. \throws files::InputError.
-[[nodiscard]] grid::Measured read_measured(const GridInput& input,
+[[nodiscard]] grid::Measured load_measured(const std::vector<InputFile>& files,
+                                           const GridInput& input,
                                            const TapeInput& tape,
-                                           const std::vector<std::string>& with,
                                            MeasuredUse use);
+
+/// The file, and those of --with.
+[[nodiscard]] std::vector<InputFile> open_inputs(const std::string& path,
+                                                 const std::vector<std::string>& with);
 
 }  // namespace chaintrue::cli

@@ -14,7 +14,7 @@
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/import_maslow4.hpp"
-#include "tools/cli/machine_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"

@@ -19,7 +19,6 @@
 #include "grid/files/pending_file.hpp"
 #include "grid/printing.hpp"
 #include "tools/cli/command_line.hpp"
-#include "tools/cli/map_input.hpp"
 #include "tools/cli/option_checks.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
@@ -75,13 +74,6 @@ int run_verb(const Run& run, const std::string& verb) {
     fmt::print(stderr, "chaintrue: internal error, please report it: {}\n", error.what());
     return kInternal;
   } catch (const std::logic_error& error) {
-    if (!map_on_trust().empty()) {
-      return report_bad_input(
-          grid::files::InputError({{map_on_trust(),
-                                    "",
-                                    "numbers that do not belong together",
-                                    "a map as chaintrue wrote it; fit the points again"}}));
-    }
     fmt::print(stderr, "chaintrue: internal error, please report it: {}\n", error.what());
     return kInternal;
   } catch (const std::bad_alloc&) {

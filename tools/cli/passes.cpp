@@ -16,8 +16,9 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/planning/passes.hpp"
 #include "tools/cli/effect_argument.hpp"
-#include "tools/cli/machine_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
+#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
@@ -135,7 +136,11 @@ int follow(const PassesCommand& command) {
   if (!command.machine.empty()) options.machine = read_machine_input(command.machine);
   std::vector<grid::MeasuredHoles> sets;
   for (const std::string& path : command.sets) {
-    files::ReadHoles read = files::read_holes(path, options);
+    const InputFile file = open_input(path);
+    require_kind(file,
+                 {FileKind::holes},
+                 file.kind == FileKind::belt_holes ? "passes are of a machine on two chains" : "");
+    files::ReadHoles read = files::parse_holes(file.text, file.name, options);
     print_warnings(read.warnings);
     sets.push_back(std::move(read.holes));
   }
@@ -175,7 +180,8 @@ int follow(const PassesCommand& command) {
   return kDone;
 }
 
-int run_passes(const PassesCommand& command) {
+int run_passes(Verb verb, const PassesCommand& command) {
+  refuse_what_does_nothing(verb, command.sets.empty() ? facts::simulated : facts::measured);
   OptionProblems problems;
   const grid::SimulatedPassesRequest& request = command.request;
   problems.require("--passes", request.most, 1.0, 100.0);
@@ -234,9 +240,9 @@ void add_passes(Verb app, Run& run) {
       "Examples:\n"
       "  build/chaintrue passes --machine fixtures/machines/classic.json --passes 4 --seed 1\n"
       "  build/chaintrue passes fixtures/holes/nine_holes.json -o map.json");
-  verb.when_chosen([command, &run] {
+  verb.when_chosen([command, verb, &run] {
     if (command->sets.empty() && command->machine.empty()) missing_option("--machine");
-    run = [command] { return run_passes(*command); };
+    run = [command, verb] { return run_passes(verb, *command); };
   });
 }
 

@@ -15,8 +15,9 @@
 
 #include "grid/planning/measurement_plan.hpp"
 #include "tools/cli/effect_argument.hpp"
-#include "tools/cli/machine_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
+#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_after.hpp"
 #include "tools/cli/plan_check.hpp"
@@ -93,31 +94,52 @@ std::string in_words(const grid::MeasurementPlan& plan,
   return text;
 }
 
-int run_follow_up(PlanOptions options) {
+/// \param is_drilled the program drills its marks or holes
+Facts with_program(const PlanOptions& options, Facts facts, bool is_drilled) {
+  if (options.gcode.empty()) return facts;
+  return facts | facts::program | (is_drilled ? facts::drilled : 0U);
+}
+
+bool drills_marks(const PlanOptions& options, const model::Machine* machine) {
+  return sheet_of(options.measure, machine) == SheetOf::places;
+}
+
+int run_follow_up(Verb verb, PlanOptions options) {
+  const InputFile file = open_input(options.follow_up.file);
+  refuse_what_does_nothing(verb, with_program(options, facts_after(file), false));
   options.follow_up.machine = options.machine;
   options.follow_up.output = options.output;
   options.follow_up.drawing = options.drawing;
-  return plan_after(options.follow_up);
+  return plan_after(options.follow_up, file);
 }
 
 /// What was said on the command line takes the place of a plan's own usual values.
 void take(std::optional<double> said, double& value) { value = said.value_or(value); }
 
-int run_check_plan(PlanOptions options) {
+int run_check_plan(Verb verb, PlanOptions options) {
   grid::CheckPlanRequest& request = options.check.request;
   request.points = options.points.value_or(request.points);
   take(options.length_noise_mm, request.length_mm);
   take(options.position_noise_mm, request.position_mm);
   request.margin_mm = options.margin_mm.value_or(kReachableMm);
   options.check.measure = options.measure;
-  return plan_the_check(options.check, outputs_of(options));
+  return with_map(open_input(options.check.map), [&](const grid::CompensationMap& map) {
+    refuse_what_does_nothing(
+        verb, with_program(options, facts::check, drills_marks(options, map.machine())));
+    return plan_the_check(map, options.check, outputs_of(options));
+  });
 }
 
-int run_plan(PlanOptions options) {
-  if (!options.follow_up.after.empty()) return run_follow_up(std::move(options));
-  if (!options.check.map.empty()) return run_check_plan(std::move(options));
+int run_plan(Verb verb, PlanOptions options) {
+  if (!options.follow_up.after.empty()) return run_follow_up(verb, std::move(options));
+  if (!options.check.map.empty()) return run_check_plan(verb, std::move(options));
+  const bool of_tape = options.holes.request.holes != 0;
   const model::Machine machine = read_machine_input(options.machine);
-  if (options.holes.request.holes != 0) {
+  refuse_what_does_nothing(verb,
+                           with_program(options,
+                                        of_tape ? facts::tape : facts::lattice,
+                                        of_tape || drills_marks(options, &machine)));
+  if (of_tape) {
     options.holes.request.margin_mm = options.margin_mm.value_or(kReachableMm);
     const int code = plan_the_holes(options.holes, machine, outputs_of(options));
     if (code == kDone) say_next_of_sheet(outputs_of(options), options.machine);
@@ -258,12 +280,12 @@ void add_plan(Verb app, Run& run) {
       "--tape-sigma-mm 0.5 -o holes.csv --gcode holes.nc --svg holes.svg\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue plan --check map.json -o five.csv --svg five.svg");
-  verb.when_chosen([options, &run] {
+  verb.when_chosen([options, verb, &run] {
     if (options->follow_up.after.empty() && !options->follow_up.file.empty())
       missing_option("--after");
     if (options->follow_up.after.empty() && options->check.map.empty() && options->machine.empty())
       missing_option("--machine");
-    run = [options] { return run_plan(*options); };
+    run = [options, verb] { return run_plan(verb, *options); };
   });
 }
 

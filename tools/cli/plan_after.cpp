@@ -8,21 +8,18 @@
 #include <cstdio>
 #include <optional>
 
-#include "grid/files/belts_file.hpp"
-#include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/follow_up.hpp"
 #include "tools/cli/follow_up_holes.hpp"
-#include "tools/cli/machine_input.hpp"
+#include "tools/cli/grid_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_after_belts.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -45,42 +42,38 @@ struct Sources {
   std::vector<grid::MeasuredHoles> sets;
 };
 
-bool is_json(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  return begin != std::string::npos && text[begin] == '{';
-}
-
 /// `few`: beside other files a reading or two are enough.
-void read(const std::string& path,
-          const std::string& text,
+void read(const InputFile& file,
           const std::optional<model::Machine>& machine,
           bool few,
           Sources& sources) {
-  const std::string name = files::name_in_messages(path);
-  const bool of_holes = files::looks_like_holes(text);
-  sources.all.push_back(
-      {name, is_json(text), of_holes, of_holes ? sources.sets.size() : sources.grids.size()});
+  require_kind(file,
+               {FileKind::grid, FileKind::holes},
+               file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
+  const bool of_holes = file.kind == FileKind::holes;
+  sources.all.push_back({file.name,
+                         files::is_json(file.text),
+                         of_holes,
+                         of_holes ? sources.sets.size() : sources.grids.size()});
   if (of_holes) {
     files::HolesOptions options;
     options.machine = machine;
     if (few) options.fewest_distances = 1;
-    sources.sets.push_back(files::parse_holes(text, name, options).holes);
+    sources.sets.push_back(files::parse_holes(file.text, file.name, options).holes);
   } else {
     files::GridOptions options;
     options.machine = machine;
     if (few) options.fewest_points = 1;
-    sources.grids.push_back(files::parse_grid(text, name, options).grid);
+    sources.grids.push_back(files::parse_grid(file.text, file.name, options).grid);
   }
 }
 
-/// `text` is that of the first file.
-Sources read_sources(const PlanAfterOptions& options, const std::string& text) {
+Sources read_sources(const PlanAfterOptions& options, const InputFile& file) {
   std::optional<model::Machine> machine;
   if (!options.machine.empty()) machine = read_machine_input(options.machine);
   Sources sources;
-  read(options.file, text, machine, false, sources);
-  for (const std::string& path : options.with)
-    read(path, files::read_whole_file(path), machine, true, sources);
+  read(file, machine, false, sources);
+  for (const std::string& path : options.with) read(open_input(path), machine, true, sources);
   return sources;
 }
 
@@ -168,13 +161,19 @@ std::string drawing_of(const Diagnosis& found, const Sources& sources) {
 
 }  // namespace
 
-int plan_after(const PlanAfterOptions& options) {
-  const std::string text = files::read_whole_file(options.file);
-  if (files::looks_like_belts(text)) return plan_after_belts(options, text);
-  const Sources sources = read_sources(options, text);
-  std::vector<files::Warning> warnings;
-  const Diagnosis found = files::read_diagnosis(options.after, &warnings);
-  print_warnings(warnings);
+Facts facts_after(const InputFile& file) {
+  require_kind(file,
+               {FileKind::grid, FileKind::holes, FileKind::belts},
+               file.kind == FileKind::belt_holes ? kBeltHolesAreFitted : "");
+  return facts::follow_up | (file.kind == FileKind::grid    ? facts::grid
+                             : file.kind == FileKind::holes ? facts::holes
+                                                            : facts::belts);
+}
+
+int plan_after(const PlanAfterOptions& options, const InputFile& file) {
+  if (file.kind == FileKind::belts) return plan_after_belts(options, file);
+  const Sources sources = read_sources(options, file);
+  const Diagnosis found = load_diagnosis(open_input(options.after));
   const std::string others = made_from_others(options, found, sources);
   if (!others.empty()) {
     fmt::print(stderr, "{}", others);

@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "tools/cli/input_file.hpp"
+#include "tools/cli/option_rules.hpp"
+
 namespace chaintrue::cli {
 
 struct PlanAfterOptions {
@@ -18,7 +21,11 @@ struct PlanAfterOptions {
   std::string drawing;
 };
 
+/// What options depend on. \throws files::InputError for a file of another kind.
+[[nodiscard]] Facts facts_after(const InputFile& file);
+
+/// \param file that of the options, opened
 /// \throws files::InputError. Returns an exit code.
-[[nodiscard]] int plan_after(const PlanAfterOptions& options);
+[[nodiscard]] int plan_after(const PlanAfterOptions& options, const InputFile& file);
 
 }  // namespace chaintrue::cli

@@ -10,17 +10,14 @@
 #include <optional>
 
 #include "grid/files/belts_file.hpp"
-#include "grid/files/diagnosis_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "model/belts/belt_kinematics.hpp"
 #include "tools/cli/diagnosis_words.hpp"
 #include "tools/cli/follow_up.hpp"
-#include "tools/cli/option_checks.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -114,31 +111,16 @@ std::string drawing_of(const Diagnosis& found) {
                          std::max(a.tl.y_mm, a.tr.y_mm)});
 }
 
-/// Belts are diagnosed by themselves, on the machine in their own file.
-void check_options(const PlanAfterOptions& options) {
-  OptionProblems problems;
-  if (!options.machine.empty())
-    problems.add("--machine", options.machine, "to be left out: belts name their own machine");
-  if (!options.with.empty())
-    problems.add(
-        "--with", options.with.front(), "to be left out: belts are diagnosed by themselves");
-  problems.throw_if_any();
-}
-
 }  // namespace
 
-int plan_after_belts(const PlanAfterOptions& options, const std::string& text) {
-  check_options(options);
-  const std::string file = files::name_in_messages(options.file);
-  files::ReadBelts read = files::parse_belts(text, file);
-  std::vector<files::Warning> warnings = read.warnings;
-  const Diagnosis found = files::read_diagnosis(options.after, &warnings);
-  print_warnings(warnings);
+int plan_after_belts(const PlanAfterOptions& options, const InputFile& file) {
+  const files::ReadBelts read = load_belts(file, "a diagnosis");
+  const Diagnosis found = load_diagnosis(open_input(options.after));
   if (!is_of(found, read.belts)) {
     fmt::print(stderr,
                "{} was made from other readings than those of {}: diagnose these first.\n",
                options.after,
-               file);
+               file.name);
     return kBadInput;
   }
   std::vector<files::OutputFile> outputs;

@@ -10,6 +10,6 @@
 namespace chaintrue::cli {
 
 /// `text` is that of the belts' file. \throws files::InputError. Returns an exit code.
-[[nodiscard]] int plan_after_belts(const PlanAfterOptions& options, const std::string& text);
+[[nodiscard]] int plan_after_belts(const PlanAfterOptions& options, const InputFile& file);
 
 }  // namespace chaintrue::cli

@@ -10,7 +10,6 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/map/map_check.hpp"
 #include "tools/cli/effect_argument.hpp"
-#include "tools/cli/map_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
 #include "tools/cli/talk.hpp"
@@ -43,8 +42,9 @@ std::string draw(const grid::CheckPlan& plan, const grid::CompensationMap& map) 
 
 }  // namespace
 
-int plan_the_check(const CheckPlanOptions& options, const PlanOutputs& wanted) {
-  const grid::CompensationMap map = read_map_input(options.map);
+int plan_the_check(const grid::CompensationMap& map,
+                   const CheckPlanOptions& options,
+                   const PlanOutputs& wanted) {
   check_options(options.request, map);
   const auto plan = grid::plan_check(map, options.request);
   if (!plan) {

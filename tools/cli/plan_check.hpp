@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "grid/map/compensation_map.hpp"
 #include "grid/planning/check_plan.hpp"
 #include "tools/cli/plan_outputs.hpp"
 
@@ -20,6 +21,8 @@ struct CheckPlanOptions {
 
 /// Writes the list and the drawing; returns the exit code. \throws files::InputError for values out
 /// of range.
-[[nodiscard]] int plan_the_check(const CheckPlanOptions& options, const PlanOutputs& wanted);
+[[nodiscard]] int plan_the_check(const grid::CompensationMap& map,
+                                 const CheckPlanOptions& options,
+                                 const PlanOutputs& wanted);
 
 }  // namespace chaintrue::cli

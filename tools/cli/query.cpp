@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "grid/files/anchors_file.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "tools/cli/effect_argument.hpp"
-#include "tools/cli/map_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
+#include "tools/cli/option_rules.hpp"
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
@@ -140,36 +140,7 @@ std::string page_of(const std::string& map) {
   return std::filesystem::path(map).replace_extension(".html").string();
 }
 
-/// What a map alone has.
-void check_options_of_belts(const QueryCommand& command) {
-  OptionProblems problems;
-  if (command.frame == "bed")
-    problems.add("--frame",
-                 command.frame,
-                 "\"marks\": belts count from where their frame's diagonals "
-                 "cross, and know no other frame");
-  if (!command.outside.way.empty())
-    problems.add("--outside",
-                 command.outside.way,
-                 "to be left out: four belts have no surface that "
-                 "could end");
-  problems.throw_if_any();
-}
-
-int run_query(const QueryCommand& command) {
-  const std::string text = files::read_whole_file(command.map);
-  if (files::looks_like_anchors(text)) {
-    check_options_of_belts(command);
-    // A program for belts knows one frame.
-    std::vector<model::BedPoint> points;
-    if (command.inverse.empty()) {
-      for (const model::MarkPoint& point : points_asked(command))
-        points.push_back(model::laid_as_bed(point));
-    }
-    return query_anchors(
-        {command.map, text, std::move(points), command.inverse, command.output, command.json});
-  }
-  const grid::CompensationMap stored = parse_map_input(text, files::name_in_messages(command.map));
+int query_map(const QueryCommand& command, const grid::CompensationMap& stored) {
   if (command.outside.way == "fade" && stored.machine() == nullptr) {
     fmt::print(stderr,
                "{}: without a machine nothing is left where the map's surface fades out\n",
@@ -209,6 +180,25 @@ int run_query(const QueryCommand& command) {
   write_output(command.output, command.json ? as_json(lines) : as_csv(lines));
   if (outside.empty()) say_next(next);
   return outside.empty() ? kDone : kNotSupportedOrOutside;
+}
+
+int run_query(Verb verb, const QueryCommand& command) {
+  const InputFile file = open_input(command.map);
+  require_kind(file, {FileKind::map, FileKind::anchors});
+  refuse_what_does_nothing(verb,
+                           (file.kind == FileKind::map ? facts::map : facts::anchors) |
+                               (command.outside.way == "fade" ? facts::fade : 0U));
+  if (file.kind == FileKind::map) {
+    return with_map(
+        file, [&](const grid::CompensationMap& stored) { return query_map(command, stored); });
+  }
+  // A program for belts knows one frame.
+  std::vector<model::BedPoint> points;
+  if (command.inverse.empty()) {
+    for (const model::MarkPoint& point : points_asked(command))
+      points.push_back(model::laid_as_bed(point));
+  }
+  return query_anchors({file, std::move(points), command.inverse, command.output, command.json});
 }
 
 /// What CLI11 cannot say of the options together.
@@ -265,9 +255,9 @@ void add_query(Verb app, Run& run) {
       "takes these two.\n\nExample:\n"
       "  build/chaintrue fit fixtures/grids/seven_by_four.json -o map.json\n"
       "  build/chaintrue query map.json 100 200 -1000 -450");
-  verb.when_chosen([command, &run] {
+  verb.when_chosen([command, verb, &run] {
     check_usage(*command);
-    run = [command] { return run_query(*command); };
+    run = [command, verb] { return run_query(verb, *command); };
   });
 }
 

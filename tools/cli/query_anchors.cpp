@@ -10,7 +10,6 @@
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/belts_input.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
@@ -127,15 +126,14 @@ int answer_inverse(const grid::BeltMap& map, const AnchorsQuery& query) {
 }  // namespace
 
 int query_anchors(const AnchorsQuery& query) {
-  const std::string file = files::name_in_messages(query.path);
-  const files::FittedAnchors anchors = parse_anchors_input(query.text, file);
-  const grid::BeltMap map = map_of(anchors, file);
+  const files::FittedAnchors anchors = load_anchors(query.file);
+  const grid::BeltMap map = map_of(anchors, query.file.name);
   const model::BeltMachine machine = grid::paying_out(anchors.fit.machine);
   const std::vector<std::string> next = {
       "report",
-      query.path,
+      query.file.path,
       "-o",
-      std::filesystem::path(query.path).replace_extension(".html").string()};
+      std::filesystem::path(query.file.path).replace_extension(".html").string()};
   if (!query.inverse.empty()) {
     const int code = answer_inverse(map, query);
     if (code == kDone) say_next(next);

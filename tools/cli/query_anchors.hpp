@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "model/coordinates.hpp"
+#include "tools/cli/input_file.hpp"
 
 namespace chaintrue::cli {
 
 struct AnchorsQuery {
-  std::string path;
-  std::string text;  ///< of that file
+  InputFile file;
   std::vector<model::BedPoint> points;
   std::vector<double> inverse;  ///< of the upper two belts; empty where points are asked
   std::string output = "-";

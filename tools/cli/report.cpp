@@ -10,20 +10,16 @@
 #include <string>
 #include <vector>
 
-#include "grid/files/diagnosis_file.hpp"
-#include "grid/files/file_type.hpp"
-#include "grid/files/input_error.hpp"
 #include "grid/files/whole_file.hpp"
-#include "tools/cli/belts_input.hpp"
 #include "tools/cli/anchors_document.hpp"
 #include "tools/cli/certificate.hpp"
 #include "tools/cli/diagnosis_document.hpp"
-#include "tools/cli/map_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/map_document.hpp"
+#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/cli/warnings.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -37,109 +33,69 @@ struct ReportCommand {
   std::string date;
 };
 
-/// A kind of file that has a page; `called` stands for one that came through a pipe.
-struct Reportable {
-  std::string_view file_type;
-  std::string_view called;
-  report::Document (*page)(const std::string& text, const std::string& file, std::string_view source);
-  /// Null where there is none.
-  report::Document (*certificate)(const std::string& text,
-                              const std::string& file,
-                              std::string_view source);
-  std::vector<std::string> (*next)(const std::string& text,
-                                   const std::string& file,
-                                   const std::string& path);
+/// A page of the file, and the command that comes next.
+struct Reported {
+  report::Document page;
+  std::vector<std::string> next;
 };
 
-report::Document page_of_map(const std::string& text,
-                         const std::string& file,
-                         std::string_view source) {
-  return map_document(parse_map_input(text, file), source);
+Reported of_map(const InputFile& file, bool as_certificate, std::string_view source) {
+  return with_map(file, [&](const grid::CompensationMap& map) {
+    return Reported{
+        as_certificate ? certificate(map, source) : map_document(map, source),
+        map.machine() == nullptr
+            ? std::vector<std::string>{"query", file.path, "--help"}
+            : std::vector<std::string>{"plan", "--check", file.path, "-o", "check.csv"}};
+  });
 }
 
-report::Document certificate_of_map(const std::string& text,
-                                const std::string& file,
-                                std::string_view source) {
-  return certificate(parse_map_input(text, file), source);
+Reported of_diagnosis(const InputFile& file, std::string_view source) {
+  const grid::diagnosis::Diagnosis found = load_diagnosis(file);
+  return {diagnosis_document(found, source),
+          found.causes.empty()
+              ? std::vector<std::string>{"export",
+                                         found.belts ? "maslow4" : "groundcontrol",
+                                         file.path}
+              : std::vector<std::string>{"effects",
+                                         std::string(found.causes.front().cause.effect->id)}};
 }
 
-report::Document page_of_diagnosis(const std::string& text,
-                               const std::string& file,
-                               std::string_view source) {
-  std::vector<files::Warning> warnings;
-  const grid::diagnosis::Diagnosis found = files::parse_diagnosis(text, file, &warnings);
-  print_warnings(warnings);
-  return diagnosis_document(found, source);
+Reported of_anchors(const InputFile& file, std::string_view source) {
+  const files::FittedAnchors found = load_anchors(file);
+  return {anchors_document(
+              {found.fit, found.holes ? &*found.holes : nullptr}, found.name, source),
+          {"export", "maslow4", file.path}};
 }
 
-report::Document page_of_anchors(const std::string& text,
-                             const std::string& file,
-                             std::string_view source) {
-  const files::FittedAnchors found = parse_anchors_input(text, file);
-  return anchors_document(
-      {found.fit, found.holes ? &*found.holes : nullptr}, found.name, source);
+Facts fact_of(FileKind kind) {
+  if (kind == FileKind::map) return facts::map;
+  return kind == FileKind::anchors ? facts::anchors : facts::diagnosis;
 }
 
-std::vector<std::string> next_of_map(const std::string& text,
-                                     const std::string& file,
-                                     const std::string& path) {
-  if (parse_map_input(text, file).machine() == nullptr) return {"query", path, "--help"};
-  return {"plan", "--check", path, "-o", "check.csv"};
+/// What a page calls its source: the file, or what came through a pipe.
+std::string source_of(const InputFile& file) {
+  if (file.path != "-") return std::filesystem::path(file.path).filename().string();
+  if (file.kind == FileKind::map) return "a map";
+  return file.kind == FileKind::anchors ? "anchors" : "a diagnosis";
 }
 
-std::vector<std::string> next_of_diagnosis(const std::string& text,
-                                           const std::string& file,
-                                           const std::string& path) {
-  const grid::diagnosis::Diagnosis found = files::parse_diagnosis(text, file);
-  if (!found.causes.empty()) return {"effects", std::string(found.causes.front().cause.effect->id)};
-  return {"export", "groundcontrol", path};
-}
-
-std::vector<std::string> next_of_anchors(const std::string&,
-                                         const std::string&,
-                                         const std::string& path) {
-  return {"export", "maslow4", path};
-}
-
-constexpr std::array kReportables = {
-    Reportable{"chaintrue_map", "a map", page_of_map, certificate_of_map, next_of_map},
-    Reportable{"chaintrue_diagnosis", "a diagnosis", page_of_diagnosis, nullptr, next_of_diagnosis},
-    Reportable{"chaintrue_anchors", "anchors", page_of_anchors, nullptr, next_of_anchors},
-};
-
-const Reportable& reportable(const std::string& text, const std::string& file) {
-  const std::string type = files::file_type_of(text, file);
-  std::string known;
-  for (const Reportable& kind : kReportables) {
-    if (kind.file_type == type) return kind;
-    known += fmt::format("{}\"{}\"", known.empty() ? "" : " or ", kind.file_type);
-  }
-  throw files::InputError(
-      {{file, "/file_type", type.empty() ? "" : fmt::format("\"{}\"", type), known}});
-}
-
-int run_report(const ReportCommand& command) {
-  const std::string text = files::read_whole_file(command.input);
-  const std::string file = files::name_in_messages(command.input);
-  const Reportable& kind = reportable(text, file);
-  const std::string source = command.input == "-"
-                                 ? std::string(kind.called)
-                                 : std::filesystem::path(command.input).filename().string();
-  if (command.certificate && kind.certificate == nullptr) {
-    throw files::InputError({{file,
-                              "/file_type",
-                              fmt::format("\"{}\"", kind.file_type),
-                              "\"chaintrue_map\": only a map has a certificate"}});
-  }
-  const auto page = command.certificate ? kind.certificate : kind.page;
-  report::Document made = page(text, file, source);
+int run_report(Verb verb, const ReportCommand& command) {
+  const InputFile file = open_input(command.input);
+  require_kind(file, {FileKind::map, FileKind::diagnosis, FileKind::anchors});
+  refuse_what_does_nothing(verb, fact_of(file.kind));
+  const std::string source = source_of(file);
+  Reported made = file.kind == FileKind::map         ? of_map(file, command.certificate, source)
+                  : file.kind == FileKind::diagnosis ? of_diagnosis(file, source)
+                                                     : of_anchors(file, source);
   // The clock is not asked: the same map gives the same page.
-  if (!command.date.empty())
-    made.subtitle += fmt::format("{}{}", made.subtitle.empty() ? "" : ", ", command.date);
-  write_output(command.output, report::render_html(made));
-  if (command.output != "-")
-    fmt::print(stderr, "The report is {}: open it in any browser.\n", command.output);
-  if (command.output != "-") say_next(kind.next(text, file, command.input));
+  if (!command.date.empty()) {
+    std::string& subtitle = made.page.subtitle;
+    subtitle += fmt::format("{}{}", subtitle.empty() ? "" : ", ", command.date);
+  }
+  write_output(command.output, report::render_html(made.page));
+  if (command.output == "-") return kDone;
+  fmt::print(stderr, "The report is {}: open it in any browser.\n", command.output);
+  say_next(made.next);
   return kDone;
 }
 
@@ -165,7 +121,8 @@ void add_report(Verb app, Run& run) {
       "  build/chaintrue report map.json -o report.html\n"
       "  build/chaintrue diagnose fixtures/grids/seven_by_four.json -o diagnosis.json\n"
       "  build/chaintrue report diagnosis.json -o diagnosis.html");
-  verb.when_chosen([command, &run] { run = [command] { return run_report(*command); }; });
+  verb.when_chosen(
+      [command, verb, &run] { run = [command, verb] { return run_report(verb, *command); }; });
 }
 
 }  // namespace chaintrue::cli

@@ -15,10 +15,10 @@
 #include "grid/files/ranges.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/planning/measurement_plan.hpp"
-#include "model/calibration/setting.hpp"
-#include "tools/cli/machine_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
 #include "tools/cli/option_checks.hpp"
+#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/simulate_belts.hpp"
@@ -94,29 +94,20 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
   return kDone;
 }
 
-int run_simulate(const SimulateOptions& options) {
+Facts facts_of(const SimulateOptions& options) {
+  if (!options.belts.empty()) return facts::belts;
+  if (!options.grid.empty()) return facts::lattice;
+  if (!options.marks.empty()) return facts::marks;
+  if (!options.points.empty()) return facts::places;
+  return options.holes.plan.holes != 0 ? facts::tape : facts::scattered;
+}
+
+int run_simulate(Verb verb, const SimulateOptions& options) {
+  refuse_what_does_nothing(verb, facts_of(options));
   if (!options.belts.empty()) return simulate_the_belts(options);
   const model::Machine machine = read_machine_input(options.machine);
   if (options.holes.plan.holes != 0) {
-    synthetic::HolesSpec spec;
-    OptionProblems problems;
-    spec.hidden = parse_effects(options.effects, machine, problems);
-    const std::vector<synthetic::SettingOffset> offsets = parse_offsets(options.offsets, problems);
-    for (const synthetic::SettingOffset& offset : offsets) {
-      if (offset.setting < model::Setting::sheet_x_mm || options.holes.plan.edges) continue;
-      problems.add("--offset",
-                   std::string(model::name(offset.setting)),
-                   "a setting of the machine; without --edges holes know their distances, not the "
-                   "sheet");
-    }
-    problems.throw_if_any();
-    spec.draw_settings = options.draw_settings;
-    spec.seed = options.seed;
-    model::Machine truth = synthetic::hidden_truth(machine, spec);
-    for (const synthetic::SettingOffset& offset : offsets) {
-      synthetic::offset_setting(truth, spec.sheet, offset);
-    }
-    const int code = simulate_the_holes(options.holes, machine, truth, spec, options.output);
+    const int code = simulate_the_holes(options, machine);
     if (code == kDone) say_next_of(options);
     return code;
   }
@@ -307,11 +298,11 @@ void add_simulate(Verb app, Run& run) {
       "  build/chaintrue simulate --belts fixtures/belts/thirty_one_places.json --grid 9x9 "
       "--effect belt_stretch:-:elongation=0.004 --offset tl_x_mm=12 --seed 1 -o belts.json");
   add_option_check(verb, [options](OptionProblems& problems) { check_words(*options, problems); });
-  verb.when_chosen([options, &run] {
+  verb.when_chosen([options, verb, &run] {
     if (!options->belts.empty() && options->grid.empty()) {
       usage_error("simulate", "--belts goes with --grid, columns x rows of places");
     }
-    run = [options] { return run_simulate(*options); };
+    run = [options, verb] { return run_simulate(verb, *options); };
   });
 }
 

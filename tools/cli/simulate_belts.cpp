@@ -7,11 +7,10 @@
 #include <cstdio>
 
 #include "grid/files/belts_file.hpp"
-#include "grid/files/file_type.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/synthetic/simulated_belts.hpp"
 #include "model/belts/belt_readings.hpp"
-#include "tools/cli/belts_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -22,13 +21,14 @@ namespace files = grid::files;
 namespace synthetic = grid::synthetic;
 
 model::BeltMachine machine_of(const std::string& path) {
-  const std::string text = files::read_whole_file(path);
-  const std::string file = files::name_in_messages(path);
-  const bool is_fitted = files::file_type_of(text, file) == "chaintrue_anchors";
-  const model::BeltMachine machine = is_fitted ? parse_anchors_input(text, file).fit.machine
-                                               : files::parse_belts(text, file).belts.machine;
+  const InputFile file = open_input(path);
+  require_kind(file, {FileKind::belts, FileKind::anchors});
+  const bool is_fitted = file.kind == FileKind::anchors;
+  const model::BeltMachine machine = is_fitted
+                                         ? load_anchors(file).fit.machine
+                                         : load_belts(file, "a simulation").belts.machine;
   if (!machine.anchors_known) {
-    throw files::InputError({{file,
+    throw files::InputError({{file.name,
                               is_fitted ? "/fit/machine/anchors" : "/machine/anchors",
                               "",
                               "x_mm and y_mm of all four anchors: what is simulated goes by them; "
@@ -101,34 +101,11 @@ synthetic::BeltsSpec spec_of(const SimulateOptions& options, OptionProblems& pro
   return spec;
 }
 
-/// What is of chains and marks: nothing of it would be heeded.
-void refuse_options_of_chains(const SimulateOptions& options, OptionProblems& problems) {
-  const SimulateOptions usual;
-  const auto refuse = [&](bool is_given, const char* option, std::string value) {
-    if (is_given)
-      problems.add(option,
-                   std::move(value),
-                   "to be left out beside --belts, which takes --grid, --offset, --effect, "
-                   "--length-noise-mm, --bad-points and --seed");
-  };
-  refuse(options.draw_settings, "--draw-settings", "given");
-  refuse(!options.answer.empty(), "--answer", options.answer);
-  refuse(!options.points.empty(), "--points", options.points);
-  refuse(!options.marks.empty(), "--marks", options.marks);
-  refuse(options.random_points > 0, "--random", fmt::format("{}", options.random_points));
-  refuse(options.repeats > 0, "--repeats", fmt::format("{}", options.repeats));
-  refuse(options.jitter_mm > 0.0, "--jitter-mm", fmt::format("{:g}", options.jitter_mm));
-  refuse(options.without_corners, "--without-corners", "given");
-  refuse(options.region != usual.region, "--region", options.region);
-  refuse(options.model != usual.model, "--model", options.model);
-}
-
 }  // namespace
 
 int simulate_the_belts(const SimulateOptions& options) {
   const model::BeltMachine stated = machine_of(options.belts);
   OptionProblems problems;
-  refuse_options_of_chains(options, problems);
   const synthetic::BeltsSpec spec = spec_of(options, problems);
   model::BeltMachine truth = stated;
   for (const std::string& offset : options.offsets) take_offset(offset, truth, problems);

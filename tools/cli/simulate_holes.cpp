@@ -3,46 +3,103 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "grid/files/answer_file.hpp"
 #include "grid/files/holes_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "model/calibration/setting.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_holes.hpp"
+#include "tools/cli/simulate_options.hpp"
 #include "tools/cli/verb.hpp"
 
 namespace chaintrue::cli {
+namespace {
 
-int simulate_the_holes(const HolesOptions& options,
-                       const model::Machine& stated,
-                       const model::Machine& truth,
-                       const grid::synthetic::HolesSpec& spec,
-                       const std::string& output) {
+namespace synthetic = grid::synthetic;
+
+void check_values(const SimulateOptions& options,
+                  const model::Machine& stated,
+                  OptionProblems& problems) {
+  require_sound(problems, options.holes.plan);
+  problems.require("--hook-offset-mm", options.holes.hook_offset_mm, -1000.0, 1000.0);
+  problems.require("--tape-rounding-mm", options.holes.rounding_mm, 0.0, 100.0);
+  if (options.margin_mm) {
+    const double half = 0.5 * std::min(stated.bed.width_mm, stated.bed.height_mm);
+    problems.require("--margin-mm", *options.margin_mm, 0.0, std::max(0.0, half - 200.0));
+  }
+}
+
+std::vector<synthetic::SettingOffset> offsets_of(const SimulateOptions& options,
+                                                 OptionProblems& problems) {
+  std::vector<synthetic::SettingOffset> offsets = parse_offsets(options.offsets, problems);
+  for (const synthetic::SettingOffset& offset : offsets) {
+    if (offset.setting < model::Setting::sheet_x_mm || options.holes.plan.edges) continue;
+    problems.add("--offset",
+                 std::string(model::name(offset.setting)),
+                 "a setting of the machine; without --edges holes know their distances, not the "
+                 "sheet");
+  }
+  return offsets;
+}
+
+synthetic::HolesSpec spec_of(const SimulateOptions& options,
+                             const model::Machine& stated,
+                             OptionProblems& problems) {
+  synthetic::HolesSpec spec;
+  spec.hidden = parse_effects(options.effects, stated, problems);
+  spec.draw_settings = options.draw_settings;
+  spec.rounding_mm = options.holes.rounding_mm;
+  spec.bad_readings = options.bad.count;
+  spec.bad_size_mm = options.bad.size_mm;
+  spec.seed = options.seed;
+  return spec;
+}
+
+}  // namespace
+
+int simulate_the_holes(const SimulateOptions& options, const model::Machine& stated) {
   OptionProblems problems;
-  require_sound(problems, options.plan);
-  problems.require("--hook-offset-mm", options.hook_offset_mm, -1000.0, 1000.0);
-  problems.require("--tape-rounding-mm", options.rounding_mm, 0.0, 100.0);
+  synthetic::HolesSpec spec = spec_of(options, stated, problems);
+  const std::vector<synthetic::SettingOffset> offsets = offsets_of(options, problems);
+  check_values(options, stated, problems);
+  problems.throw_if_any();
+  model::Machine truth = synthetic::hidden_truth(stated, spec);
+  for (const synthetic::SettingOffset& offset : offsets)
+    synthetic::offset_setting(truth, spec.sheet, offset);
   for (const model::MachineProblem& problem : model::problems_of(truth)) {
     problems.add(
         "--offset", fmt::format("{} = {}", problem.parameter, problem.value), problem.expected);
   }
   problems.throw_if_any();
-  auto plan = grid::plan_holes(stated, options.plan);
+  grid::HolesPlanRequest request = options.holes.plan;
+  request.margin_mm = options.margin_mm.value_or(request.margin_mm);
+  auto plan = grid::plan_holes(stated, request);
   if (!plan) {
     fmt::print(stderr, "chaintrue simulate: {}\n", plan.error().sentence);
     return kNotSupportedOrOutside;
   }
   grid::MeasuredHoles design = std::move(plan->set);
-  design.name = fmt::format("simulated, seed {}", spec.seed);
-  design.tape.hook_offset_mm = options.hook_offset_mm;
-  grid::synthetic::HolesSpec with = spec;
-  with.rounding_mm = options.rounding_mm;
-  const auto made = grid::synthetic::simulate_holes(design, with, truth);
+  if (spec.bad_readings > static_cast<int>(design.distances.size())) {
+    problems.add("--bad-points",
+                 fmt::format("{}", spec.bad_readings),
+                 fmt::format("at most one for each of the {} distances", design.distances.size()));
+    problems.throw_if_any();
+  }
+  design.name = options.name.empty() ? fmt::format("simulated, seed {}", spec.seed) : options.name;
+  design.tape.hook_offset_mm = options.holes.hook_offset_mm;
+  const auto made = synthetic::simulate_holes(design, spec, truth);
   if (!made) {
     fmt::print(stderr, "chaintrue simulate: {}\n", made.error().sentence);
     return kNotSupportedOrOutside;
   }
-  write_output(output, grid::files::write_holes(made->set));
+  write_outputs({{options.answer, grid::files::write_answer(*made, spec)},
+                 {options.output, grid::files::write_holes(made->set)}});
   return kDone;
 }
 

@@ -3,8 +3,6 @@
 /// The part of chaintrue simulate that cuts holes and measures them with a tape.
 #pragma once
 
-#include <string>
-
 #include "grid/planning/holes_plan.hpp"
 #include "grid/synthetic/holes.hpp"
 
@@ -17,11 +15,10 @@ struct HolesOptions {
   double rounding_mm = 0.0;
 };
 
-/// Writes the set and returns the exit code. \throws files::InputError for values out of range.
-[[nodiscard]] int simulate_the_holes(const HolesOptions& options,
-                                     const model::Machine& stated,
-                                     const model::Machine& truth,
-                                     const grid::synthetic::HolesSpec& spec,
-                                     const std::string& output);
+struct SimulateOptions;
+
+/// Writes the set, and what it hides where that is wanted; returns the exit code. \throws
+/// files::InputError for values out of range.
+[[nodiscard]] int simulate_the_holes(const SimulateOptions& options, const model::Machine& stated);
 
 }  // namespace chaintrue::cli

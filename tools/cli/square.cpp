@@ -17,9 +17,9 @@
 #include "model/square.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/gcode_job.hpp"
-#include "tools/cli/machine_input.hpp"
-#include "tools/cli/map_input.hpp"
+#include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
+#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/square_drawing.hpp"
 #include "tools/cli/square_program.hpp"
@@ -78,8 +78,8 @@ tl::expected<model::CutSquare, SquareRefusal> by_machines(const SquareOptions& o
 /// The controller pays out what its settings say for each command; the map tells where the tool is
 /// with that.
 tl::expected<model::CutSquare, SquareRefusal> by_map(const SquareOptions& options,
-                                                     const model::SquareTask& task) {
-  const grid::CompensationMap map = read_map_input(options.map);
+                                                     const model::SquareTask& task,
+                                                     const grid::CompensationMap& map) {
   const auto believed = options.controller_machine.empty()
                             ? gcode::stated_machine(map)
                             : read_machine_input(options.controller_machine);
@@ -182,9 +182,20 @@ void say_what_to_do(const SquareOptions& options, const model::SquareTask& task)
             options.program == "-" ? "-" : compensated_name(options.program)});
 }
 
-int run_square(const SquareOptions& options) {
+tl::expected<model::CutSquare, SquareRefusal> predicted(const SquareOptions& options,
+                                                        const model::SquareTask& task) {
+  if (options.map.empty()) return by_machines(options, task);
+  return with_map(open_input(options.map), [&](const grid::CompensationMap& map) {
+    return by_map(options, task, map);
+  });
+}
+
+int run_square(Verb verb, const SquareOptions& options) {
+  refuse_what_does_nothing(verb,
+                           (options.map.empty() ? facts::machine : facts::map) |
+                               (options.program.empty() ? 0U : facts::program));
   const model::SquareTask task = task_of(options);
-  const auto square = options.map.empty() ? by_machines(options, task) : by_map(options, task);
+  const auto square = predicted(options, task);
   if (!square) {
     const SquareRefusal& refusal = square.error();
     fmt::print(stderr,
@@ -247,12 +258,12 @@ void add_square(Verb app, Run& run) {
       "  build/chaintrue square --machine fixtures/machines/classic.json --controller-machine "
       "fixtures/machines/believed_straight.json --size-mm 100 --at -1040 535 --below -o "
       "square.svg");
-  verb.when_chosen([options, &run] {
+  verb.when_chosen([options, verb, &run] {
     if (options->map.empty()) {
       if (options->machine.empty()) missing_option("--map, or --machine,");
       if (options->controller_machine.empty()) missing_option("--controller-machine");
     }
-    run = [options] { return run_square(*options); };
+    run = [options, verb] { return run_square(verb, *options); };
   });
 }
 

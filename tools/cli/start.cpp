@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/files/file_type.hpp"
 #include "grid/files/fluidnc_file.hpp"
 #include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/machine_file.hpp"
@@ -47,12 +48,11 @@ struct Started {
 Started started_from(const std::string& path) {
   const std::string text = files::read_whole_file(path);
   const std::string file = files::name_in_messages(path);
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  const bool json = first != std::string::npos && text[first] == '{';
-  if (json && files::looks_like_webcontrol(text)) return {files::parse_webcontrol(text, file)};
+  const bool json = files::is_json(text);
+  if (json && files::is_webcontrol(text, file)) return {files::parse_webcontrol(text, file)};
   if (json) return {files::parse_machine_with_warnings(text, file), true};
   const std::string ending = fs::path(path).extension().string();
-  if (ending == ".yaml" || ending == ".yml" || files::looks_like_fluidnc(text))
+  if (ending == ".yaml" || ending == ".yml" || files::is_fluidnc(text))
     return {files::parse_fluidnc(text, file)};
   return {files::parse_groundcontrol(text, file)};
 }

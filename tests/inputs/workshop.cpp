@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/inputs/workshop.hpp"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <stdexcept>
+
+namespace chaintrue::inputs {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+fs::path temporary_folder() {
+  std::string name = fs::temp_directory_path() / "chaintrue-inputs-XXXXXX";
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder for the test");
+  return name;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+/// Holes that the belts' own machine cut, 40 mm out of true along x at the right side.
+std::string belt_holes(const std::string& belts) {
+  const Json machine = Json::parse(belts).at("machine");
+  Json file{{"file_type", "chaintrue_holes"}, {"format_version", "1.1"}, {"machine", machine}};
+  const std::vector<std::pair<double, double>> at = {
+      {-800, 400}, {0, 420}, {800, 380}, {-790, -390}, {10, -400}, {810, -410}, {0, 0}};
+  for (std::size_t k = 0; k < at.size(); ++k)
+    file["holes"].push_back(
+        {{"name", std::string(1, static_cast<char>('A' + k))}, {"x_mm", at[k].first}, {"y_mm", at[k].second}});
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    for (std::size_t j = i + 1; j < at.size(); ++j) {
+      const double d = std::hypot(at[i].first - at[j].first, at[i].second - at[j].second);
+      file["distances"].push_back({{"from", file["holes"][i]["name"]},
+                                   {"to", file["holes"][j]["name"]},
+                                   {"distance_mm", std::round(10.0 * d * 1.0007) / 10.0}});
+    }
+  }
+  return file.dump(1);
+}
+
+/// The points of a grid without what says when they were visited, as CSV.
+std::string as_csv(const std::string& grid, std::size_t most) {
+  std::string text = "x_mm,y_mm,left_mm,right_mm\n";
+  std::size_t taken = 0;
+  for (const auto& point : Json::parse(grid).at("points")) {
+    if (taken++ == most) break;
+    const char* separator = "";
+    for (const char* key : {"x_mm", "y_mm", "left_mm", "right_mm"}) {
+      text += separator + point.at(key).dump();
+      separator = ",";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+void gather_numbers(const Json& json, const std::vector<std::string>& echoes, std::string& numbers) {
+  if (json.is_number() || json.is_boolean() || json.is_null()) numbers += json.dump() + " ";
+  if (json.is_array()) {
+    for (const auto& element : json) gather_numbers(element, echoes, numbers);
+    numbers += "; ";
+  }
+  if (!json.is_object()) return;
+  for (const auto& [key, value] : json.items()) {
+    if (std::find(echoes.begin(), echoes.end(), key) == echoes.end())
+      gather_numbers(value, echoes, numbers);
+  }
+}
+
+std::string numbers_of_text(const std::string& text, const std::vector<std::string>& echoes) {
+  const Json json = Json::parse(text, nullptr, false);
+  std::string numbers;
+  if (json.is_object() || json.is_array()) {
+    gather_numbers(json, echoes, numbers);
+    return numbers;
+  }
+  static const std::regex number(R"([-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)");
+  for (std::sregex_iterator at(text.begin(), text.end(), number), end; at != end; ++at)
+    numbers += at->str() + " ";
+  return numbers;
+}
+
+}  // namespace
+
+Workshop::Workshop() : folder_(temporary_folder()) {
+  const std::string fixtures = CHAINTRUE_FIXTURES;
+  const std::map<std::string, std::string> copied = {
+      {"grid.json", "grids/seven_by_four.json"},
+      {"few.json", "grids/five_new_points.json"},
+      {"lattice.csv", "good/grid_plain.csv"},
+      {"holes.json", "holes/nine_holes.json"},
+      {"belts.json", "belts/thirty_one_places.json"},
+      {"classic.json", "machines/classic.json"},
+      {"other.json", "machines/classic_ring_3_mm_large.json"},
+      {"stated.json", "machines/groundcontrol.json"},
+      {"part.nc", "gcode/bracket.nc"}};
+  for (const auto& [name, source] : copied) fs::copy_file(fixtures + "/" + source, folder_ / name);
+  write("grid.csv", as_csv(text_of("grid.json"), 100));
+  write("few.csv", as_csv(text_of("few.json"), 5));
+  write("belt_holes.json", belt_holes(text_of("belts.json")));
+  write("marks.csv", "x_mm,y_mm\n-900,-400\n0,-380\n900,-390\n-880,410\n20,400\n910,380\n");
+  write("simple.nc", "G21 G90 G17\nF600\nG0 X-900 Y400\nG1 X900 Y400\n/G1 X900 Y-400\nG1 X0 Y0\nM2\n");
+  make("fit @grid.json -o @map.json");
+  make("fit @grid.json --machine @other.json -o @map2.json");
+  make("fit @belts.json -o @anchors.json");
+  make("simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
+       "--effect chain_pitch_error:left:elongation=0.0016 --seed 5 -o @worn.json");
+  make("simulate --machine @classic.json --holes 9 --seed 4 -o @holes2.json");
+  make("simulate --belts @anchors.json --grid 4x3 --length-noise-mm 0.6 --seed 2 -o @few_belts.json");
+  make("diagnose @grid.json -o @diagnosis.json");
+  make("diagnose @worn.json -o @worn_diagnosis.json");
+  make("diagnose @holes.json -o @holes_diagnosis.json");
+  make("diagnose @belts.json -o @belts_diagnosis.json");
+  make("gcode compensate @part.nc --map @map.json -o @true.nc");
+  make("gcode compensate @simple.nc --map @anchors.json -o @belts_true.nc");
+}
+
+Workshop::~Workshop() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+void Workshop::make(const std::string& line) const {
+  const Ran ran = run(line);
+  if (ran.code != 0) throw std::runtime_error("cannot make a file: " + line + "\n" + ran.err);
+}
+
+std::string Workshop::text_of(const std::string& file) const { return content_of(folder_ / file); }
+
+void Workshop::write(const std::string& file, const std::string& text) const {
+  std::ofstream(folder_ / file) << text;
+}
+
+Ran Workshop::run(const std::string& lines) const {
+  static std::atomic<int> next = 0;
+  const fs::path folder = folder_ / ("run" + std::to_string(next++));
+  fs::create_directory(folder);
+  std::string shell = "cd " + folder.string() + " && { " CHAINTRUE_COMMAND " " +
+                      replaced(lines, "; ", " && " CHAINTRUE_COMMAND " ");
+  shell = replaced(shell, "@", folder_.string() + "/") + " ; } >../out" + folder.filename().string() +
+          " 2>../err" + folder.filename().string();
+  const int status = std::system(shell.c_str());
+  Ran ran;
+  ran.code = WEXITSTATUS(status);
+  ran.out = content_of(folder_ / ("out" + folder.filename().string()));
+  ran.err = content_of(folder_ / ("err" + folder.filename().string()));
+  for (const auto& entry : fs::directory_iterator(folder))
+    ran.files[entry.path().filename().string()] = content_of(entry.path());
+  fs::remove_all(folder);
+  return ran;
+}
+
+std::string numbers_of(const Ran& ran, const std::vector<std::string>& echoes) {
+  std::string numbers = std::to_string(ran.code) + " | " + numbers_of_text(ran.out, echoes);
+  for (const auto& [name, text] : ran.files) numbers += " | " + numbers_of_text(text, echoes);
+  return numbers;
+}
+
+}  // namespace chaintrue::inputs

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/input_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "grid/files/diagnosis_file.hpp"
+#include "grid/files/machine_file.hpp"
+#include "grid/files/map_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "tools/cli/warnings.hpp"
+
+namespace chaintrue::cli {
+
+namespace files = grid::files;
+
+InputFile open_input(const std::string& path) {
+  InputFile file{path, files::name_in_messages(path), files::read_whole_file(path)};
+  file.kind = files::kind_of(file.text, file.name);
+  return file;
+}
+
+void require_kind(const InputFile& file,
+                  const std::vector<FileKind>& taken,
+                  const std::string& also) {
+  if (std::find(taken.begin(), taken.end(), file.kind) != taken.end()) return;
+  const bool is_json = files::is_json(file.text);
+  const std::string what_takes =
+      is_json && file.kind != FileKind::belt_holes && also.empty()
+          ? files::what_takes(files::file_type_of(file.text, file.name))
+          : "";
+  throw files::InputError(
+      {{file.name,
+        file.kind == FileKind::belt_holes ? "/machine" : is_json ? "/file_type" : "",
+        files::found_kind(file.text, file.name),
+        fmt::format(
+            "{}{}{}{}", files::expected_kinds(taken), also.empty() ? "" : "; ", also, what_takes)}});
+}
+
+files::FittedAnchors load_anchors(const InputFile& file) {
+  std::vector<files::Warning> warnings;
+  files::FittedAnchors anchors = files::parse_anchors(file.text, file.name, &warnings);
+  print_warnings(warnings);
+  return anchors;
+}
+
+grid::diagnosis::Diagnosis load_diagnosis(const InputFile& file) {
+  std::vector<files::Warning> warnings;
+  grid::diagnosis::Diagnosis found = files::parse_diagnosis(file.text, file.name, &warnings);
+  print_warnings(warnings);
+  return found;
+}
+
+model::Machine load_machine(const InputFile& file) {
+  files::ReadMachine read = files::parse_machine_with_warnings(file.text, file.name);
+  print_warnings(read.warnings);
+  return std::move(read.machine);
+}
+
+files::ReadBelts load_belts(const InputFile& file, const std::string& work) {
+  files::ReadBelts read = files::parse_belts(file.text, file.name);
+  print_warnings(read.warnings);
+  if (read.belts.points.size() > grid::kMostBeltPoints) {
+    throw files::InputError({{file.name,
+                              "/points",
+                              fmt::format("{} places are more than {} takes ({})",
+                                          read.belts.points.size(),
+                                          work,
+                                          grid::kMostBeltPoints),
+                              "fewer: leave some out, evenly over the sheet"}});
+  }
+  return read;
+}
+
+LoadedMap load_map(const InputFile& file) {
+  require_kind(file,
+               {FileKind::map},
+               file.kind == FileKind::anchors
+                   ? "anchors of four belts are taken by chaintrue query, report, check, gcode and "
+                     "export maslow4"
+                   : "");
+  std::vector<files::Warning> warnings;
+  LoadedMap loaded{files::parse_map(file.text, file.name, &warnings), ""};
+  print_warnings(warnings);
+  if (!warnings.empty()) loaded.on_trust = file.name;
+  return loaded;
+}
+
+void refuse_map_on_trust(const std::string& file) {
+  throw files::InputError({{file,
+                            "",
+                            "numbers that do not belong together",
+                            "a map as chaintrue wrote it; fit the points again"}});
+}
+
+model::Machine read_machine_input(const std::string& path) {
+  static std::set<std::string> told;
+  files::ReadMachine read = files::read_machine_with_warnings(path);
+  if (told.insert(path).second) print_warnings(read.warnings);
+  return std::move(read.machine);
+}
+
+model::BeltMachine read_belt_machine_input(const std::string& path) {
+  const InputFile file = open_input(path);
+  require_kind(file, {FileKind::belts, FileKind::anchors});
+  if (file.kind == FileKind::anchors) return files::machine_as_pasted(load_anchors(file).fit);
+  model::BeltMachine machine = load_belts(file, "a machine").belts.machine;
+  if (!machine.anchors_known) {
+    throw files::InputError(
+        {{file.name, "/machine/anchors", "", "x_mm and y_mm of all four anchors that are in force"}});
+  }
+  return machine;
+}
+
+}  // namespace chaintrue::cli
