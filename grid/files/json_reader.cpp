@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "grid/files/file_type.hpp"
 #include "grid/files/meanings.hpp"
 
 namespace chaintrue::grid::files {

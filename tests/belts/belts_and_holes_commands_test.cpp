@@ -146,6 +146,13 @@ TEST_F(BeltAndHoleCommands, BeltsAloneCompensateForTheAnchorsAndSayWhatTheyDoNot
   const Outcome made = run("gcode compensate part.nc --map anchors.json -o part.true.nc");
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("The scale is not known: parts come out as true as a turn"));
+  // Its page shows the frame of the anchors, not half of the usual bed of a machine on chains.
+  const Outcome page =
+      run("gcode compensate part.nc --map anchors.json -o again.nc --report page.html");
+  ASSERT_EQ(page.code, 0) << page.err;
+  const std::string html = content_of(folder_ / "page.html");
+  EXPECT_THAT(html, HasSubstr("sheet_x_min_mm"));
+  EXPECT_THAT(html, testing::Not(HasSubstr("-1219.2")));
 }
 
 TEST_F(BeltAndHoleCommands, WhatDoesNotBelongTogetherIsRefused) {

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "grid/files/holes_file.hpp"
+#include "grid/files/json_text.hpp"
 #include "grid/files/map_file.hpp"
 #include "tests/cli/command_fixture.hpp"
 #include "tests/holes/hole_sets.hpp"
@@ -306,6 +307,36 @@ TEST_F(HolesCommands, DiagnoseSaysWhatToMeasureNext) {
   const Outcome other = run("plan " + holes_ + " --after d.json");
   EXPECT_EQ(other.code, 3);
   EXPECT_THAT(other.err, HasSubstr("was made from other holes"));
+}
+
+// A machine on four belts is told by its anchors, not by the word anywhere in the file.
+TEST_F(HolesCommands, AHoleMayBeCalledAnchors) {
+  std::string text = content_of(holes_);
+  for (std::size_t at = text.find("\"A\""); at != std::string::npos; at = text.find("\"A\"", at))
+    text.replace(at, 3, "\"anchors\"");
+  write("anchors.json", text);
+  const Outcome fit = run("fit anchors.json -o map.json");
+  EXPECT_EQ(fit.code, 0) << fit.err;
+  EXPECT_EQ(run("diagnose anchors.json").code, 0);
+}
+
+TEST_F(HolesCommands, SimulatedHolesHaveAnAnswer) {
+  const Outcome made = run("simulate --machine " + classic_ +
+                           " --holes 6 --bad-points 2 --bad-size-mm 30 --offset motor_left_x_mm=4 "
+                           "--name six --seed 2 -o six.json --answer answer.json");
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto answer = grid::files::Json::parse(content_of(folder_ / "answer.json"));
+  EXPECT_EQ(answer["bad_distances"].size(), 2U);
+  EXPECT_EQ(answer["points"].size(), 6U);
+  EXPECT_EQ(answer["settings"][0]["setting"], "motor_left_x_mm");
+  // The offset is added to the stated value and taken off again: to the last bits of some 1500 mm.
+  EXPECT_NEAR(answer["settings"][0]["offset"].get<double>(), 4.0, 1e-9);
+  EXPECT_EQ(grid::files::Json::parse(content_of(folder_ / "six.json"))["name"], "six");
+}
+
+TEST_F(HolesCommands, AMapOfHolesEndsAsAsked) {
+  ASSERT_EQ(run("fit " + holes_ + " --outside refuse -o map.json").code, 0);
+  EXPECT_THAT(content_of(folder_ / "map.json"), HasSubstr("\"refuse\""));
 }
 
 TEST_F(HolesCommands, DiagnoseRefusesWhatIsSaidOfPointsAlone) {

@@ -39,17 +39,17 @@ struct Use {
   const char* then = "";
 };
 
-constexpr const char* kAskMap = "query map.json 0 0 700 300 -1150 560 1280 650 900 -700 --json";
+constexpr const char* kAskMap = "query map.json 0 0 700 300 1200 600 -1180 590 --json";
 
 const std::vector<Use>& uses() {
   static const std::vector<Use> all = {
-      {"grid", "fit", facts::grid | facts::one_grid | facts::residual, "fit @grid.json -o map.json", kAskMap},
+      {"grid", "fit", facts::grid | facts::one_grid | facts::residual, "fit @placed.json -o map.json", kAskMap},
       {"csv", "fit", facts::grid | facts::one_grid | facts::residual,
        "fit @grid.csv --machine @classic.json -o map.json", kAskMap},
       {"direct", "fit", facts::grid | facts::one_grid | facts::direct,
-       "fit @lattice.csv --surface direct -o map.json", "query map.json 0 0 700 300 350 -150 --json"},
+       "fit @lattice.csv --surface direct -o map.json", "query map.json 0 0 700 300 350 -150 --json; query map.json 0 0 --frame bed"},
       {"fade", "fit", facts::grid | facts::one_grid | facts::residual | facts::fade,
-       "fit @grid.json --outside fade -o map.json", kAskMap},
+       "fit @placed.json --outside fade -o map.json", kAskMap},
       {"holes", "fit", facts::holes | facts::residual, "fit @holes.json -o map.json", kAskMap},
       {"mix", "fit", facts::grid | facts::holes | facts::residual,
        "fit @grid.json --with @holes.json -o map.json", kAskMap},
@@ -72,8 +72,8 @@ const std::vector<Use>& uses() {
        "check @map.json @few.json --with @holes.json"},
       {"belts", "check", facts::anchors, "check @anchors.json @few_belts.json"},
       {"marks", "plan", facts::lattice, "plan --machine @classic.json --points 12"},
-      {"program", "plan", facts::lattice | facts::program,
-       "plan --machine @classic.json --points 12 --gcode marks.nc"},
+      {"program", "plan", facts::lattice | facts::program | facts::drilled,
+       "plan --machine @classic.json --points 12 --measure places --gcode marks.nc"},
       {"holes", "plan", facts::tape, "plan --machine @classic.json --holes 6"},
       {"check", "plan", facts::check, "plan --check @map.json"},
       {"after_grid", "plan", facts::follow_up | facts::grid,
@@ -95,8 +95,8 @@ const std::vector<Use>& uses() {
       {"holes", "simulate", facts::tape, "simulate --machine @classic.json --holes 6"},
       {"belts", "simulate", facts::belts,
        "simulate --belts @anchors.json --grid 4x3 --length-noise-mm 0.5"},
-      {"map", "query", facts::map, "query @map.json 0 0 900 400 1300 700"},
-      {"fade", "query", facts::map | facts::fade, "query @map.json 0 0 1215 605 --outside fade"},
+      {"map", "query", facts::map, "query @map.json 0 0 900 400 1200 600"},
+      {"fade", "query", facts::map | facts::fade, "query @map.json 0 0 1200 600 --outside fade"},
       {"anchors", "query", facts::anchors, "query @anchors.json 0 0 400 300"},
       {"map", "report", facts::map, "report @map.json -o page.html"},
       {"diagnosis", "report", facts::diagnosis, "report @diagnosis.json -o page.html"},
@@ -111,7 +111,7 @@ const std::vector<Use>& uses() {
       {"program", "square", facts::map | facts::program, "square --map @map.json --gcode square.nc"},
       {"machines", "square", facts::machine,
        "square --machine @classic.json --controller-machine @stated.json"},
-      {"none", "gcode check", 0, "gcode check @part.nc"},
+      {"none", "gcode check", facts::no_map, "gcode check @simple.nc"},
       {"map", "gcode check", facts::map, "gcode check @simple.nc --map @map.json"},
       {"anchors", "gcode check", facts::anchors, "gcode check @simple.nc --map @anchors.json"},
       {"map", "gcode lengths", facts::map, "gcode lengths @simple.nc --map @map.json"},
@@ -120,12 +120,12 @@ const std::vector<Use>& uses() {
        "gcode compensate @simple.nc --map @map.json -o true.nc"},
       {"anchors", "gcode compensate", facts::anchors,
        "gcode compensate @simple.nc --map @anchors.json -o true.nc"},
-      {"map", "gcode verify", facts::map, "gcode verify @part.nc @true.nc --map @map.json"},
+      {"map", "gcode verify", facts::map, "gcode verify @simple.nc @true.nc --map @map.json"},
       {"anchors", "gcode verify", facts::anchors,
        "gcode verify @simple.nc @belts_true.nc --map @anchors.json"},
-      {"none", "gcode explain", 0, "gcode explain @part.nc:12"},
-      {"map", "gcode explain", facts::map, "gcode explain @simple.nc:4 --map @map.json"},
-      {"anchors", "gcode explain", facts::anchors, "gcode explain @simple.nc:4 --map @anchors.json"}};
+      {"none", "gcode explain", facts::no_map, "gcode explain @simple.nc:6"},
+      {"map", "gcode explain", facts::map, "gcode explain @simple.nc:6 --map @map.json"},
+      {"anchors", "gcode explain", facts::anchors, "gcode explain @simple.nc:6 --map @anchors.json"}};
   return all;
 }
 
@@ -144,6 +144,8 @@ struct Telling {
   const char* words;
   Shows shows = Shows::in_numbers;
   const char* where = "";
+  /// In place of simple.nc, and of what was made of it.
+  const char* program = "";
 };
 
 std::vector<Telling> tellings();
@@ -224,7 +226,7 @@ std::vector<Telling> tellings() {
       {"check", "--with", "--with @holes2.json", in_numbers, "holes"},
       {"check", "--json", "--json", in_form},
       {"check", "--output", "--output answer.txt", as_file},
-      {"plan", "--machine", "--machine @other.json"},
+      {"plan", "--machine", "--machine @other.json", in_numbers},
       {"plan", "--after", "--after @diagnosis.json", in_words},
       {"plan", "--with", "--with @holes.json", in_words},
       {"plan", "--with", "--with @grid.json", in_words, "after_holes"},
@@ -326,26 +328,69 @@ std::vector<Telling> tellings() {
       // Programs. @simple.nc has a line that may be left out.
       {"gcode", "--home", "--home 20,-30"},
       {"gcode", "--block-delete", "--block-delete"},
-      {"gcode", "--tools-have-no-diameter", "--tools-have-no-diameter"},
-      {"gcode", "--step-budget", "--step-budget 1"},
+      {"gcode", "--tools-have-no-diameter", "--tools-have-no-diameter", in_numbers, "", "@offset.nc"},
+      {"gcode", "--step-budget", "--step-budget 2", in_numbers, "", "@loop.nc"},
       {"gcode", "--map", "--map @map2.json"},
       {"gcode", "--frame", "--frame bed"},
       {"gcode", "--machine", "--machine @other.json"},
-      {"gcode", "--machine", "--machine @belts.json", in_numbers, "anchors"},
+      {"gcode", "--machine", "--machine @moved_belts.json", in_numbers, "anchors"},
       {"gcode", "--controller", "--controller fluidnc_wallplotter"},
       {"gcode", "--controller", "--controller ideal", in_words, "anchors"},
-      {"gcode", "--tolerance-mm", "--tolerance-mm 0.004"},
+      {"gcode", "--tolerance-mm", "--tolerance-mm 0.0005"},
       {"gcode", "--decimals", "--decimals 5"},
       {"gcode", "--largest-correction-mm", "--largest-correction-mm 0.002"},
       {"gcode", "--steepest-correction", "--steepest-correction 0.000002"},
       {"gcode", "--keep-rapids-whole", "--keep-rapids-whole"},
-      {"gcode", "--home-is-zero", "--home-is-zero"},
+      {"gcode", "--home-is-zero", "--home-is-zero", in_numbers, "", "@home.nc"},
       {"gcode", "--json", "--json", in_form},
+      {"gcode check", "--decimals", "--decimals 2 --tolerance-mm 0.005"},
       {"gcode", "--every-mm", "--every-mm 400"},
       {"gcode", "--output", "--output other.txt", as_file},
       {"gcode", "--report", "--report page.html", as_file},
       {"gcode", "--no-verify", "--no-verify", in_words}};
   return all;
+}
+
+/// Cells where the files of the workshop leave an option nothing to do, and why.
+struct NotShown {
+  const char* verb;
+  const char* option;
+  const char* where;  ///< empty: everywhere
+  const char* why;
+};
+constexpr NotShown kNotShown[] = {
+    {"diagnose", "--accept-class", "", "needs points that cannot tell a long chain from a long tape"},
+    {"plan", "--machine", "after_grid", "only a CSV of commanded places asks for the machine"},
+    {"plan", "--machine", "after_holes", "only a CSV asks for the machine"},
+    {"check", "--machine", "grid", "only places that were commanded go by the machine"},
+    {"check", "--machine", "csv", "only places that were commanded go by the machine"},
+    {"check", "--machine", "mix", "only places that were commanded go by the machine"},
+    {"check", "--noise-dof", "", "a check takes the noise as known"},
+    {"gcode check", "--keep-rapids-whole", "", "no rapid of these programs bends beyond the tolerance"},
+    {"gcode verify", "--keep-rapids-whole", "", "no rapid of these programs bends beyond the tolerance"},
+    {"gcode verify", "--decimals", "", "only moves as short as the last digits may be missing"},
+    {"gcode verify", "--steepest-correction", "", "only a feed that is off by a hundredth is refused"},
+};
+
+bool is_not_shown(const Use& use, const std::string& option) {
+  return std::any_of(std::begin(kNotShown), std::end(kNotShown), [&](const NotShown& cell) {
+    return std::string(cell.verb) == use.verb && cell.option == option &&
+           (*cell.where == '\0' || std::string(cell.where) == use.name);
+  });
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  return at == std::string::npos ? text : text.replace(at, what.size(), by);
+}
+
+/// The use with the program of the telling value.
+std::string line_with(const Use& use, const Telling& telling) {
+  std::string line = use.line;
+  if (*telling.program == '\0') return line;
+  for (const char* own : {"@simple.nc", "@true.nc", "@belts_true.nc"})
+    line = replaced(line, own, telling.program);
+  return line;
 }
 
 /// The line without an option that stands in it with its value, so that it can be given anew.
@@ -361,7 +406,7 @@ std::vector<std::string> options_of(const Workshop& workshop, const std::string&
   std::istringstream help(workshop.run(verb + " --help").out);
   static const std::regex option(R"(^\s+(?:-\w,)?(--[a-z0-9-]+).*)");
   std::smatch parts;
-  for (std::string line; std::getline(help, line);) {
+  for (std::string line; std::getline(help, line) && !line.starts_with("Example");) {
     if (std::regex_match(line, parts, option) && !parts[1].str().starts_with("--help"))
       options.push_back(parts[1]);
   }
@@ -372,7 +417,7 @@ std::vector<std::string> options_of(const Workshop& workshop, const std::string&
 std::string fault_of(const Workshop& workshop, const Use& use, const Ran& base, const std::string& option) {
   const Telling* telling = telling_of(use.verb, option, use.name);
   if (telling == nullptr) return "has no telling value in this test";
-  const std::string line = without(use.line, option) + " " + telling->words;
+  const std::string line = without(line_with(use, *telling), option) + " " + telling->words;
   const cli::OptionRule* rule = cli::refusal_of(use.verb, option, use.facts);
   if (rule != nullptr) {
     const Ran ran = workshop.run(line);
@@ -400,7 +445,7 @@ std::string fault_of(const Workshop& workshop, const Use& use, const Ran& base, 
     case Shows::in_numbers: {
       std::vector<std::string> echoes = kEchoes;
       if (std::string(use.verb) != "simulate") echoes.emplace_back("noise");
-      Ran before = base;
+      Ran before = *telling->program == '\0' ? base : workshop.run(line_with(use, *telling));
       Ran after = ran;
       if (*use.then != '\0') {
         before.files.clear();
@@ -409,7 +454,8 @@ std::string fault_of(const Workshop& workshop, const Use& use, const Ran& base, 
       // What is wrong with a program is said on standard error.
       const bool says_more =
           std::string_view(use.verb).starts_with("gcode") && before.err != after.err;
-      return numbers_of(before, echoes) == numbers_of(after, echoes) && !says_more
+      return numbers_of(before, echoes) == numbers_of(after, echoes) && !says_more &&
+                     !is_not_shown(use, option)
                  ? "changes no number: " + line
                  : "";
     }

@@ -60,7 +60,8 @@ std::string belt_holes(const std::string& belts) {
 std::string as_csv(const std::string& grid, std::size_t most) {
   std::string text = "x_mm,y_mm,left_mm,right_mm\n";
   std::size_t taken = 0;
-  for (const auto& point : Json::parse(grid).at("points")) {
+  const Json parsed = Json::parse(grid);
+  for (const auto& point : parsed.at("points")) {
     if (taken++ == most) break;
     const char* separator = "";
     for (const char* key : {"x_mm", "y_mm", "left_mm", "right_mm"}) {
@@ -109,17 +110,35 @@ Workshop::Workshop() : folder_(temporary_folder()) {
       {"holes.json", "holes/nine_holes.json"},
       {"belts.json", "belts/thirty_one_places.json"},
       {"classic.json", "machines/classic.json"},
-      {"other.json", "machines/classic_ring_3_mm_large.json"},
       {"stated.json", "machines/groundcontrol.json"},
+      {"every.json", "good/machine_every_key.json"},
       {"part.nc", "gcode/bracket.nc"}};
   for (const auto& [name, source] : copied) fs::copy_file(fixtures + "/" + source, folder_ / name);
   write("grid.csv", as_csv(text_of("grid.json"), 100));
   write("few.csv", as_csv(text_of("few.json"), 5));
+  // Another machine, on another bed.
+  Json other = Json::parse(text_of("classic.json"));
+  other["bed"] = {{"width_mm", 2500.0}, {"height_mm", 1300.0}};
+  other["motors"]["left"]["y_mm"] = other["motors"]["left"]["y_mm"].get<double>() + 12.0;
+  other["attachment"]["radius_mm"] = 141.0;
+  write("other.json", other.dump(1));
+  Json moved = Json::parse(text_of("belts.json"));
+  moved["machine"]["anchors"]["tl"]["x_mm"] = -19.0;
+  write("moved_belts.json", moved.dump(1));
   write("belt_holes.json", belt_holes(text_of("belts.json")));
   write("marks.csv", "x_mm,y_mm\n-900,-400\n0,-380\n900,-390\n-880,410\n20,400\n910,380\n");
   write("simple.nc", "G21 G90 G17\nF600\nG0 X-900 Y400\nG1 X900 Y400\n/G1 X900 Y-400\nG1 X0 Y0\nM2\n");
-  make("fit @grid.json -o @map.json");
-  make("fit @grid.json --machine @other.json -o @map2.json");
+  write("offset.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG41 D1\nG1 X300 Y0\nG40\nG1 X0 Y0\nM2\n");
+  write("loop.nc",
+        "G21 G90 G17\nF600\n#1=0\no1 while [#1 lt 4]\nG1 X[50*#1] Y0\n#1=[#1+1]\no1 endwhile\n"
+        "G1 X0 Y0\nM2\n");
+  write("home.nc", "G21 G90 G17\nF600\nG1 X200 Y100\nG28\nG1 X0 Y0\nM2\n");
+  // Marks on part of the bed, on a sheet that was laid by hand.
+  make("simulate --machine @classic.json --grid 7x5 --margin-mm 250 --length-noise-mm 0.2 "
+       "--position-noise-mm 0.3 --sheet-shift-mm 8 --sheet-rotation-mrad 4 --effect "
+       "chain_pitch_error:left:elongation=0.003 --seed 5 -o @placed.json");
+  make("fit @placed.json -o @map.json");
+  make("fit @placed.json --machine @other.json -o @map2.json");
   make("fit @belts.json -o @anchors.json");
   make("simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
        "--effect chain_pitch_error:left:elongation=0.0016 --seed 5 -o @worn.json");
@@ -129,7 +148,7 @@ Workshop::Workshop() : folder_(temporary_folder()) {
   make("diagnose @worn.json -o @worn_diagnosis.json");
   make("diagnose @holes.json -o @holes_diagnosis.json");
   make("diagnose @belts.json -o @belts_diagnosis.json");
-  make("gcode compensate @part.nc --map @map.json -o @true.nc");
+  make("gcode compensate @simple.nc --map @map.json -o @true.nc");
   make("gcode compensate @simple.nc --map @anchors.json -o @belts_true.nc");
 }
 

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every number that a file of measurements or of a machine holds acts on every verb that takes the
+// file: changed, it changes numbers of the answer, or the verb refuses it by a sentence. Where a key
+// means nothing to a verb the table below says why; a key that is in no table and changes nothing
+// fails.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/inputs/workshop.hpp"
+
+namespace chaintrue {
+namespace {
+
+using inputs::Ran;
+using inputs::Workshop;
+using Json = nlohmann::ordered_json;
+
+/// A verb on a file, FILE in the line. `echoes` of the input are no answer.
+struct Reader {
+  const char* verb;
+  const char* line;
+};
+
+/// Where a key means nothing to a verb, and why; keys by what their pointer begins with.
+struct Idle {
+  const char* kind;
+  const char* verb;
+  const char* key;
+  const char* why;
+};
+
+constexpr Idle kIdle[] = {
+    {"grid", "check", "/noise/dof", "a check takes the noise as known"},
+    {"grid", "check", "/sheet", "a check frees the sheet's place in any case"},
+    {"grid", "check", "/readings", "readings of the machine say nothing of a map"},
+    {"holes", "check", "/noise_dof", "a check takes the noise as known"},
+    {"holes", "check", "/readings", "readings of the machine say nothing of a map"},
+    {"belts", "check", "/machine", "the anchors that are checked have their own machine"},
+    {"belts", "check", "/points/0/commanded", "a check goes by lengths alone"},
+    {"belts", "check", "/distances", "a check goes by lengths alone"},
+    {"belts", "check", "/firmware_fit", "what the firmware said of its own fit is for comparison"},
+    {"belts", "fit", "/firmware_fit", "what the firmware said of its own fit is for comparison"},
+    {"belts", "fit", "/machine/anchors/tl/z_mm", "lengths that are level have no height"},
+    {"belts", "fit", "/machine/anchors/tr/z_mm", "lengths that are level have no height"},
+    {"belts", "fit", "/machine/anchors/bl/z_mm", "lengths that are level have no height"},
+    {"belts", "fit", "/machine/anchors/br/z_mm", "lengths that are level have no height"},
+    {"belts", "fit", "/machine/arm_mm", "lengths that are level reach to the tool"},
+    {"belts", "fit", "/machine/end_extension_mm", "lengths that are level reach to the tool"},
+    {"belts", "fit", "/machine/surface_mm", "lengths that are level have no height"},
+    {"belts", "fit", "/machine/belt/turn_mm", "only a reading off by whole turns is told by it"},
+    {"belts", "fit", "/machine/scale_", "a fit goes by lengths; commands say where the tool was sent"},
+    {"belts", "fit", "/points/0/commanded", "a fit goes by lengths; commands only tell where a mirror is"},
+    {"belts", "diagnose", "/machine/scale_y", "commands only tell which of two mirrors the frame is"},
+    {"belts", "simulate", "/machine/belt/turn_mm", "nothing of a simulation slips by a turn"},
+    {"belts", "simulate", "/machine/anchors/bl/z_mm", "the height of the origin shifts all lengths less than they are written to"},
+    {"belts", "simulate", "/points", "what is simulated goes by the machine"},
+    {"belts", "simulate", "/distances", "what is simulated goes by the machine"},
+    {"belts", "simulate", "/firmware_fit", "what is simulated goes by the machine"},
+    {"machine", "simulate", "/sprocket/teeth", "the radius is stated"},
+    {"machine", "simulate", "/sprocket/pitch_mm", "the radius is stated"},
+    {"machine", "simulate", "/uncertainty/ring_radius_mm", "brackets have no ring"},
+    {"machine", "simulate", "/controller", "marks are measured where they are, whatever was commanded"}};
+
+/// Until one fit and one check take every kind of file (holes' readings, the sheet, the noise).
+constexpr Idle kExpectedFailures[] = {
+    {"holes", "fit", "/readings", "fit takes no readings of holes yet"},
+    {"holes", "passes", "/readings", "passes take no readings of holes yet"}};
+
+template <std::size_t Count>
+bool stands_in(const Idle (&table)[Count], const std::string& kind, const std::string& verb, const std::string& key) {
+  return std::any_of(std::begin(table), std::end(table), [&](const Idle& idle) {
+    return idle.kind == kind && idle.verb == verb && key.starts_with(idle.key);
+  });
+}
+
+/// Pointers of all numbers; of a list of many alike the first is enough.
+void gather(const Json& json, const std::string& pointer, std::vector<std::string>& pointers) {
+  if (json.is_number()) pointers.push_back(pointer);
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) gather(value, pointer + "/" + key, pointers);
+  }
+  if (!json.is_array()) return;
+  const bool few_and_different = pointer.ends_with("readings") || pointer.ends_with("effects") ||
+                                 pointer.ends_with("distances");
+  for (std::size_t k = 0; k < json.size() && k < (few_and_different ? 2U : 1U); ++k)
+    gather(json[k], pointer + "/" + std::to_string(k), pointers);
+}
+
+bool holds(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+/// A value that tells: as far from the old one as such a number may be off and still be possible.
+Json telling_value(const std::string& pointer, const Json& value) {
+  const double old = value.get<double>();
+  if (pointer.ends_with("/order")) return 5000;
+  if (pointer.ends_with("teeth") || pointer.ends_with("gearteeth")) return value.get<int>() + 1;
+  if (holds(pointer, "bed")) return 1.1 * old;
+  for (const char* part : {"sigma", "dof", "noise", "shift_mm", "rotation_mrad", "uncertainty", "size_"}) {
+    if (holds(pointer, part)) return 2.0 * old;
+  }
+  if (holds(pointer, "/readings")) return 1.0003 * old;
+  for (const char* part : {"/points", "/holes/", "/distances"}) {
+    if (holds(pointer, part)) return old + 1.5;
+  }
+  if (holds(pointer, "parameters")) return 1.5 * old;
+  return 1.01 * old + (old == 0.0 ? 0.5 : 0.0);
+}
+
+class KeyMatrix : public testing::Test {
+ protected:
+  void expect_every_key_acts(const std::string& kind, const Json& file, const std::vector<Reader>& readers) const {
+    static const std::vector<std::string> kEchoes = {"content_hash", "name", "noise", "tape",
+                                                     "hole_sigma_mm", "noise_dof", "seed", "machine",
+                                                     "extended_machine", "sheet", "readings", "distances"};
+    std::vector<std::string> pointers;
+    gather(file, "", pointers);
+    for (const Reader& reader : readers) {
+      const std::string name = kind + ".key.json";
+      std::string line = reader.line;
+      line.replace(line.find("FILE"), 4, "@" + name);
+      const auto answer = [&](const Json& content) {
+        workshop_.write(name, content.dump(1));
+        Ran ran = workshop_.run(line);
+        if (ran.code != 3) ran.files.clear();
+        return ran;
+      };
+      const Ran base = answer(file);
+      ASSERT_LT(base.code, 2) << line << "\n" << base.err;
+      for (const std::string& pointer : pointers) {
+        Json changed = file;
+        Json& value = changed[Json::json_pointer(pointer)];
+        value = telling_value(pointer, value);
+        const Ran ran = answer(changed);
+        const bool is_refused = ran.code == 3 && !ran.err.empty();
+        const bool acts = is_refused || numbers_of(ran, kEchoes) != numbers_of(base, kEchoes);
+        const bool is_idle = stands_in(kIdle, kind, reader.verb, pointer);
+        const bool is_expected_to_fail = stands_in(kExpectedFailures, kind, reader.verb, pointer);
+        if (is_expected_to_fail) continue;
+        EXPECT_TRUE(acts || is_idle) << kind << " " << reader.verb << " " << pointer << " is silent";
+      }
+    }
+  }
+  [[nodiscard]] Json made(const std::string& line) const {
+    const Ran ran = workshop_.run(line);
+    EXPECT_EQ(ran.code, 0) << line << "\n" << ran.err;
+    return Json::parse(ran.out);
+  }
+  static Json readings() {
+    return Json::parse(R"([{"what": "motor_spacing_mm", "value": 2979.5, "sigma": 1},
+                           {"what": "link_pitch_mm", "side": "left", "value": 6.353, "sigma": 0.001}])");
+  }
+
+  Workshop workshop_;
+};
+
+TEST_F(KeyMatrix, OfAGrid) {
+  Json grid = made(
+      "simulate --machine @classic.json --grid 6x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
+      "--sheet-shift-mm 8 --sheet-rotation-mrad 4 --repeats 4 --seed 3");
+  grid["readings"] = readings();
+  grid.erase("machine");
+  grid["machine_file"] = "classic.json";
+  expect_every_key_acts("grid",
+                        grid,
+                        {{"fit", "fit FILE -o map.json; query map.json 0 0 700 300 -1100 500 --json"},
+                         {"diagnose", "diagnose FILE --json"},
+                         {"check", "check @map.json FILE --json"}});
+}
+
+TEST_F(KeyMatrix, OfHoles) {
+  Json holes = made("simulate --machine @classic.json --holes 9 --edges --seed 3");
+  holes["readings"] = readings();
+  holes["tape"]["hook_offset_mm"] = 0.5;
+  holes["tape"]["hook_sigma_mm"] = 0.2;
+  holes["sheet"] = {{"width_mm", 2440.0}, {"height_mm", 1220.0}, {"size_sigma_mm", 1.0}};
+  holes["distances"][0]["sigma_mm"] = 0.8;
+  holes.erase("machine");
+  holes["machine_file"] = "classic.json";
+  expect_every_key_acts("holes",
+                        holes,
+                        {{"fit", "fit FILE -o map.json; query map.json 0 0 700 300 -1100 500 --json"},
+                         {"diagnose", "diagnose FILE --json"},
+                         {"check", "check @map.json FILE --json"},
+                         {"passes", "passes FILE --json"}});
+}
+
+TEST_F(KeyMatrix, OfBelts) {
+  Json belts = made("simulate --belts @belts.json --grid 5x5 --length-noise-mm 0.6 --seed 3");
+  belts["distances"] = Json::parse(R"([
+      {"from": "bl", "to": "br", "distance_mm": 2953, "sigma_mm": 1.5},
+      {"from": {"x_mm": -500, "y_mm": 0}, "to": {"x_mm": 500, "y_mm": 0}, "distance_mm": 1001.4}])");
+  belts["firmware_fit"] = {{"rms_mm", 0.4}, {"max_mm", 1.2}};
+  expect_every_key_acts("belts",
+                        belts,
+                        {{"fit", "fit FILE -o anchors.json; export maslow4 anchors.json; "
+                                 "query anchors.json 0 0 300 200"},
+                         {"diagnose", "diagnose FILE --json"},
+                         {"check", "check @anchors.json FILE --json"},
+                         {"simulate", "simulate --belts FILE --grid 4x3 --seed 2"}});
+}
+
+TEST_F(KeyMatrix, OfAMachine) {
+  Json machine = Json::parse(workshop_.text_of("every.json"));
+  expect_every_key_acts(
+      "machine",
+      machine,
+      {{"simulate",
+        "simulate --machine FILE --grid 4x3 --length-noise-mm 0.1 --draw-settings --seed 2"}});
+}
+
+/// What chaintrue wrote itself is held by a hash of its content: any number of it that was changed is
+/// refused by every verb.
+TEST_F(KeyMatrix, OfWhatChaintrueWrote) {
+  const std::map<std::string, std::vector<std::string>> verbs = {
+      {"map.json",
+       {"query FILE 0 0", "report FILE -o page.html", "check FILE @few.json",
+        "gcode compensate @simple.nc --map FILE -o true.nc", "square --map FILE",
+        "export groundcontrol FILE", "plan --check FILE"}},
+      {"anchors.json",
+       {"query FILE 0 0", "report FILE -o page.html", "check FILE @few_belts.json",
+        "gcode compensate @simple.nc --map FILE -o true.nc", "export maslow4 FILE",
+        "simulate --belts FILE --grid 3x3"}}};
+  for (const auto& [name, lines] : verbs) {
+    const Json file = Json::parse(workshop_.text_of(name));
+    std::vector<std::string> pointers;
+    gather(file, "", pointers);
+    ASSERT_GT(pointers.size(), 10U);
+    for (std::size_t k = 0; k < pointers.size(); k += 7) {
+      Json changed = file;
+      Json& value = changed[Json::json_pointer(pointers[k])];
+      value = value.get<double>() + 0.25;
+      workshop_.write("changed.json", changed.dump(1));
+      std::string line = lines[k / 7 % lines.size()];
+      line.replace(line.find("FILE"), 4, "@changed.json");
+      const Ran ran = workshop_.run(line);
+      EXPECT_EQ(ran.code, 3) << line << " " << pointers[k];
+      EXPECT_FALSE(ran.err.empty());
+      EXPECT_TRUE(ran.files.empty()) << line;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace chaintrue
