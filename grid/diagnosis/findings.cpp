@@ -70,7 +70,7 @@ double fitted_place_sigma(const Analysis& a,
   const auto slope = slope_by_place(a, own, which);
   if (!slope) return 0.0;
   const MarginalisedSystem& marginalised = marginalised_system(a);
-  const LinearisedSystem& system = a.system;
+  const RegressorSystem& system = a.system;
   const Eigen::Index settings = system.setting.size();
   const auto free = static_cast<Eigen::Index>(fitted.free.size());
   Eigen::MatrixXd design(static_cast<Eigen::Index>(marginalised.kept.size()), settings + free + 1);

@@ -18,7 +18,7 @@ struct SetOfCauses {
 
 /// A comparison of these sets, each beside a pattern, of causes that are a class each.
 Decision decided(const std::vector<SetOfCauses>& sets, std::size_t causes) {
-  LinearisedSystem system;
+  RegressorSystem system;
   std::vector<CauseClass> classes;
   for (std::size_t k = 0; k < causes; ++k) {
     const model::effects::Effect* effect = model::effects::catalogue()[k];

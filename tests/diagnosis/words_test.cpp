@@ -15,7 +15,7 @@ using testing_support::session_of;
 using testing_support::verdict_alone;
 
 TEST(Words, APointIsMeasuredAgainUnlessThatPointIsAnOutlier) {
-  const auto session = make_session(session_of({}, 1));
+  const auto session = observations_of(session_of({}, 1));
   ASSERT_TRUE(session);
   const auto analysis = analyse(*session, verdict_alone());
   ASSERT_TRUE(analysis);
