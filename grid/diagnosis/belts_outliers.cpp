@@ -8,12 +8,14 @@ using model::kBelts;
 
 namespace {
 
-constexpr std::size_t kReadings = 4;
+constexpr std::size_t kReadingsOfPlace = 4;
 
 /// How many readings of a place a set rejects.
 std::size_t rejected_of(const std::vector<bool>& set, std::size_t place) {
   std::size_t count = 0;
-  for (std::size_t b = 0; b < kReadings; ++b) count += set[kReadings * place + b] ? 1 : 0;
+  for (std::size_t b = 0; b < kReadingsOfPlace; ++b) {
+    if (set[kReadingsOfPlace * place + b]) ++count;
+  }
   return count;
 }
 
@@ -42,12 +44,12 @@ OutlierLimits reading_limits(const BeltsSystem& system) {
 }
 
 Suspects suspects_of(const std::vector<std::vector<bool>>& sets) {
-  Suspects suspects(sets.empty() ? 0 : sets.front().size() / kReadings);
+  Suspects suspects(sets.empty() ? 0 : sets.front().size() / kReadingsOfPlace);
   for (const std::vector<bool>& set : sets) {
     for (std::size_t k = 0; k < suspects.size(); ++k) {
       if (suspects[k] || rejected_of(set, k) != 1) continue;
       for (const Belt belt : kBelts) {
-        if (set[kReadings * k + static_cast<std::size_t>(belt)]) suspects[k] = belt;
+        if (set[kReadingsOfPlace * k + static_cast<std::size_t>(belt)]) suspects[k] = belt;
       }
     }
   }
@@ -59,8 +61,8 @@ std::vector<bool> units_of(const std::vector<bool>& set, const Suspects& suspect
   for (std::size_t k = 0; k < suspects.size(); ++k) {
     const std::size_t bad = rejected_of(set, k);
     if (bad == 0) continue;
-    const bool alone =
-        bad == 1 && suspects[k] && set[kReadings * k + static_cast<std::size_t>(*suspects[k])];
+    const bool alone = bad == 1 && suspects[k] &&
+                       set[kReadingsOfPlace * k + static_cast<std::size_t>(*suspects[k])];
     units[2 * k] = true;
     units[2 * k + 1] = !alone;
   }
