@@ -22,7 +22,7 @@ Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, synthetic
 double largest(const Eigen::MatrixXd& matrix) { return matrix.cwiseAbs().maxCoeff(); }
 
 // A dozen products of numbers of about one: rounding, a thousand times over.
-constexpr double kRounding = 1e-12;
+constexpr double kRoundingOfSums = 1e-12;
 
 TEST(UnitWhitening, BringsReadingsToUnitsOfNoiseAndBack) {
   constexpr std::uint64_t kSeed = 3;
@@ -36,8 +36,8 @@ TEST(UnitWhitening, BringsReadingsToUnitsOfNoiseAndBack) {
     const UnitWhitening whitening(covariance);
     const Eigen::MatrixXd w = whitening.matrix();
     const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
-    EXPECT_LT(largest(w * covariance * w.transpose() - one), kRounding);
-    EXPECT_LT(largest(w * whitening.inverse() - one), kRounding);
+    EXPECT_LT(largest(w * covariance * w.transpose() - one), kRoundingOfSums);
+    EXPECT_LT(largest(w * whitening.inverse() - one), kRoundingOfSums);
     EXPECT_EQ(whitening.rows(), n);
     EXPECT_EQ(whitening.readings(), n);
   }
@@ -53,11 +53,11 @@ TEST(UnitWhitening, ProjectsAPlaceOut) {
   const Eigen::MatrixXd q =
       (qr.householderQ() * Eigen::MatrixXd::Identity(4, 4)).rightCols(2);
   const UnitWhitening whitening = UnitWhitening::projected(q, kSigma);
-  EXPECT_LT(largest(whitening * by_place), kRounding);
+  EXPECT_LT(largest(whitening * by_place), kRoundingOfSums);
   const Eigen::MatrixXd w = whitening.matrix();
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2, 2);
-  EXPECT_LT(largest(kSigma * kSigma * w * w.transpose() - one), kRounding);
-  EXPECT_LT(largest(w * whitening.inverse() - one), kRounding);
+  EXPECT_LT(largest(kSigma * kSigma * w * w.transpose() - one), kRoundingOfSums);
+  EXPECT_LT(largest(w * whitening.inverse() - one), kRoundingOfSums);
 }
 
 TEST(UnitWhiteningBadInput, TooManyReadings) {
