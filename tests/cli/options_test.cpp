@@ -177,7 +177,7 @@ TEST_F(Options, WhatAMachineDoesNotSayIsToldByEveryVerbOnce) {
            std::string("export groundcontrol m.json"),
            std::string("effects chain_stretch --machine m.json"),
            std::string("gcode check b.nc --machine m.json"),
-           std::string("gcode lengths b.nc --map map.json --machine m.json -o -"),
+           std::string("gcode check b.nc --map map.json --machine m.json"),
            "fit " + grid_ + " --with " + grid_ + " --machine m.json -o fitted.json",
            std::string("plan --machine m.json"),
            std::string("simulate --machine m.json --grid 7x4"),

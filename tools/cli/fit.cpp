@@ -141,16 +141,8 @@ int fit_jointly(const FitCommand& command, const grid::Measured& measured) {
   return kBadInput;
 }
 
-/// Splines through the lengths of one grid.
+/// Splines through the lengths of one grid; option_rules.def refuses anything else.
 int fit_directly(const FitCommand& command, const grid::MeasuredFile& file) {
-  if (file.grid() == nullptr) {
-    return finish(command,
-                  tl::unexpected(grid::FitFailure{
-                      grid::FitFailure::Reason::not_a_grid,
-                      "a direct surface needs chain lengths at known places; holes and a tape tell "
-                      "neither, leave --surface out"}),
-                  {});
-  }
   grid::FitOptions options;
   options.surface = grid::SurfaceKind::direct;
   const interp::EndCondition end = end_conditions().at(command.ends);

@@ -3,7 +3,6 @@
 /// chaintrue report: a map, a diagnosis or anchors as one HTML page that needs no network.
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
