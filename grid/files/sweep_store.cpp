@@ -27,6 +27,13 @@ constexpr std::size_t kWords = 8;
 using CellRecord = std::array<std::uint64_t, kWords>;
 constexpr std::size_t kRecordBytes = sizeof(CellRecord);
 
+/// "shard-3-of-16", and the process where there are several.
+std::string part_name(const sweep::Share& share) {
+  std::string name = fmt::format("shard-{}-of-{}", share.index + 1, share.count);
+  if (share.ranks > 1) name += fmt::format("-rank-{}-of-{}", share.rank + 1, share.ranks);
+  return name;
+}
+
 std::uint64_t checksum(const CellRecord& record) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (std::size_t i = 0; i + 1 < kWords; ++i) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/sweep/run_sweep.hpp"
 
-#include <fmt/format.h>
 #ifdef CHAINTRUE_HAS_TBB
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -46,12 +45,6 @@ void for_all(std::uint64_t count, int /*threads*/, const std::function<void(std:
 #endif
 
 }  // namespace
-
-std::string part_name(const Share& share) {
-  std::string name = fmt::format("shard-{}-of-{}", share.index + 1, share.count);
-  if (share.ranks > 1) name += fmt::format("-rank-{}-of-{}", share.rank + 1, share.ranks);
-  return name;
-}
 
 std::uint64_t run_sweep(const SweepSpec& spec, const CellStore& store, const SweepRun& run) {
   const std::uint64_t total = cells_of(run.share, cells(spec));

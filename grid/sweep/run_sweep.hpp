@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 
 #include "grid/sweep/sweep_spec.hpp"
 
@@ -19,9 +18,6 @@ struct Share {
   std::uint64_t rank = 0;
   std::uint64_t ranks = 1;
 };
-
-/// "shard-3-of-16", and the process where there are several.
-[[nodiscard]] std::string part_name(const Share& share);
 
 using KeepCell = std::function<void(std::uint64_t, const CellResult&)>;
 
