@@ -28,7 +28,8 @@ tl::expected<Eigen::VectorXd, MechanismFailure> added_by(const Mechanism& mechan
 tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& mechanism,
                                                               const Eigen::VectorXd& lengths_mm,
                                                               const MechanismVisit& visit,
-                                                              const ToolPosition& start) {
+                                                              const ToolPosition& start,
+                                                              const std::vector<bool>& counting) {
   // Where four lengths agree to a few millimetres Gauss and Newton converge linearly by the ratio
   // of what they miss to the lengths, some 1e-3 a step.
   constexpr int kMostSteps = 50;
@@ -36,13 +37,20 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
   constexpr double kConvergedMm = 1e-9;
   // At the minimum a sum of squares no longer falls, to rounding of its terms.
   constexpr double kRounding = 1e-12;
+  Eigen::VectorXd weight = Eigen::VectorXd::Ones(lengths_mm.size());
+  for (std::size_t i = 0; i < counting.size(); ++i)
+    weight[static_cast<Eigen::Index>(i)] = counting[i] ? 1.0 : 0.0;
   ToolPosition position = start;
   auto there = mechanism.predict(position, visit, Derivatives::by_position);
   if (!there) return tl::unexpected(there.error());
+  const auto missing_at = [&](const LengthsPrediction& at) -> Eigen::VectorXd {
+    return weight.cwiseProduct(lengths_mm - at.lengths_mm);
+  };
   for (int step = 0; step < kMostSteps; ++step) {
-    const Eigen::VectorXd missing = lengths_mm - there->lengths_mm;
-    const Eigen::Matrix2d normal = there->by_position.transpose() * there->by_position;
-    Eigen::Vector2d move = normal.ldlt().solve(there->by_position.transpose() * missing);
+    const Eigen::VectorXd missing = missing_at(*there);
+    const Eigen::MatrixX2d slope = weight.asDiagonal() * there->by_position;
+    const Eigen::Matrix2d normal = slope.transpose() * slope;
+    Eigen::Vector2d move = normal.ldlt().solve(slope.transpose() * missing);
     if (!move.allFinite()) break;
     const bool is_converged = move.norm() < kConvergedMm;
     ToolPosition next;
@@ -51,7 +59,7 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
       next = {position.x_mm + move.x(), position.y_mm + move.y()};
       at_next = mechanism.predict(next, visit, Derivatives::by_position);
       if (!at_next) continue;
-      if ((lengths_mm - at_next->lengths_mm).squaredNorm() <=
+      if (missing_at(*at_next).squaredNorm() <=
           missing.squaredNorm() * (1.0 + kRounding) + kConvergedMm * kConvergedMm)
         break;
     }

@@ -147,11 +147,13 @@ class Mechanism {
                                                                        const MechanismVisit& visit);
 
 /// locate() of a mechanism that has no closed form: Gauss and Newton from `start`, halving steps
-/// that leave the domain. Fails with "not_converged" after 50 steps.
+/// that leave the domain. `counting` says which lengths are read, at least two; empty: all. Fails
+/// with "not_converged" after 50 steps.
 [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate_by_newton(
     const Mechanism& mechanism,
     const Eigen::VectorXd& lengths_mm,
     const MechanismVisit& visit,
-    const ToolPosition& start);
+    const ToolPosition& start,
+    const std::vector<bool>& counting = {});
 
 }  // namespace chaintrue::model

@@ -211,6 +211,8 @@ ReadingModel::ReadingModel(const Machine& machine, Model model) {
 
 const Machine& ReadingModel::machine() const { return state_->machine; }
 
+Model ReadingModel::model() const { return state_->model; }
+
 tl::expected<PointReading, PoseFailure> ReadingModel::at(BedPoint point) const {
   const State& state = *state_;
   const PoseResult pose = state.kinematics->inverse(point);

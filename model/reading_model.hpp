@@ -77,6 +77,7 @@ class ReadingModel {
   /// `direction` in which each chain reached its length (+1 paid out, -1 taken in), hysteresis.
   [[nodiscard]] ChainLengths added_at_visit(int order, const PerSide<double>& direction) const;
   [[nodiscard]] const Machine& machine() const;
+  [[nodiscard]] Model model() const;
 
  private:
   friend class Session;

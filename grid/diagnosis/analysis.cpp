@@ -26,7 +26,7 @@ DiagnosisFailure unreachable(const ObservationSet& session, const observation::U
                       part.observation->places()[failure.place - part.first_place].name,
                       place.mark.x_mm,
                       place.mark.y_mm,
-                      model::explain(failure.reason))};
+                      failure.reason.sentence)};
 }
 
 DiagnosisFailure impossible(const ObservationSet& session, const model::MachineProblem& problem) {

@@ -11,6 +11,7 @@
 #include "grid/estimation/left_out.hpp"
 #include "grid/estimation/unknowns.hpp"
 #include "model/calibration/setting.hpp"
+#include "model/chains/chain_mechanism.hpp"
 
 namespace chaintrue::grid::estimation {
 namespace {
@@ -89,6 +90,7 @@ Estimator::Fit Estimator::solve(const Eigen::VectorXd& weights,
   const interp::PenalisedProblem problem = problem_->weighted(weights);
   interp::FitOptions options;
   options.correct_covariance = correct_covariance;
+  options.prior = input_.noise_prior;
   const bool nothing_to_choose =
       problem.penalties.empty() && problem.noise.knowledge == interp::NoiseKnowledge::exact;
   auto fit = nothing_to_choose ? interp::fit_with_smoothing(problem, Eigen::VectorXd(0), 1.0)
@@ -104,10 +106,13 @@ double Estimator::step_to(const State& next, const Settling& settling) const {
   const Unknowns& unknowns = problem_->unknowns();
   for (Eigen::Index i = 0; i < unknowns.settings(); ++i) {
     if (unknowns.sigma(i) <= kKnownSigma) continue;
-    step = std::max(step, std::abs(next.settings[i] - state_.settings[i]) / unknowns.sigma(i));
+    // Of what nothing was known beforehand the readings' own sigma is the measure.
+    const double sigma =
+        std::isfinite(unknowns.sigma(i)) ? unknowns.sigma(i) : std::sqrt(fit_.covariance(i, i));
+    step = std::max(step, std::abs(next.settings[i] - state_.settings[i]) / sigma);
   }
   for (const Side side : model::kSides) {
-    if (!settling.scales_count) break;
+    if (!settling.scales_count || unknowns.scales() == 0) break;
     step = std::max(step,
                     std::abs(next.surface.scale[side] - state_.surface.scale[side]) / kScaleSigma);
   }
@@ -263,12 +268,11 @@ tl::expected<void, EstimationFailure> Estimator::fill_observations(Estimate& est
   const Eigen::VectorXd coefficients = problem_->coefficients(fit_);
   const Eigen::VectorXd variance = problem_->covariance(fit_).diagonal();
   const auto corrections = problem_->corrections_of(state_);
-  const model::ReadingModel model(estimate.machine);
   for (std::size_t k = 0; k < input_.observations.size(); ++k) {
     const observation::Observation& observation = *input_.observations[k];
     ObservationEstimate own;
     own.sheet = unknowns.sheet_at(coefficients, k);
-    const auto line = observation.linearise({model, own.sheet, &corrections[k]}, {});
+    const auto line = observation.linearise({estimate.mechanism, own.sheet, &corrections[k]}, {});
     if (!line) return tl::unexpected(problem_->unreachable(k, line.error()));
     own.predicted = line->predicted;
     for (std::size_t i = 0; i < line->places.size(); ++i) {
@@ -288,29 +292,34 @@ void Estimator::fill_covariances(Estimate& estimate) const {
   estimate.columns = {unknowns.settings(), estimate.surface.basis.size()};
   estimate.covariance = problem_->map_covariance(fit_, estimate.columns);
   std::vector<Eigen::Index> own;
-  for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) own.push_back(i);
-  own.insert(own.end(), {unknowns.scale(Side::left), unknowns.scale(Side::right)});
+  for (Eigen::Index i = 0; i < unknowns.parameters(); ++i) own.push_back(i);
+  for (Eigen::Index i = 0; i < unknowns.scales(); ++i) own.push_back(unknowns.settings() + i);
   const Eigen::VectorXd coefficients = problem_->coefficients(fit_);
-  estimate.map_unknowns = coefficients.head(unknowns.settings() + 2);
+  estimate.map_unknowns = coefficients.head(unknowns.settings() + unknowns.scales());
   estimate.knowledge.mean = coefficients(own);
   estimate.knowledge.covariance = problem_->covariance(fit_)(own, own);
 }
 
 tl::expected<Estimate, EstimationFailure> Estimator::result() const {
-  Estimate estimate{problem_->unknowns().machine_at(problem_->coefficients(fit_)),
-                    settings_of(*input_.observations.front()),
-                    {},
-                    {},
-                    state_.surface,
-                    problem_->has_surface(),
-                    surface_log_evidence_,
-                    {},
-                    {},
-                    std::sqrt(fit_.sigma2),
-                    fit_.edf,
-                    {},
-                    {},
-                    settled_};
+  auto found = problem_->unknowns().mechanism_at(problem_->coefficients(fit_));
+  const auto* chains = dynamic_cast<const model::ChainMechanism*>(found.get());
+  const observation::Columns columns = observation::columns_of(*input_.observations.front());
+  Estimate estimate{
+      chains != nullptr ? chains->machine() : input_.machine,
+      chains != nullptr ? observation::settings_in(columns) : std::vector<model::Setting>{},
+      {},
+      {},
+      state_.surface,
+      problem_->has_surface(),
+      surface_log_evidence_,
+      {},
+      {},
+      std::sqrt(fit_.sigma2),
+      fit_.edf,
+      {},
+      {},
+      settled_,
+      std::move(found)};
   fill_covariances(estimate);
   fill_units(estimate);
   if (auto done = fill_observations(estimate); !done) return tl::unexpected(done.error());

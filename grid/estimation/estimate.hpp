@@ -39,6 +39,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tl/expected.hpp>
@@ -90,9 +91,14 @@ using UnitGroup = std::vector<std::size_t>;
 
 struct EstimationInput {
   model::Machine machine;  ///< as stated
+  /// In place of two chains of `machine`: its values are where the passes begin. A mechanism of other
+  /// than two lengths has no scales and no surface.
+  std::shared_ptr<const model::Mechanism> mechanism = nullptr;
   /// The marks' frame of the first is that of the surface and of the map.
   observation::Observations observations;
   interp::NoiseScale noise;
+  /// Of smoothing and noise, beside the readings (interp/reml.hpp).
+  interp::SmoothingPrior noise_prior = interp::SmoothingPrior::avoids_boundary;
   SurfaceUse surface = SurfaceUse::smoothed;
   /// Order of the derivatives that the surfaces' penalty squares: 2, a thin plate, or 3, smoother
   /// still.
@@ -159,6 +165,9 @@ struct Estimate {
   std::vector<ObservationEstimate> observations;
   /// False where settings or weights still moved after the last pass.
   bool settled = true;
+  /// With the values found; of two chains that of `machine`. Its parameters are the first of
+  /// map_unknowns and of covariance.
+  std::shared_ptr<const model::Mechanism> mechanism = nullptr;
 };
 
 struct EstimationFailure {

@@ -38,18 +38,22 @@ void JointProblem::add_rows(interp::PenalisedProblem& problem,
 /// What is known of the settings and scales, and readings of the machine itself: data of known
 /// sigma, which the noise factor does not scale.
 void JointProblem::add_settings_prior(interp::PenalisedProblem& problem) const {
-  const Eigen::Index count = unknowns_->settings() + 2;
+  const Eigen::Index count = unknowns_->settings() + unknowns_->scales();
   Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(count, count);
   Eigen::VectorXd pull = Eigen::VectorXd::Zero(count);
   for (Eigen::Index i = 0; i < unknowns_->settings(); ++i)
     precision(i, i) = 1.0 / (unknowns_->sigma(i) * unknowns_->sigma(i));
-  precision.diagonal().tail<2>().setConstant(1.0 / (kScaleSigma * kScaleSigma));
+  precision.diagonal().tail(unknowns_->scales()).setConstant(1.0 / (kScaleSigma * kScaleSigma));
+  // Nothing where the mechanism begins at what was stated.
+  const Eigen::VectorXd stated = unknowns_->stated_deviations();
+  pull.head(stated.size()) = precision.diagonal().head(stated.size()).cwiseProduct(stated);
   if (input_.knowledge) {
     std::vector<Eigen::Index> own;
-    for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) own.push_back(i);
-    own.insert(own.end(), {count - 2, count - 1});
-    const Eigen::MatrixXd inverse = input_.knowledge->covariance.llt().solve(
-        Eigen::MatrixXd::Identity(kMachineUnknowns, kMachineUnknowns));
+    for (Eigen::Index i = 0; i < unknowns_->parameters(); ++i) own.push_back(i);
+    for (Eigen::Index i = 0; i < unknowns_->scales(); ++i) own.push_back(unknowns_->settings() + i);
+    const auto known = static_cast<Eigen::Index>(own.size());
+    const Eigen::MatrixXd inverse =
+        input_.knowledge->covariance.llt().solve(Eigen::MatrixXd::Identity(known, known));
     precision(own, own) = inverse;
     pull(own) = inverse * input_.knowledge->mean;
   }

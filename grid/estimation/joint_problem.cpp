@@ -11,6 +11,7 @@
 #include "grid/chain_rows.hpp"
 #include "grid/estimation/surface_correction.hpp"
 #include "grid/estimation/unknowns.hpp"
+#include "grid/precondition.hpp"
 #include "interp/measured_region.hpp"
 #include "model/calibration/setting.hpp"
 
@@ -45,8 +46,7 @@ interp::BsplineBasis basis_for(const EstimationInput& input, bool has_surface) {
   if (input.intervals_x > 0 && input.intervals_y > 0)
     return {input.domain, input.intervals_x, input.intervals_y};
   const double widening = input.bending_order == 2 ? 1.2 : 0.8;
-  const double spacing_mm =
-      widening * spacing_mm_of(stated_marks(input.observations));
+  const double spacing_mm = widening * spacing_mm_of(stated_marks(input.observations));
   const auto intervals = [spacing_mm](double length_mm, int most) {
     return std::clamp(static_cast<int>(std::ceil(length_mm / spacing_mm)), 3, most);
   };
@@ -65,10 +65,15 @@ double length_of(model::ChainLengths lengths, Side side) { return lengths[side];
 
 JointProblem::JointProblem(const EstimationInput& input, bool has_surface)
     : input_(input),
-      set_(observation_set(input.machine, input.observations)),
+      set_(observation_set(input.machine, input.observations, input.mechanism)),
       layout_(set_, {}),
       has_surface_(has_surface),
       basis_(basis_for(input, has_surface)) {
+  if (has_surface && set_.mechanism->lengths().size() != 2) {
+    throw precondition("a surface corrects two lengths, not the {} of {}",
+                       set_.mechanism->lengths().size(),
+                       set_.mechanism->kind());
+  }
   for (const auto& observation : input.observations)
     places_move_ = places_move_ || !is_linear_in_correction(*observation);
 }
@@ -83,7 +88,7 @@ EstimationFailure JointProblem::unreachable(std::size_t observation,
                       there.name,
                       there.mark.x_mm,
                       there.mark.y_mm,
-                      model::explain(place.reason))};
+                      place.reason.sentence)};
 }
 
 State JointProblem::stated() const {
@@ -93,13 +98,13 @@ State JointProblem::stated() const {
 
 tl::expected<void, EstimationFailure> JointProblem::linearise(const State& state) {
   const std::vector<SurfaceCorrection> corrections = corrections_of(state);
-  const model::ReadingModel model(layout_.machine_at(state.settings));
+  const auto mechanism = layout_.mechanism_at(state.settings);
   std::vector<ObservedFrom> from;
   for (std::size_t k = 0; k < input_.observations.size(); ++k) {
     const bool about_none =
         is_linear_in_correction(*input_.observations[k]) && !input_.fixed_weights;
     from.push_back(
-        {{model, layout_.sheet_at(state.settings, k), about_none ? nullptr : &corrections[k]},
+        {{mechanism, layout_.sheet_at(state.settings, k), about_none ? nullptr : &corrections[k]},
          state.settings(layout_.columns_of(k))});
   }
   const auto system = estimation::linearise(set_, from);
@@ -207,7 +212,7 @@ Eigen::MatrixXd JointProblem::lengths_by_unknown(std::size_t place,
                                                  const observation::View& view) const {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, unknowns_->total());
   for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
-    rows.col(i) = at.state.by_length.cwiseProduct(view.model.sensitivity(
+    rows.col(i) = at.state.by_length.cwiseProduct(view.chains().sensitivity(
         at.state.reading, model::kMachineSettings[static_cast<std::size_t>(i)]));
   }
   if (const Eigen::Index sheet = unknowns_->sheet(at.observation); sheet >= 0) {
@@ -293,6 +298,7 @@ State JointProblem::state_of(const interp::PenalisedFit& fit) const {
       state.settings.segment<3>(layout_.sheet(k)) = all.segment<3>(unknowns_->sheet(k));
   }
   for (const Side side : model::kSides) {
+    if (unknowns_->scales() == 0) break;
     state.surface.scale[side] = all[unknowns_->scale(side)];
     if (!has_surface_) continue;
     state.surface.coefficients[side] =
@@ -305,7 +311,7 @@ State JointProblem::state_of(const interp::PenalisedFit& fit) const {
 
 Eigen::MatrixXd JointProblem::map_covariance(const interp::PenalisedFit& fit,
                                              const FitColumns& columns) const {
-  const Eigen::Index plain = unknowns_->settings() + 2;
+  const Eigen::Index plain = unknowns_->settings() + unknowns_->scales();
   Eigen::MatrixXd to_splines = Eigen::MatrixXd::Zero(columns.total(), unknowns_->total());
   to_splines.topLeftCorner(plain, plain).setIdentity();
   for (const Side side : model::kSides) {

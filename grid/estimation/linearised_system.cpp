@@ -111,7 +111,7 @@ tl::expected<LinearisedSystem, UnreachablePlace> linearise(const ObservationSet&
   Assembly assembly(set);
   for (std::size_t k = 0; k < set.parts.size(); ++k) {
     const Observation& observation = *set.parts[k].observation;
-    const auto line = observation.linearise(from[k].view, settings_of(observation));
+    const auto line = observation.linearise(from[k].view, observation::columns_of(observation));
     if (!line) return tl::unexpected(UnreachablePlace{k, line.error()});
     if (prediction == Prediction::place_by_place) {
       assembly.add(k, *line, line->predicted, from[k].settings);

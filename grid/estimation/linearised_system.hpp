@@ -74,10 +74,10 @@ struct SystemPlace {
 
 /// (1), n rows.
 struct LinearisedSystem {
-  Eigen::VectorXd e;         ///< W (y - f)
-  Eigen::VectorXd response;  ///< W (y - f + A (theta_0 - stated))
-  Eigen::MatrixXd by_setting;  ///< W (A, B), n x q, columns as the observation set has them
-  Eigen::Index nuisances = 0;  ///< the last of these q columns
+  Eigen::VectorXd e;                ///< W (y - f)
+  Eigen::VectorXd response;         ///< W (y - f + A (theta_0 - stated))
+  Eigen::MatrixXd by_setting;       ///< W (A, B), n x q, columns as the observation set has them
+  Eigen::Index nuisances = 0;       ///< the last of these q columns
   std::vector<SystemUnit> units;    ///< numbered as in the observation set
   std::vector<SystemUnit> certain;  ///< rows of readings that nobody can slip at
   std::vector<int> unit_of_row;     ///< n; -1: a row of those

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "grid/precondition.hpp"
 #include "model/calibration/setting.hpp"
+#include "model/chains/chain_mechanism.hpp"
 
 namespace chaintrue::grid::estimation {
 namespace {
@@ -31,7 +33,8 @@ void append(ObservationPart part, ObservationSet& set) {
 
 /// The columns of nuisances, and what is stated of all columns.
 void add_columns(ObservationSet& set) {
-  auto columns = static_cast<Eigen::Index>(set.settings.size());
+  const Eigen::Index parameters = set.parameters();
+  Eigen::Index columns = parameters + 3 * static_cast<Eigen::Index>(set.sheets);
   for (ObservationPart& part : set.parts) {
     for (Eigen::Index q = 0; q < part.observation->nuisance_sigma().size(); ++q) {
       part.nuisance_columns.push_back(columns++);
@@ -39,10 +42,11 @@ void add_columns(ObservationSet& set) {
   }
   set.stated_value = Eigen::VectorXd::Zero(columns);
   set.stated_sigma = Eigen::VectorXd::Zero(columns);
-  for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) {
-    const model::Setting setting = set.settings[static_cast<std::size_t>(k)];
-    set.stated_value(k) = model::stated_value(set.stated, setting);
-    set.stated_sigma(k) = model::stated_sigma(set.stated, setting);
+  set.stated_value.head(parameters) = set.mechanism->values();
+  for (Eigen::Index k = 0; k < parameters; ++k) {
+    set.stated_sigma(k) =
+        set.mechanism->parameters()[static_cast<std::size_t>(k)].prior_sigma.value_or(
+            std::numeric_limits<double>::infinity());
   }
   for (const ObservationPart& part : set.parts) {
     for (std::size_t q = 0; q < part.nuisance_columns.size(); ++q) {
@@ -59,23 +63,18 @@ void add_columns(ObservationSet& set) {
 
 }  // namespace
 
-std::vector<model::Setting> settings_of(const observation::Observation& observation) {
-  std::vector<model::Setting> settings(model::kMachineSettings.begin(),
-                                       model::kMachineSettings.end());
-  if (observation.sheet()) {
-    settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-  }
-  return settings;
-}
-
 ObservationSet observation_set(model::Machine stated,
-                               const observation::Observations& observations) {
+                               const observation::Observations& observations,
+                               std::shared_ptr<const model::Mechanism> mechanism) {
   ObservationSet set;
+  const bool chains = mechanism == nullptr;
+  set.mechanism = chains ? model::make_chain_mechanism(stated) : std::move(mechanism);
   set.stated = std::move(stated);
-  set.settings.assign(model::kMachineSettings.begin(), model::kMachineSettings.end());
+  if (chains) set.settings.assign(model::kMachineSettings.begin(), model::kMachineSettings.end());
   for (const auto& observation : observations) {
     ObservationPart part;
     if (observation->sheet()) {
+      if (!chains) throw precondition("a sheet that was laid under {}", set.mechanism->kind());
       part.sheet = set.sheets++;
       set.settings.insert(
           set.settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
@@ -122,7 +121,7 @@ Eigen::Index ObservationSet::sheet_column(std::size_t sheet) {
 
 std::vector<Eigen::Index> ObservationSet::columns_of(const ObservationPart& part) const {
   std::vector<Eigen::Index> columns;
-  for (Eigen::Index k = 0; k < kMachineSettingCount; ++k) columns.push_back(k);
+  for (Eigen::Index k = 0; k < parameters(); ++k) columns.push_back(k);
   for (std::size_t k = 0; part.sheet && k < model::kSheetSettings.size(); ++k)
     columns.push_back(sheet_column(*part.sheet) + static_cast<Eigen::Index>(k));
   return columns;

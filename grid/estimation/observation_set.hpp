@@ -32,9 +32,6 @@ inline constexpr double kKnownSigma = 1e-7;
 inline constexpr auto kMachineSettingCount =
     static_cast<Eigen::Index>(model::kMachineSettings.size());
 
-/// An observation's own settings: the machine's, and its sheet's where it has one.
-[[nodiscard]] std::vector<model::Setting> settings_of(const observation::Observation& observation);
-
 /// An observation's share of the rows, places, units and columns.
 struct ObservationPart {
   std::shared_ptr<const observation::Observation> observation;
@@ -63,13 +60,17 @@ struct NumberedUnit {
 
 struct ObservationSet {
   model::Machine stated;
+  /// What hangs: two chains of `stated`, or another mechanism, of which `stated` says nothing.
+  std::shared_ptr<const model::Mechanism> mechanism;
   std::vector<ObservationPart> parts;
   std::vector<NumberedPlace> places;
   std::vector<NumberedUnit> units;
-  std::vector<model::Setting> settings;  ///< those of a sheet once for each
+  /// Of two chains, those of a sheet once for each; empty of another mechanism.
+  std::vector<model::Setting> settings;
   std::size_t sheets = 0;
   Eigen::VectorXd stated_value;  ///< q: of the settings, then of the nuisances, each in its unit
-  Eigen::VectorXd stated_sigma;  ///< q, one sigma of these, at least kKnownSigma
+  Eigen::VectorXd
+      stated_sigma;  ///< q, one sigma of these, at least kKnownSigma; infinite: nothing is known
   Eigen::Index rows = 0;
   Eigen::Index observed_rows = 0;  ///< those of units
   /// How well the noise is known; of several observations that of the one that knows least.
@@ -78,8 +79,10 @@ struct ObservationSet {
   /// With fewer units left, none is rejected.
   std::size_t fewest_units = 0;
 
+  /// Of the mechanism: the first columns.
+  [[nodiscard]] Eigen::Index parameters() const { return mechanism->values().size(); }
   [[nodiscard]] Eigen::Index nuisances() const {
-    return stated_value.size() - static_cast<Eigen::Index>(settings.size());
+    return stated_value.size() - parameters() - 3 * static_cast<Eigen::Index>(sheets);
   }
   [[nodiscard]] bool reads_chains() const;
   [[nodiscard]] bool has_distances() const;
@@ -94,15 +97,18 @@ struct ObservationSet {
   [[nodiscard]] bool knows(std::size_t column) const;
   /// The first of the three columns of a sheet.
   [[nodiscard]] static Eigen::Index sheet_column(std::size_t sheet);
-  /// Columns of an observation's own settings, as settings_of() has them.
+  /// Columns of an observation's own settings, as observation::columns_of() has them.
   [[nodiscard]] std::vector<Eigen::Index> columns_of(const ObservationPart& part) const;
   /// What these units are together: "points", "distances", "readings" where there are both.
   [[nodiscard]] std::string_view units_word() const;
 };
 
-/// In the order of `observations`.
-[[nodiscard]] ObservationSet observation_set(model::Machine stated,
-                                             const observation::Observations& observations);
+/// In the order of `observations`. \throws std::invalid_argument for a sheet that was laid under
+/// another mechanism than two chains.
+[[nodiscard]] ObservationSet observation_set(
+    model::Machine stated,
+    const observation::Observations& observations,
+    std::shared_ptr<const model::Mechanism> mechanism = nullptr);
 
 /// The same machine with other observations in place of the set's, each in the frame (sheet and
 /// nuisances) of one of its parts; nuisances that it has beyond the part's come after all columns.

@@ -11,14 +11,16 @@ constexpr auto kSheet = static_cast<Eigen::Index>(model::kSheetSettings.size());
 }  // namespace
 
 Unknowns::Unknowns(const ObservationSet& set, SurfaceColumns surface)
-    : stated_(set.stated), surface_(surface), of_set_(static_cast<std::size_t>(set.stated_value.size())) {
+    : stated_(set.mechanism),
+      surface_(surface),
+      of_set_(static_cast<std::size_t>(set.stated_value.size())) {
   const bool frame_is_laid = !set.parts.empty() && set.parts.front().sheet.has_value();
-  settings_ = kMachineSettingCount + (frame_is_laid ? kSheet : 0);
-  total_ = settings_ + 2 + 2 * (surface.polynomials + surface.bends);
+  settings_ = parameters() + (frame_is_laid ? kSheet : 0);
+  total_ = settings_ + scales() + 2 * (surface.polynomials + surface.bends);
   for (std::size_t i = 0; i < set.parts.size(); ++i) {
     sheet_.push_back(-1);
     if (set.parts[i].sheet) {
-      sheet_.back() = i == 0 ? kMachineSettingCount : total_;
+      sheet_.back() = i == 0 ? parameters() : total_;
       if (i > 0) total_ += kSheet;
     }
     nuisance_.push_back(total_);
@@ -42,20 +44,24 @@ Unknowns::Unknowns(const ObservationSet& set, SurfaceColumns surface)
 
 std::vector<Eigen::Index> Unknowns::columns_of(std::size_t observation) const {
   std::vector<Eigen::Index> columns;
-  for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) columns.push_back(i);
+  for (Eigen::Index i = 0; i < parameters(); ++i) columns.push_back(i);
   for (Eigen::Index i = 0; sheet_[observation] >= 0 && i < kSheet; ++i)
     columns.push_back(sheet_[observation] + i);
   return columns;
 }
 
-model::Machine Unknowns::machine_at(const Eigen::VectorXd& unknowns) const {
-  model::Machine machine = stated_;
-  for (Eigen::Index i = 0; i < kMachineSettingCount; ++i) {
-    const model::Setting setting = model::kMachineSettings[static_cast<std::size_t>(i)];
-    machine = model::with_setting(
-        std::move(machine), setting, model::stated_value(stated_, setting) + unknowns[i]);
+std::shared_ptr<const model::Mechanism> Unknowns::mechanism_at(
+    const Eigen::VectorXd& unknowns) const {
+  return stated_->with_values(stated_->values() + unknowns.head(parameters()));
+}
+
+Eigen::VectorXd Unknowns::stated_deviations() const {
+  Eigen::VectorXd deviations = Eigen::VectorXd::Zero(parameters());
+  for (Eigen::Index i = 0; i < parameters(); ++i) {
+    const auto& stated = stated_->parameters()[static_cast<std::size_t>(i)].stated;
+    if (stated) deviations[i] = *stated - stated_->values()[i];
   }
-  return machine;
+  return deviations;
 }
 
 model::SheetPlacement Unknowns::sheet_at(const Eigen::VectorXd& unknowns,

@@ -2,8 +2,8 @@
 /// \file
 /// The unknowns of a joint estimate, in this order:
 ///
-///   settings      of the machine (6); of the first observation's sheet (3), where it has one
-///   scales        of either chain
+///   settings      parameters of the mechanism; of the first observation's sheet (3), where it has one
+///   scales        of either chain; none of a mechanism of more lengths
 ///   polynomials   of either chain's surface, as the places observe it (observed_subspace.hpp)
 ///   bends         the same
 ///   the rest      of each observation: its sheet where it has one of its own, its nuisances
@@ -13,6 +13,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "grid/chain_rows.hpp"
@@ -30,8 +31,12 @@ class Unknowns {
  public:
   Unknowns(const ObservationSet& set, SurfaceColumns surface);
 
-  /// How many settings there are: of the machine and of the first sheet.
+  /// How many parameters the mechanism has: the first unknowns.
+  [[nodiscard]] Eigen::Index parameters() const { return stated_->values().size(); }
+  /// How many settings there are: parameters, and those of the first sheet.
   [[nodiscard]] Eigen::Index settings() const { return settings_; }
+  /// Two, or none: a surface corrects the lengths of two chains.
+  [[nodiscard]] Eigen::Index scales() const { return stated_->lengths().size() == 2 ? 2 : 0; }
   [[nodiscard]] Eigen::Index scale(model::Side side) const { return settings_ + row_of(side); }
   [[nodiscard]] Eigen::Index polynomial(model::Side side) const {
     return settings_ + 2 + row_of(side) * surface_.polynomials;
@@ -48,20 +53,25 @@ class Unknowns {
   }
   [[nodiscard]] Eigen::Index total() const { return total_; }
 
-  /// One sigma beforehand of a setting's or a sheet's column; 0 of the others.
+  /// One sigma beforehand of a setting's or a sheet's column, infinite where nothing is known; 0 of
+  /// the others.
   [[nodiscard]] double sigma(Eigen::Index column) const { return sigma_[column]; }
   /// Columns of an observation's own settings: the machine's, then its sheet's.
   [[nodiscard]] std::vector<Eigen::Index> columns_of(std::size_t observation) const;
   /// Where each column of the observation set is among the unknowns.
   [[nodiscard]] const std::vector<Eigen::Index>& of_set() const { return of_set_; }
 
-  /// The machine and the sheets that a vector of all unknowns stands for.
-  [[nodiscard]] model::Machine machine_at(const Eigen::VectorXd& unknowns) const;
+  /// What was stated of the parameters less the values that they deviate from.
+  [[nodiscard]] Eigen::VectorXd stated_deviations() const;
+
+  /// The mechanism and the sheets that a vector of all unknowns stands for.
+  [[nodiscard]] std::shared_ptr<const model::Mechanism> mechanism_at(
+      const Eigen::VectorXd& unknowns) const;
   [[nodiscard]] model::SheetPlacement sheet_at(const Eigen::VectorXd& unknowns,
                                                std::size_t observation) const;
 
  private:
-  model::Machine stated_;
+  std::shared_ptr<const model::Mechanism> stated_;
   SurfaceColumns surface_;
   Eigen::Index settings_ = 0;
   std::vector<Eigen::Index> sheet_;

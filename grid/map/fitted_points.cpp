@@ -30,8 +30,6 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
                                           const MeasuredGrid& grid,
                                           const observation::PointNoise& noise,
                                           const model::ReadingModel& stated) {
-  const std::vector<model::Setting> settings(model::kSheetSettings.begin(),
-                                             model::kSheetSettings.end());
   std::vector<LengthPoint> good;
   for (const FittedPoint& point : points) {
     if (!point.bad) good.push_back(point.point);
@@ -40,7 +38,7 @@ model::SheetPlacement fit_sheet_placement(const std::vector<FittedPoint>& points
       chain_length_readings(good, noise, 0.0, grid.sheet);
   return estimation::fit_placement([&](const model::SheetPlacement& sheet,
                                        estimation::PlacementNormal& sum) {
-    const auto line = readings.linearise({stated, sheet}, settings);
+    const auto line = readings.linearise({stated, sheet}, {.sheet = true});
     if (!line) return false;
     for (std::size_t i = 0; i < good.size(); ++i) {
       const auto row = 2 * static_cast<Eigen::Index>(i);

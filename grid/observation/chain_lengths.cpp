@@ -7,6 +7,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "model/chains/chain_mechanism.hpp"
+
 namespace chaintrue::grid::observation {
 
 const Kind chain_lengths{"chain_lengths", "point", "points", "point", true};
@@ -63,14 +65,16 @@ ChainLengthReadings ChainLengthReadings::in_given_order(std::vector<Place> place
 }
 
 tl::expected<Eigen::VectorXd, Unreachable> ChainLengthReadings::predicted(const View& view) const {
-  const model::MarkFrame frame(view.model.machine());
+  const model::MarkFrame frame(view.chains().machine());
   std::vector<model::Visit> visits;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     visits.push_back({view.sheet.to_bed(frame.place(places_[i].mark)),
                       ordered_ ? places_[i].order : static_cast<int>(i)});
   }
-  const auto lengths = model::readings(view.model, visits);
-  if (!lengths) return tl::unexpected(Unreachable{lengths.error().index, lengths.error().reason});
+  const auto lengths = model::readings(view.chains(), visits);
+  if (!lengths)
+    return tl::unexpected(
+        Unreachable{lengths.error().index, model::mechanism_failure(lengths.error().reason)});
   Eigen::VectorXd all(rows());
   for (std::size_t i = 0; i < lengths->size(); ++i) {
     model::ChainLengths own = (*lengths)[i];
@@ -85,16 +89,17 @@ tl::expected<Eigen::VectorXd, Unreachable> ChainLengthReadings::predicted(const 
 }
 
 tl::expected<Linearisation, Unreachable> ChainLengthReadings::linearise(
-    const View& view, const std::vector<model::Setting>& settings) const {
-  const model::MarkFrame frame(view.model.machine());
+    const View& view, const Columns& columns) const {
+  const std::vector<model::Setting> settings = settings_in(columns);
+  const model::MarkFrame frame(view.chains().machine());
   Linearisation line;
   line.predicted.resize(rows());
   line.by_setting.resize(rows(), static_cast<Eigen::Index>(settings.size()));
   line.by_nuisance.resize(rows(), 0);
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const model::MarkPoint place = frame.place(places_[i].mark);
-    const auto reading = view.model.at(view.sheet.to_bed(place));
-    if (!reading) return tl::unexpected(Unreachable{i, reading.error()});
+    const auto reading = view.chains().at(view.sheet.to_bed(place));
+    if (!reading) return tl::unexpected(Unreachable{i, model::mechanism_failure(reading.error())});
     PlaceState state{*reading, places_[i].mark, reading->position_jacobian * view.sheet.rotation()};
     model::ChainLengths lengths = reading->lengths;
     if (view.correction != nullptr) {

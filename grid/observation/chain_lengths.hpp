@@ -45,7 +45,7 @@ class ChainLengthReadings final : public Observation {
   [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
-      const View& view, const std::vector<model::Setting>& settings) const override;
+      const View& view, const Columns& columns) const override;
   [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
                                        model::effects::EffectSide side) const override;
   [[nodiscard]] std::string name_of(std::size_t unit) const override;

@@ -1,7 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/observation/observation.hpp"
 
+#include <stdexcept>
+
+#include "model/chains/chain_mechanism.hpp"
+
 namespace chaintrue::grid::observation {
+
+View::View(model::ReadingModel chains,
+           model::SheetPlacement placement,
+           const LengthCorrection* length_correction)
+    : mechanism(std::make_shared<const model::ChainMechanism>(std::move(chains))),
+      sheet(placement),
+      correction(length_correction) {}
+
+const model::ReadingModel& View::chains() const {
+  const auto* own = dynamic_cast<const model::ChainMechanism*>(mechanism.get());
+  if (own == nullptr) {
+    throw std::logic_error("readings of two chains of a mechanism of " +
+                           std::string(mechanism->kind()));
+  }
+  return own->readings();
+}
+
+Columns columns_of(const Observation& observation) {
+  return {true, observation.sheet().has_value()};
+}
+
+std::vector<model::Setting> settings_in(const Columns& columns) {
+  std::vector<model::Setting> settings;
+  if (columns.parameters)
+    settings.assign(model::kMachineSettings.begin(), model::kMachineSettings.end());
+  if (columns.sheet)
+    settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
+  return settings;
+}
 
 bool SheetPrior::knows(model::Setting setting) const {
   switch (setting) {
@@ -50,7 +83,7 @@ Eigen::Matrix2Xd lengths_by_setting(const View& view,
     if (model::is_of_sheet(settings[s])) {
       columns.col(column) = by_sheet.col(model::sheet_column(settings[s]));
     } else {
-      columns.col(column) = view.model.sensitivity(reading, settings[s]);
+      columns.col(column) = view.chains().sensitivity(reading, settings[s]);
     }
   }
   return columns;

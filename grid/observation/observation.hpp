@@ -7,7 +7,7 @@
 /// Notation
 ///   y      what was read                       n numbers, mm or the reading's own unit
 ///   f      what a machine would give to be read there
-///   theta  settings of the machine and of the sheet                       p of them
+///   theta  parameters of the mechanism, then of the sheet                 p of them
 ///   b      nuisances: errors that several readings share, each about zero with a sigma   q of them
 ///   c_i    what is added to the two chains at place i (effects, a surface) [mm]
 ///
@@ -20,7 +20,7 @@
 /// \code
 ///   const auto tape = TapeDistances::of(set);                // or ChainLengthReadings, ...
 ///   const model::ReadingModel model(machine);
-///   const auto line = tape->linearise({model, {}}, settings);
+///   const auto line = tape->linearise({model, {}}, columns_of(*tape));
 ///   if (line) residual = tape->measured() - line->predicted;   // y - f
 /// \endcode
 #pragma once
@@ -37,6 +37,7 @@
 #include "model/calibration/setting.hpp"
 #include "model/calibration/sheet_placement.hpp"
 #include "model/effects/effect.hpp"
+#include "model/mechanism.hpp"
 #include "model/reading_model.hpp"
 
 namespace chaintrue::grid::observation {
@@ -95,11 +96,33 @@ class LengthCorrection {
                               const Eigen::Matrix2d& by_mark) const = 0;
 };
 
-/// Who is asked: a machine, where the sheet of the marks lies, and what corrects its lengths.
+/// What is linearised about: a mechanism, where the sheet of the marks lies, and what corrects the
+/// mechanism's lengths.
 struct View {
-  model::ReadingModel model;
+  explicit View(std::shared_ptr<const model::Mechanism> what_hangs)
+      : mechanism(std::move(what_hangs)) {}
+  View(std::shared_ptr<const model::Mechanism> what_hangs,
+       model::SheetPlacement placement,
+       const LengthCorrection* length_correction = nullptr)
+      : mechanism(std::move(what_hangs)), sheet(placement), correction(length_correction) {}
+  /// Of two chains.
+  View(model::ReadingModel chains,
+       model::SheetPlacement placement,
+       const LengthCorrection* length_correction = nullptr);
+
+  /// Of two chains; for kinds that read chains alone. \throws std::logic_error for another mechanism.
+  [[nodiscard]] const model::ReadingModel& chains() const;
+
+  std::shared_ptr<const model::Mechanism> mechanism;
   model::SheetPlacement sheet;
   const LengthCorrection* correction = nullptr;
+};
+
+/// Which columns of A are wanted: of the mechanism's parameters, in its order, then of the three of
+/// the sheet.
+struct Columns {
+  bool parameters = false;
+  bool sheet = false;
 };
 
 /// A place as a view has it.
@@ -127,6 +150,7 @@ struct Linearisation {
   Eigen::VectorXd predicted;    ///< f, n
   Eigen::MatrixXd by_setting;   ///< A, n x p
   Eigen::MatrixXd by_nuisance;  ///< B, n x q
+  /// Of each place; empty of a kind whose lengths no LengthCorrection corrects.
   std::vector<PlaceState> places;
   std::vector<UnitState> units;
 };
@@ -134,7 +158,7 @@ struct Linearisation {
 /// The machine cannot hold the tool at a place.
 struct Unreachable {
   std::size_t place = 0;
-  model::PoseFailure reason = model::PoseFailure::not_converged;
+  model::MechanismFailure reason{};
 };
 
 /// Readings of one kind, taken in one session with one sheet. Immutable, thread safe. The order of
@@ -167,9 +191,9 @@ class Observation {
   /// f, visit by visit where the order is known.
   [[nodiscard]] virtual tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const = 0;
-  /// Columns of A in the order of `settings`; `sheet_*` are this observation's own.
+  /// The sheet is this observation's own.
   [[nodiscard]] virtual tl::expected<Linearisation, Unreachable> linearise(
-      const View& view, const std::vector<model::Setting>& settings) const = 0;
+      const View& view, const Columns& columns) const = 0;
 
   /// Why nothing of the kind can show this effect; empty where it can.
   [[nodiscard]] virtual std::string untestable(const model::effects::Effect& effect,
@@ -193,6 +217,11 @@ class Observation {
 
 using Observations = std::vector<std::shared_ptr<const Observation>>;
 
+/// The mechanism's parameters, and the sheet's where the observation has one.
+[[nodiscard]] Columns columns_of(const Observation& observation);
+/// The same columns of two chains, by their settings' names.
+[[nodiscard]] std::vector<model::Setting> settings_in(const Columns& columns);
+
 /// Every kind, in the order of kinds.def.
 [[nodiscard]] const std::vector<const Kind*>& kinds();
 
@@ -204,7 +233,7 @@ using Observations = std::vector<std::shared_ptr<const Observation>>;
 [[nodiscard]] Eigen::MatrixXd marginal_covariance(const Linearisation& line,
                                                   const Eigen::VectorXd& nuisance_sigma);
 
-/// How settings move the lengths at a place, 2 x p; `place` is where the reading was asked for, on
+/// How settings of two chains move the lengths at a place, 2 x p; `place` is where the reading was asked for, on
 /// the sheet, with what the machine's effects of the paper do to it taken out.
 [[nodiscard]] Eigen::Matrix2Xd lengths_by_setting(const View& view,
                                                   const model::PointReading& reading,

@@ -78,11 +78,9 @@ double predicted_reading(const Machine& machine, const ExtraReading& reading) {
 
 SingleReadings::SingleReadings(std::vector<ExtraReading> readings)
     : readings_(std::move(readings)) {
-  std::sort(
-      readings_.begin(), readings_.end(), [](const ExtraReading& a, const ExtraReading& b) {
-        return std::tie(a.what, a.side, a.value, a.sigma) <
-               std::tie(b.what, b.side, b.value, b.sigma);
-      });
+  std::sort(readings_.begin(), readings_.end(), [](const ExtraReading& a, const ExtraReading& b) {
+    return std::tie(a.what, a.side, a.value, a.sigma) < std::tie(b.what, b.side, b.value, b.sigma);
+  });
   measured_.resize(static_cast<Eigen::Index>(readings_.size()));
   for (std::size_t k = 0; k < readings_.size(); ++k) {
     if (!(readings_[k].sigma > 0.0)) {
@@ -100,14 +98,15 @@ double SingleReadings::noise_dof() const { return std::numeric_limits<double>::i
 tl::expected<Eigen::VectorXd, Unreachable> SingleReadings::predicted(const View& view) const {
   Eigen::VectorXd all(rows());
   for (std::size_t k = 0; k < readings_.size(); ++k) {
-    all(static_cast<Eigen::Index>(k)) = predicted_reading(view.model.machine(), readings_[k]);
+    all(static_cast<Eigen::Index>(k)) = predicted_reading(view.chains().machine(), readings_[k]);
   }
   return all;
 }
 
-tl::expected<Linearisation, Unreachable> SingleReadings::linearise(
-    const View& view, const std::vector<model::Setting>& settings) const {
-  const Machine& machine = view.model.machine();
+tl::expected<Linearisation, Unreachable> SingleReadings::linearise(const View& view,
+                                                                   const Columns& columns) const {
+  const std::vector<model::Setting> settings = settings_in(columns);
+  const Machine& machine = view.chains().machine();
   Linearisation line;
   line.predicted = *predicted(view);
   line.by_setting = Eigen::MatrixXd::Zero(rows(), static_cast<Eigen::Index>(settings.size()));

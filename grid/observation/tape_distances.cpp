@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "model/calibration/setting.hpp"
+#include "model/chains/chain_mechanism.hpp"
 #include "model/controllers/payout.hpp"
 #include "model/effects/catalogue.hpp"
 
@@ -252,7 +253,7 @@ tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const V
     model::ChainLengths own = places_[i].lengths;
     if (view.correction != nullptr)
       own = own_lengths(*view.correction, places_[i].mark, places_[i].lengths, own);
-    auto reading = view.model.find(own, start);
+    auto reading = view.chains().find(own, start);
     for (int turn = 1; reading && view.correction != nullptr && turn < kTurns; ++turn) {
       start = reading->pose.position;
       const model::ChainLengths before = own;
@@ -260,9 +261,9 @@ tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const V
       if (std::abs(own.left_mm - before.left_mm) + std::abs(own.right_mm - before.right_mm) <
           kSettledMm)
         break;
-      reading = view.model.find(own, start);
+      reading = view.chains().find(own, start);
     }
-    if (!reading) return tl::unexpected(Unreachable{i, reading.error()});
+    if (!reading) return tl::unexpected(Unreachable{i, model::mechanism_failure(reading.error())});
     PlaceState state{*reading,
                      view.sheet.to_mark(reading->pose.position),
                      reading->position_jacobian * view.sheet.rotation()};
@@ -288,15 +289,16 @@ Eigen::Matrix2Xd TapeDistances::mark_by_setting(const View& view,
 tl::expected<Eigen::VectorXd, Unreachable> TapeDistances::predicted(const View& view) const {
   const auto states = placed(view);
   if (!states) return tl::unexpected(states.error());
-  return Eigen::VectorXd(tape_factor(view.model.machine()) *
+  return Eigen::VectorXd(tape_factor(view.chains().machine()) *
                          distance_geometry(set_, marks_of(*states)).predicted_mm);
 }
 
-tl::expected<Linearisation, Unreachable> TapeDistances::linearise(
-    const View& view, const std::vector<model::Setting>& settings) const {
+tl::expected<Linearisation, Unreachable> TapeDistances::linearise(const View& view,
+                                                                  const Columns& columns) const {
+  const std::vector<model::Setting> settings = settings_in(columns);
   auto states = placed(view);
   if (!states) return tl::unexpected(states.error());
-  const double factor = tape_factor(view.model.machine());
+  const double factor = tape_factor(view.chains().machine());
   const DistanceGeometry geometry = distance_geometry(set_, marks_of(*states));
   const Eigen::MatrixXd by_mark = factor * geometry.by_mark;
   const Eigen::MatrixXd by_hook =

@@ -19,7 +19,7 @@
 ///
 /// \code
 ///   const auto distances = TapeDistances::of(set);          // set.machine has the controller
-///   const auto line = distances->linearise({ReadingModel(machine), {}}, settings);
+///   const auto line = distances->linearise({ReadingModel(machine), {}}, columns_of(*distances));
 ///   if (line) whiten(distances->measured() - line->predicted, marginal_covariance(*line, ...));
 /// \endcode
 #pragma once
@@ -104,7 +104,7 @@ class TapeDistances final : public Observation {
   [[nodiscard]] tl::expected<Eigen::VectorXd, Unreachable> predicted(
       const View& view) const override;
   [[nodiscard]] tl::expected<Linearisation, Unreachable> linearise(
-      const View& view, const std::vector<model::Setting>& settings) const override;
+      const View& view, const Columns& columns) const override;
   [[nodiscard]] std::string untestable(const model::effects::Effect& effect,
                                        model::effects::EffectSide side) const override;
   [[nodiscard]] std::string name_of(std::size_t unit) const override;

@@ -43,14 +43,12 @@ std::optional<Stated> stated_of(const MeasuredHoles& set) {
   if (!set.machine) throw std::invalid_argument("effects on distances need a machine");
   const auto distances = observation::TapeDistances::in_given_order(set);
   if (!distances) return std::nullopt;
-  std::vector<model::Setting> settings(model::kMachineSettings.begin(),
-                                       model::kMachineSettings.end());
   // Distances between holes do not know where the sheet lies; those to its edges must not take a
   // shift of the whole for an effect.
-  settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-  const auto line = distances->linearise({model::ReadingModel(*set.machine), {}}, settings);
+  const observation::Columns columns{.parameters = true, .sheet = true};
+  const auto line = distances->linearise({model::ReadingModel(*set.machine), {}}, columns);
   if (!line) return std::nullopt;
-  Eigen::VectorXd prior(static_cast<Eigen::Index>(settings.size()));
+  Eigen::VectorXd prior(line->by_setting.cols());
   prior << estimation::stated_knowledge(*set.machine).covariance.diagonal().head(model::kMachineSettings.size()),
       std::pow(observation::kSheetShiftMm, 2), std::pow(observation::kSheetShiftMm, 2), std::pow(observation::kSheetTurnRad, 2);
   Stated stated{observation::marginal_covariance(*line, distances->nuisance_sigma()) +

@@ -39,18 +39,18 @@ std::shared_ptr<const ChainMechanism> make_chain_mechanism(const Machine& machin
 }
 
 ChainMechanism::ChainMechanism(const Machine& machine, Model model)
-    : ChainMechanism(machine, model, stated_parameters(machine)) {}
+    : ChainMechanism(ReadingModel(machine, model)) {}
 
-ChainMechanism::ChainMechanism(const Machine& machine,
-                               Model model,
-                               std::vector<MechanismParameter> parameters)
-    : readings_(machine, model),
-      model_(model),
-      frame_(machine),
+ChainMechanism::ChainMechanism(ReadingModel readings)
+    : ChainMechanism(readings, stated_parameters(readings.machine())) {}
+
+ChainMechanism::ChainMechanism(ReadingModel readings, std::vector<MechanismParameter> parameters)
+    : readings_(std::move(readings)),
+      frame_(machine()),
       parameters_(std::move(parameters)),
       values_(static_cast<Eigen::Index>(kMachineSettings.size())) {
   for (std::size_t i = 0; i < kMachineSettings.size(); ++i)
-    values_[static_cast<Eigen::Index>(i)] = stated_value(machine, kMachineSettings[i]);
+    values_[static_cast<Eigen::Index>(i)] = stated_value(machine(), kMachineSettings[i]);
 }
 
 std::span<const std::string_view> ChainMechanism::lengths() const { return kLengths; }
@@ -70,7 +70,8 @@ std::shared_ptr<const Mechanism> ChainMechanism::with_values(const Eigen::Vector
     changed =
         with_setting(std::move(changed), kMachineSettings[i], values[static_cast<Eigen::Index>(i)]);
   }
-  return std::shared_ptr<const Mechanism>(new ChainMechanism(changed, model_, parameters_));
+  return std::shared_ptr<const Mechanism>(
+      new ChainMechanism(ReadingModel(changed, readings_.model()), parameters_));
 }
 
 std::span<const effects::Effect* const> ChainMechanism::effects() const {
@@ -88,7 +89,8 @@ std::shared_ptr<const Mechanism> ChainMechanism::with_effects(
     const std::vector<AppliedEffect>& applied) const {
   Machine changed = machine();
   changed.effects.insert(changed.effects.end(), applied.begin(), applied.end());
-  return std::shared_ptr<const Mechanism>(new ChainMechanism(changed, model_, parameters_));
+  return std::shared_ptr<const Mechanism>(
+      new ChainMechanism(ReadingModel(changed, readings_.model()), parameters_));
 }
 
 tl::expected<LengthsPrediction, MechanismFailure> ChainMechanism::predict(

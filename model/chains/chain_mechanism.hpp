@@ -18,6 +18,7 @@ class ChainMechanism final : public Mechanism {
  public:
   /// \throws std::invalid_argument as ReadingModel.
   explicit ChainMechanism(const Machine& machine, Model model = Model::elastic);
+  explicit ChainMechanism(ReadingModel readings);
 
   [[nodiscard]] std::string_view kind() const override { return "chains"; }
   [[nodiscard]] std::span<const std::string_view> lengths() const override;
@@ -46,10 +47,9 @@ class ChainMechanism final : public Mechanism {
   [[nodiscard]] const ReadingModel& readings() const { return readings_; }
 
  private:
-  ChainMechanism(const Machine& machine, Model model, std::vector<MechanismParameter> parameters);
+  ChainMechanism(ReadingModel readings, std::vector<MechanismParameter> parameters);
 
   ReadingModel readings_;
-  Model model_;
   MarkFrame frame_;
   std::vector<MechanismParameter> parameters_;
   Eigen::VectorXd values_;

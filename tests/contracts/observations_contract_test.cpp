@@ -10,17 +10,18 @@
 #include <map>
 
 #include "grid/files/machine_file.hpp"
+#include "grid/observation/belt_lengths.hpp"
 #include "grid/observation/chain_lengths.hpp"
 #include "grid/observation/single_readings.hpp"
 #include "grid/observation/tape_distances.hpp"
 #include "grid/synthetic/generator.hpp"
 #include "grid/synthetic/holes.hpp"
 #include "grid/synthetic/random.hpp"
+#include "model/belts/belt_mechanism.hpp"
+#include "model/chains/chain_mechanism.hpp"
 
 namespace chaintrue::grid::observation {
 namespace {
-
-using model::Setting;
 
 const model::Machine& classic() {
   static const model::Machine machine =
@@ -32,6 +33,7 @@ const model::Machine& classic() {
 /// of them by many sigmas; `turn` puts the file in another order.
 struct Wanted {
   std::uint64_t seed = 1;
+  bool exact = false;  ///< without noise, where the kind's derivatives are those of exact readings
   bool slip = false;
   bool turn = false;
 };
@@ -124,9 +126,51 @@ std::shared_ptr<const Observation> parts(const Wanted& wanted) {
   return std::make_shared<SingleReadings>(std::move(readings));
 }
 
+const std::shared_ptr<const model::Mechanism>& four_belts() {
+  static const std::shared_ptr<const model::Mechanism> mechanism = [] {
+    model::BeltMachine machine;
+    machine.anchors_known = true;
+    machine.anchors = {
+        {-27.6, 2064.9, 100.0}, {2924.3, 2066.5, 56.0}, {0.0, 0.0, 34.0}, {2953.2, 0.0, 78.0}};
+    return model::make_belt_mechanism(machine);
+  }();
+  return mechanism;
+}
+
+/// Places that nobody measured; of one a reading does not count; two that are known.
+std::shared_ptr<const Observation> belts_at_places(const Wanted& wanted) {
+  constexpr BeltNoise kNoise{.length_mm = 0.5, .position_mm = 0.3};
+  synthetic::Random random(wanted.seed, 79);
+  const auto normal = [&] { return wanted.exact ? 0.0 : random.normal(); };
+  std::vector<LengthsAtPlace> places;
+  for (const double y : {700.0, 1050.0, 1400.0}) {
+    for (const double x : {800.0, 1300.0, 1700.0, 2200.0}) {
+      const std::size_t i = places.size();
+      const model::ToolPosition at{x + random.uniform(-5.0, 5.0), y + random.uniform(-5.0, 5.0)};
+      LengthsAtPlace place{
+          i, std::to_string(i + 1), four_belts()->predict(at, {})->lengths_mm, {}, {}};
+      for (double& length : place.lengths_mm) length += kNoise.length_mm * normal();
+      place.visit.order = static_cast<int>(i);
+      if (i == 7) place.counting = {true, true, false, true};
+      if (i == 2 || i == 9) {
+        place.known = {at.x_mm + kNoise.position_mm * normal(),
+                       at.y_mm + kNoise.position_mm * normal()};
+      }
+      places.push_back(std::move(place));
+    }
+  }
+  if (wanted.slip) places[kSpoilt].lengths_mm[2] += 20.0;
+  turn_over(places, wanted);
+  for (std::size_t i = 0; i < places.size(); ++i) places[i].index = i;
+  return std::make_shared<BeltLengthReadings>(std::move(places), true, kNoise, 15.0);
+}
+
 const std::map<std::string_view, Simulate>& simulations() {
   static const std::map<std::string_view, Simulate> kSimulations = {
-      {"chain_lengths", marks}, {"tape_distances", holes}, {"single_readings", parts}};
+      {"chain_lengths", marks},
+      {"tape_distances", holes},
+      {"single_readings", parts},
+      {"belt_lengths", belts_at_places}};
   return kSimulations;
 }
 
@@ -139,14 +183,14 @@ class EveryObservation : public testing::TestWithParam<const Kind*> {
     }
     return found->second(wanted);
   }
-  static View as_stated() { return {model::ReadingModel(classic()), {}}; }
+  static std::shared_ptr<const model::Mechanism> mechanism() {
+    if (GetParam()->id == "belt_lengths") return four_belts();
+    return model::make_chain_mechanism(classic());
+  }
+  static View as_stated() { return View(mechanism()); }
 };
 
-std::vector<Setting> all_settings() {
-  std::vector<Setting> settings(model::kMachineSettings.begin(), model::kMachineSettings.end());
-  settings.insert(settings.end(), model::kSheetSettings.begin(), model::kSheetSettings.end());
-  return settings;
-}
+constexpr Columns kAllColumns{.parameters = true, .sheet = true};
 
 TEST_P(EveryObservation, UnitsCoverTheRowsAndSpeak) {
   const auto observation = simulated();
@@ -160,35 +204,37 @@ TEST_P(EveryObservation, UnitsCoverTheRowsAndSpeak) {
   }
   EXPECT_EQ(row, observation->rows());
   EXPECT_GT(observation->noise_dof(), 0.0);
-  const auto line = observation->linearise(as_stated(), all_settings());
+  const auto line = observation->linearise(as_stated(), kAllColumns);
   ASSERT_TRUE(line);
   EXPECT_EQ(line->units.size(), observation->units().size());
-  EXPECT_EQ(line->places.size(), observation->places().size());
+  EXPECT_EQ(line->places.size(), line->places.empty() ? 0 : observation->places().size());
   EXPECT_EQ(line->by_nuisance.cols(), observation->nuisance_sigma().size());
   EXPECT_EQ(GetParam()->place.empty(), observation->places().empty());
 }
 
 TEST_P(EveryObservation, DerivativesBySettingAreDifferences) {
-  const auto observation = simulated();
+  const auto observation = simulated({.exact = true});
   const model::SheetPlacement sheet{3.0, -2.0, 0.004};
-  const auto line = observation->linearise({model::ReadingModel(classic()), sheet}, all_settings());
+  const auto line = observation->linearise({mechanism(), sheet}, kAllColumns);
   ASSERT_TRUE(line);
+  const Eigen::Index parameters = mechanism()->values().size();
+  ASSERT_EQ(line->by_setting.cols(), parameters + 3);
   for (Eigen::Index s = 0; s < line->by_setting.cols(); ++s) {
-    const Setting setting = all_settings()[static_cast<std::size_t>(s)];
-    SCOPED_TRACE(std::string(model::name(setting)));
-    const bool turn = setting == Setting::sheet_rotation_rad;
+    SCOPED_TRACE(s < parameters
+                     ? std::string(mechanism()->parameters()[static_cast<std::size_t>(s)].name)
+                     : "of the sheet: " + std::to_string(s - parameters));
+    const bool turn = s == parameters + 2;
     const double step = turn ? 1e-5 : 1e-2;
     const auto predicted_at = [&](double change) -> Eigen::VectorXd {
-      model::Machine machine = classic();
-      model::SheetPlacement at = sheet;
-      if (!model::is_of_sheet(setting)) {
-        machine =
-            model::with_setting(machine, setting, model::stated_value(machine, setting) + change);
+      View view(mechanism(), sheet);
+      if (s < parameters) {
+        view.mechanism = mechanism()->with_values(mechanism()->values() +
+                                                  change * Eigen::VectorXd::Unit(parameters, s));
       } else {
-        double* const value[] = {&at.x_mm, &at.y_mm, &at.rotation_rad};
-        *value[model::sheet_column(setting)] += change;
+        double* const value[] = {&view.sheet.x_mm, &view.sheet.y_mm, &view.sheet.rotation_rad};
+        *value[s - parameters] += change;
       }
-      return *observation->predicted({model::ReadingModel(machine), at});
+      return *observation->predicted(view);
     };
     const Eigen::VectorXd by_difference = (predicted_at(step) - predicted_at(-step)) / (2.0 * step);
     // A central difference errs by step^2 / 6 times the third derivative, some 1e-6 per mm^2, and
@@ -262,8 +308,8 @@ TEST_P(EveryObservation, WhitenedResidualsOfGeneratedDataHaveUnitVariance) {
 TEST_P(EveryObservation, TheOrderOfTheFileChangesNothing) {
   const auto one = simulated();
   const auto other = simulated({.turn = true});
-  const auto a = one->linearise(as_stated(), all_settings());
-  const auto b = other->linearise(as_stated(), all_settings());
+  const auto a = one->linearise(as_stated(), kAllColumns);
+  const auto b = other->linearise(as_stated(), kAllColumns);
   ASSERT_TRUE(a && b);
   // To the last bit.
   EXPECT_EQ(one->measured(), other->measured());

@@ -124,7 +124,7 @@ TEST(HolesDiagnosis, RowsAreTheObservation) {
   const auto system = linearise(*session, state, {});
   ASSERT_TRUE(system);
   const observation::Observation& tape = *session->parts.front().observation;
-  const auto line = tape.linearise(state.view(session->parts.front()), session->settings);
+  const auto line = tape.linearise(state.view(session->parts.front()), observation::columns_of(tape));
   ASSERT_TRUE(line);
   Eigen::VectorXd sigma(system->e.size());
   for (const SystemUnit& unit : system->units) sigma(unit.first_row) = unit.sigma();
