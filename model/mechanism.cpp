@@ -35,8 +35,8 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
   constexpr int kMostSteps = 50;
   constexpr int kMostHalvings = 40;
   constexpr double kConvergedMm = 1e-9;
-  // At the minimum a sum of squares no longer falls, to rounding of its terms.
-  constexpr double kRounding = 1e-12;
+  // At the minimum what the lengths miss no longer falls, to the lengths' own rounding.
+  constexpr double kRoundingMm = 1e-9;
   Eigen::VectorXd weight = Eigen::VectorXd::Ones(lengths_mm.size());
   for (std::size_t i = 0; i < counting.size(); ++i)
     weight[static_cast<Eigen::Index>(i)] = counting[i] ? 1.0 : 0.0;
@@ -59,9 +59,7 @@ tl::expected<ToolPosition, MechanismFailure> locate_by_newton(const Mechanism& m
       next = {position.x_mm + move.x(), position.y_mm + move.y()};
       at_next = mechanism.predict(next, visit, Derivatives::by_position);
       if (!at_next) continue;
-      if (missing_at(*at_next).squaredNorm() <=
-          missing.squaredNorm() * (1.0 + kRounding) + kConvergedMm * kConvergedMm)
-        break;
+      if (missing_at(*at_next).norm() <= missing.norm() + kRoundingMm) break;
     }
     if (!at_next) return tl::unexpected(at_next.error());
     position = next;

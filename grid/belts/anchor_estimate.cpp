@@ -29,8 +29,9 @@ observation::BeltLengthReadings readings_of(const MeasuredBelts& belts, const Co
   return {std::move(places), ordered, {.length_mm = 1.0}, 0.0};
 }
 
-tl::expected<estimation::Estimate, estimation::EstimationFailure> estimate_anchors(
-    const MeasuredBelts& belts, const Counting& counting, const AnchorVector& start) {
+estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
+                                         const Counting& counting,
+                                         const AnchorVector& start) {
   auto readings =
       std::make_shared<const observation::BeltLengthReadings>(readings_of(belts, counting));
   estimation::EstimationInput input;
@@ -43,7 +44,12 @@ tl::expected<estimation::Estimate, estimation::EstimationFailure> estimate_ancho
   input.noise_prior = interp::SmoothingPrior::none;
   input.surface = estimation::SurfaceUse::none;
   input.domain = {0.0, 1.0, 0.0, 1.0};  // of a surface, which there is none
-  return estimation::estimate(input);
+  return input;
+}
+
+tl::expected<estimation::Estimate, estimation::EstimationFailure> estimate_anchors(
+    const MeasuredBelts& belts, const Counting& counting, const AnchorVector& start) {
+  return estimation::estimate(anchor_input(belts, counting, start));
 }
 
 }  // namespace chaintrue::grid::belts

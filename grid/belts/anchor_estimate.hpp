@@ -24,6 +24,12 @@ namespace chaintrue::grid::belts {
 [[nodiscard]] observation::BeltLengthReadings readings_of(const MeasuredBelts& belts,
                                                           const Counting& counting);
 
+/// What the estimator is asked: anchors of which nothing is known but a start, every unit at full
+/// weight.
+[[nodiscard]] estimation::EstimationInput anchor_input(const MeasuredBelts& belts,
+                                                       const Counting& counting,
+                                                       const AnchorVector& start);
+
 /// From anchors that are some centimetres off, to 1e-6 of their sigmas. Its noise_factor is the
 /// spread in mm, the first five of its covariance are the anchors', mm^2; `settled` is false where
 /// 12 passes did not do.
