@@ -81,7 +81,14 @@ Exported of_map(const grid::CompensationMap& map,
   return result;
 }
 
+/// JSON that does not say what it is: somebody's machine, whose reader says what is missing.
+bool is_untyped_json(const InputFile& file) {
+  return file.kind == FileKind::other && files::is_json(file.text) &&
+         files::file_type_of(file.text, file.name).empty();
+}
+
 Exported export_of(const InputFile& file) {
+  if (is_untyped_json(file)) return of_machine(load_machine(file), {});
   require_kind(file,
                {FileKind::machine, FileKind::map, FileKind::diagnosis},
                file.kind == FileKind::anchors ? "anchors of four belts are taken by export maslow4"

@@ -27,6 +27,12 @@ void require_kind(const InputFile& file,
                   const std::string& also) {
   if (std::find(taken.begin(), taken.end(), file.kind) != taken.end()) return;
   const bool is_json = files::is_json(file.text);
+  // No kind that is taken can be a table: why it is no JSON is the better answer.
+  const auto is_table = [](FileKind kind) {
+    return kind == FileKind::grid || kind == FileKind::holes;
+  };
+  if (!is_json && std::none_of(taken.begin(), taken.end(), is_table))
+    (void)files::file_type_of(file.text, file.name);
   const std::string what_takes =
       is_json && file.kind != FileKind::belt_holes && also.empty()
           ? files::what_takes(files::file_type_of(file.text, file.name))
