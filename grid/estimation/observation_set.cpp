@@ -122,7 +122,9 @@ Eigen::Index ObservationSet::sheet_column(std::size_t sheet) {
 std::vector<Eigen::Index> ObservationSet::columns_of(const ObservationPart& part) const {
   std::vector<Eigen::Index> columns;
   for (Eigen::Index k = 0; k < parameters(); ++k) columns.push_back(k);
-  for (std::size_t k = 0; part.sheet && k < model::kSheetSettings.size(); ++k)
+  // What was read to follow up may stand in the frame of a sheet that it does not depend on.
+  const bool has_sheet = part.sheet && part.observation->sheet();
+  for (std::size_t k = 0; has_sheet && k < model::kSheetSettings.size(); ++k)
     columns.push_back(sheet_column(*part.sheet) + static_cast<Eigen::Index>(k));
   return columns;
 }
@@ -151,7 +153,8 @@ const std::vector<ExtraReading>& ObservationSet::readings() const {
 bool ObservationSet::knows(std::size_t column) const {
   if (column >= settings.size() || !model::is_of_sheet(settings[column])) return true;
   return std::any_of(parts.begin(), parts.end(), [&](const ObservationPart& part) {
-    return part.sheet && (column - model::kMachineSettings.size()) / 3 == *part.sheet &&
+    return part.sheet && part.observation->sheet() &&
+           (column - model::kMachineSettings.size()) / 3 == *part.sheet &&
            part.observation->sheet()->knows(settings[column]);
   });
 }

@@ -36,12 +36,19 @@ struct Idle {
 };
 
 constexpr Idle kIdle[] = {
+    {"grid", "fit", "/points/0/order", "no effect of this machine depends on the visit"},
+    {"grid", "fit", "/readings/1/sigma", "a link is taken to be as long as it was read; what is left is in the chains' scales"},
+    {"holes", "fit", "/readings/1/sigma", "a link is taken to be as long as it was read; what is left is in the chains' scales"},
+    {"holes", "passes", "/readings/1/sigma", "a link is taken to be as long as it was read; what is left is in the chains' scales"},
+    {"grid", "check", "/points/0/order", "no effect of this machine depends on the visit"},
     {"grid", "check", "/noise/dof", "a check takes the noise as known"},
     {"grid", "check", "/readings", "readings of the machine say nothing of a map"},
     {"holes", "check", "/noise_dof", "a check takes the noise as known"},
     {"holes", "check", "/readings", "readings of the machine say nothing of a map"},
     {"belts", "check", "/machine", "the anchors that are checked have their own machine"},
     {"belts", "check", "/points/0/commanded", "a check goes by lengths alone"},
+    {"belts", "fit", "/points/0/order", "a fit of anchors knows no effect of the visit"},
+    {"belts", "check", "/points/0/order", "a check goes by lengths alone"},
     {"belts", "check", "/distances", "a check goes by lengths alone"},
     {"belts", "check", "/firmware_fit", "what the firmware said of its own fit is for comparison"},
     {"belts", "fit", "/firmware_fit", "what the firmware said of its own fit is for comparison"},

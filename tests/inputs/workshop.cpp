@@ -122,6 +122,10 @@ Workshop::Workshop() : folder_(temporary_folder()) {
   other["motors"]["left"]["y_mm"] = other["motors"]["left"]["y_mm"].get<double>() + 12.0;
   other["attachment"]["radius_mm"] = 141.0;
   write("other.json", other.dump(1));
+  // A sheet that the programs leave.
+  Json small = Json::parse(text_of("classic.json"));
+  small["bed"] = {{"width_mm", 1000.0}, {"height_mm", 600.0}};
+  write("small.json", small.dump(1));
   Json moved = Json::parse(text_of("belts.json"));
   moved["machine"]["anchors"]["tl"]["x_mm"] = -19.0;
   write("moved_belts.json", moved.dump(1));
