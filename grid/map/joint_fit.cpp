@@ -24,13 +24,13 @@ tl::unexpected<FitFailure> fail(FitFailure::Reason reason, std::string sentence)
 }
 
 FitFailure failure_of(const estimation::EstimationFailure& failure) {
-  using Reason = estimation::EstimationFailure::Reason;
+  using Of = estimation::EstimationFailure::Reason;
   switch (failure.reason) {
-    case Reason::place_unreachable:
+    case Of::place_unreachable:
       return {FitFailure::Reason::point_unreachable, failure.sentence};
-    case Reason::rank_deficient:
+    case Of::rank_deficient:
       return {FitFailure::Reason::rank_deficient, failure.sentence};
-    case Reason::not_converged:
+    case Of::not_converged:
       break;
   }
   return {FitFailure::Reason::not_converged, failure.sentence};
