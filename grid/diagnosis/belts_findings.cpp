@@ -123,7 +123,7 @@ std::optional<Foretold> foretold_by_halves(const MeasuredBelts& belts, const Exp
   if (count < 2 * kFewestBeltPoints) return std::nullopt;
   const std::vector<std::size_t> order = belts::in_order(belts);
   std::vector<double> off_mm;
-  for (const std::size_t half : {0, 1}) {
+  for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
     belts::SettledFrame from = explained.beside.frame;
     for (std::size_t i = half; i < count; i += 2)
       from.counting[order[i]] = {false, false, false, false};

@@ -208,8 +208,8 @@ const Record<PointPicture>& point_picture_record() {
         point,
         [](PointPicture& object) -> model::MarkPoint& { return object.mark; },
         [](const PointPicture& object) -> const model::MarkPoint& { return object.mark; });
-    constexpr int kMostVisits = 1000000000;
-    point.optional("order", &PointPicture::order, integer(-kMostVisits, kMostVisits))
+    constexpr int kMostOrder = 1000000000;
+    point.optional("order", &PointPicture::order, integer(-kMostOrder, kMostOrder))
         .required("bad", &PointPicture::bad, boolean());
     vector_key(point, "before_mm", &PointPicture::before_mm);
     vector_key(point, "after_mm", &PointPicture::after_mm);

@@ -123,7 +123,7 @@ std::string what_takes(std::string_view file_type) {
     std::string_view noun;
     std::string_view verbs;
   };
-  constexpr Kind kKinds[] = {
+  constexpr Kind kTakers[] = {
       {"chaintrue_machine", "a machine", "plan, simulate or export"},
       {"chaintrue_grid", "a grid of measured points", "fit, diagnose or check"},
       {"chaintrue_holes", "a set of holes", "fit, diagnose or check"},
@@ -133,7 +133,7 @@ std::string what_takes(std::string_view file_type) {
       {"chaintrue_diagnosis", "a diagnosis", "report or plan --after"},
       {"chaintrue_sweep", "a sweep", "sweep"},
   };
-  for (const Kind& kind : kKinds) {
+  for (const Kind& kind : kTakers) {
     if (file_type == kind.file_type) {
       return fmt::format("; this is {}; did you mean chaintrue {}?", kind.noun, kind.verbs);
     }
