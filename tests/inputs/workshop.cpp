@@ -133,8 +133,9 @@ Workshop::Workshop() : folder_(temporary_folder()) {
   write("marks.csv", "x_mm,y_mm\n-900,-400\n0,-380\n900,-390\n-880,410\n20,400\n910,380\n");
   write("simple.nc", "G21 G90 G17\nF600\nG0 X-900 Y400\nG1 X900 Y400\n/G1 X900 Y-400\nG1 X0 Y0\nM2\n");
   write("offset.nc", "G21 G90 G17\nF600\nG0 X0 Y0\nG41 D1\nG1 X300 Y0\nG40\nG1 X0 Y0\nM2\n");
+  // Whoever wants to know of line 6 has to come out of the loop first.
   write("loop.nc",
-        "G21 G90 G17\nF600\n#1=0\no1 while [#1 lt 4]\nG1 X[50*#1] Y0\n#1=[#1+1]\no1 endwhile\n"
+        "G21 G90 G17 F600\n#1=0\no1 while [#1 lt 4]\n#1=[#1+1]\no1 endwhile\nG1 X100 Y0\n"
         "G1 X0 Y0\nM2\n");
   write("home.nc", "G21 G90 G17\nF600\nG1 X200 Y100\nG28\nG1 X0 Y0\nM2\n");
   // Marks on part of the bed, on a sheet that was laid by hand.
