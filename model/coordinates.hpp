@@ -23,8 +23,8 @@ struct MarkPoint {
 };
 
 /// The same numbers, of a sheet that lies as the bed does.
-constexpr BedPoint laid_as_bed(MarkPoint mark) { return {mark.x_mm, mark.y_mm}; }
-constexpr MarkPoint laid_as_bed(BedPoint place) { return {place.x_mm, place.y_mm}; }
+constexpr BedPoint identity_placement(MarkPoint mark) { return {mark.x_mm, mark.y_mm}; }
+constexpr MarkPoint identity_placement(BedPoint place) { return {place.x_mm, place.y_mm}; }
 
 enum class Side { left, right };
 

@@ -67,7 +67,7 @@ PoseResult forward_by_inverse(const Kinematics& kinematics,
                               const DomainLimits& limits,
                               ChainLengths lengths) {
   constexpr int kMaxSteps = 60;
-  constexpr double kSettledMm = 1e-7;  // Newton is quadratic: one step more ends at rounding
+  constexpr double kConvergedMm = 1e-7;  // Newton is quadratic: one step more ends at rounding
   const CircleGuess guess = circle_guess(limits, lengths);
   if (guess.hopeless) return tl::unexpected(PoseFailure::too_short);
   const auto failure = [&] {
@@ -82,7 +82,7 @@ PoseResult forward_by_inverse(const Kinematics& kinematics,
   }
   for (int n = 0; pose && n < kMaxSteps; ++n) {
     const double miss = miss_mm(*pose, lengths);
-    const bool last = miss < kSettledMm;
+    const bool last = miss < kConvergedMm;
     const Eigen::Matrix2d j = kinematics.jacobian(*pose);
     const double per_det = 1.0 / (j(0, 0) * j(1, 1) - j(0, 1) * j(1, 0));
     const double bl = lengths.left_mm - pose->lengths.left_mm;

@@ -265,7 +265,7 @@ tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
                                                            BedPoint start) const {
   constexpr int kMaxSteps = 40;
   constexpr double kMaxStrideMm = 300.0;
-  constexpr double kSettledMm = 1e-9;
+  constexpr double kConvergedMm = 1e-9;
   BedPoint point = start;
   for (int step = 0; step < kMaxSteps; ++step) {
     auto reading = at(point);
@@ -276,12 +276,12 @@ tl::expected<PointReading, PoseFailure> ReadingModel::find(ChainLengths lengths,
     if (!move.allFinite()) break;
     if (move.norm() > kMaxStrideMm) move *= kMaxStrideMm / move.norm();
     // A step out of reach is shortened until it stays within.
-    while (move.norm() >= kSettledMm &&
+    while (move.norm() >= kConvergedMm &&
            !state_->kinematics->inverse({point.x_mm + move[0], point.y_mm + move[1]})) {
       move *= 0.5;
     }
     point = {point.x_mm + move[0], point.y_mm + move[1]};
-    if (move.norm() < kSettledMm && missing.norm() < 100.0 * kSettledMm) return at(point);
+    if (move.norm() < kConvergedMm && missing.norm() < 100.0 * kConvergedMm) return at(point);
   }
   return tl::unexpected(PoseFailure::not_converged);
 }

@@ -29,7 +29,7 @@ struct Checks {
 
 /// Each place where its four readings fit the anchors best; empty where one has none.
 std::optional<std::vector<model::FramePoint>> placed(const MeasuredBelts& belts,
-                                                     const belts::FrameSolver& solver,
+                                                     const belts::AnchorAdjustment& solver,
                                                      belts::FrameState state) {
   // From a crossing of two belts; a place settles in three, or nowhere.
   constexpr int kRounds = 8;
@@ -51,7 +51,7 @@ std::optional<std::vector<model::FramePoint>> placed(const MeasuredBelts& belts,
 }
 
 Checks checks_at(const MeasuredBelts& belts,
-                 const belts::FrameSolver& solver,
+                 const belts::AnchorAdjustment& solver,
                  const belts::FrameState& state) {
   const belts::FrameEquations at = solver.equations(state);
   const auto count = static_cast<Eigen::Index>(belts.points.size());
@@ -247,7 +247,7 @@ tl::expected<AnchorsCheck, AnchorsCheckFailure> check_anchors(const BeltsFit& fi
   MeasuredBelts untaped = belts;
   untaped.distances.clear();
   const belts::Counting all(belts.points.size(), model::PerBelt<bool>{true, true, true, true});
-  const belts::FrameSolver solver(untaped, all, fit.spread_mm);
+  const belts::AnchorAdjustment solver(untaped, all, fit.spread_mm);
   belts::FrameState state{belts::anchors_of(fit.machine), 0.0, {}};
   const auto places = placed(untaped, solver, state);
   const auto nowhere = [] {

@@ -121,7 +121,7 @@ BedPoint BeltMap::Placing::on_sheet(FramePoint place) const {
 FramePoint BeltMap::Placing::in_frame(BedPoint on_sheet) const {
   // Each round takes the error down to the displacement's slope, a few thousandths of it.
   constexpr int kMostRounds = 40;
-  constexpr double kSettledMm = 1e-10;
+  constexpr double kConvergedMm = 1e-10;
   const MarkPoint there = sheet.to_mark(on_sheet);
   MarkPoint raw = there;
   for (int round = 0; displacement && round < kMostRounds; ++round) {
@@ -129,7 +129,7 @@ FramePoint BeltMap::Placing::in_frame(BedPoint on_sheet) const {
     const MarkPoint next{there.x_mm - beside.x(), there.y_mm - beside.y()};
     const double moved = std::hypot(next.x_mm - raw.x_mm, next.y_mm - raw.y_mm);
     raw = next;
-    if (moved < kSettledMm) break;
+    if (moved < kConvergedMm) break;
   }
   return {centre.x_mm + raw.x_mm / factor, centre.y_mm + raw.y_mm / factor};
 }
@@ -159,7 +159,7 @@ void BeltMap::lay(Placing& placing) const {
   for (const Reference& reference : references_) {
     const auto place = end_of_spans(placing.machine, reference.left_mm, reference.right_mm);
     if (!place) continue;
-    from.push_back(model::laid_as_bed(placing.on_sheet(*place)));
+    from.push_back(model::identity_placement(placing.on_sheet(*place)));
     to.push_back(reference.commanded);
   }
   if (from.size() >= 2) placing.sheet = laid(from, to);
@@ -202,7 +202,7 @@ BeltMap::BeltMap(const BeltsFit& fit, const HolesBesideBelts* holes)
   }
   std::vector<MarkPoint> measured;
   for (const Reference& reference : references_)
-    measured.push_back(model::laid_as_bed(reference.commanded));
+    measured.push_back(model::identity_placement(reference.commanded));
   area_ = std::make_shared<const MeasuredArea>(measured, domain_of(in_force_));
 }
 

@@ -55,7 +55,7 @@ class BeltMap {
   /// One sigma of each length, from what is uncertain of the fit; a point that lengths() answers.
   [[nodiscard]] model::ChainLengths sigma(model::BedPoint sheet) const;
   [[nodiscard]] MapStatus status(model::BedPoint sheet) const {
-    return area_->status(model::laid_as_bed(sheet));
+    return area_->status(model::identity_placement(sheet));
   }
   [[nodiscard]] const interp::Rectangle& domain() const { return area_->domain(); }
   /// What the controller believed when the places, or the holes, were commanded.

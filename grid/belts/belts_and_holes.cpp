@@ -216,7 +216,7 @@ void fill_frame(const MeasuredBelts& measured,
   if (fit.scale) scale.residuals_mm = fit.scale->residuals_mm;
   fit.scale = std::move(scale);
   if (measured.points.empty()) return;
-  const belts::FrameSolver solver(measured, frame.alone().counting, frame.alone().spread_mm);
+  const belts::AnchorAdjustment solver(measured, frame.alone().counting, frame.alone().spread_mm);
   const belts::FrameEquations there = solver.equations(state.frame);
   for (std::size_t k = 0; k < fit.places.size(); ++k) {
     fit.places[k].at = state.frame.places[k];
@@ -294,7 +294,7 @@ void fill_distances(const TapedFrame& frame,
                             now.left_out_mm(row),
                             now.left_out_sigma_mm(row),
                             !state.counting[static_cast<std::size_t>(row)]};
-      if (!one.set_aside) left_out.push_back(one.left_out_mm);
+      if (!one.rejected) left_out.push_back(one.left_out_mm);
       found.distances.push_back(std::move(one));
       ++row;
     }
@@ -306,10 +306,10 @@ void fill_distances(const TapedFrame& frame,
 }
 
 /// What belts say by themselves; of no points the machine as stated.
-tl::expected<std::pair<BeltsFit, belts::SettledFrame>, BeltsFitFailure> by_belts(
+tl::expected<std::pair<BeltsFit, belts::AnchorFit>, BeltsFitFailure> by_belts(
     const MeasuredBelts& measured) {
   if (measured.points.empty()) {
-    belts::SettledFrame stated;
+    belts::AnchorFit stated;
     stated.state.anchors = belts::anchors_of(measured.machine);
     BeltsFit fit;
     fit.machine = measured.machine;

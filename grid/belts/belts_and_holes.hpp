@@ -67,7 +67,7 @@ struct BeltTapedDistance {
   double off_mm = 0.0;  ///< taped less fitted
   double left_out_mm = 0.0;
   double left_out_sigma_mm = 0.0;
-  bool set_aside = false;
+  bool rejected = false;
 };
 
 struct HolesBesideBelts {

@@ -44,7 +44,9 @@ double across_mm(const std::vector<model::FramePoint>& places) {
 constexpr std::array<std::string_view, 5> kCoordinateNames = {
     "tl_x_mm", "tl_y_mm", "tr_x_mm", "tr_y_mm", "br_x_mm"};
 
-void fill_coordinates(const MeasuredBelts& belts, const belts::FrameView& view, BeltsFit& fit) {
+void fill_coordinates(const MeasuredBelts& belts,
+                      const belts::FitDiagnostics& view,
+                      BeltsFit& fit) {
   const belts::AnchorVector stated = belts::anchors_of(belts.machine);
   const belts::AnchorVector fitted = belts::anchors_of(fit.machine);
   Eigen::Matrix<double, 5, 4> squares = Eigen::Matrix<double, 5, 4>::Zero();
@@ -69,8 +71,8 @@ void fill_coordinates(const MeasuredBelts& belts, const belts::FrameView& view, 
 }
 
 void fill_places(const MeasuredBelts& belts,
-                 const belts::SettledFrame& frame,
-                 const belts::FrameView& view,
+                 const belts::AnchorFit& frame,
+                 const belts::FitDiagnostics& view,
                  BeltsFit& fit) {
   double square = 0.0;
   model::PerBelt<double> squares;
@@ -107,8 +109,8 @@ void fill_places(const MeasuredBelts& belts,
 }
 
 void fill_scale(const MeasuredBelts& belts,
-                const belts::SettledFrame& frame,
-                const belts::FrameView& view,
+                const belts::AnchorFit& frame,
+                const belts::FitDiagnostics& view,
                 BeltsFit& fit) {
   if (!view.solver().fits_scale()) return;
   BeltScale scale;
@@ -154,7 +156,7 @@ tl::expected<BeltsFit, BeltsFitFailure> fit_belts(const MeasuredBelts& belts) {
       "own "
       "belt?";
   if (!frame) return failure(Reason::no_frame, kNoFrame);
-  const belts::FrameView view(belts, *frame);
+  const belts::FitDiagnostics view(belts, *frame);
   if (frame->spread_mm > kNoFrameMm) {
     return failure(Reason::no_frame,
                    fmt::format("the lengths contradict each other by {:.0f} mm whatever the "

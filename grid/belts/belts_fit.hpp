@@ -77,7 +77,7 @@ struct BadBeltReading {
 
 /// Lower belts as the upper two foretell them, at places that were not fitted: what the machine's own
 /// check of tension looks at.
-struct Foretold {
+struct BeltPrediction {
   std::size_t readings = 0;
   double rms_mm = 0.0;
   double largest_mm = 0.0;
@@ -102,8 +102,9 @@ struct BeltsFit {
   std::vector<BadBeltReading> bad;      ///< set aside, the worst first
   std::vector<std::size_t> bad_points;  ///< of which fewer than three readings agree
   std::optional<BeltScale> scale;       ///< empty: not known
-  Foretold one_left_out;
-  std::optional<Foretold> half_left_out;  ///< either half by the other; with ten places and more
+  BeltPrediction one_left_out;
+  std::optional<BeltPrediction>
+      half_left_out;  ///< either half by the other; with ten places and more
 };
 
 struct BeltsFitFailure {

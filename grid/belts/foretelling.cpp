@@ -28,8 +28,8 @@ void foretell(const MeasuredBelts& belts,
   }
 }
 
-Foretold summed(const std::vector<double>& off_mm) {
-  Foretold result{off_mm.size(), rms(off_mm), 0.0};
+BeltPrediction summed(const std::vector<double>& off_mm) {
+  BeltPrediction result{off_mm.size(), rms(off_mm), 0.0};
   for (const double off : off_mm) result.largest_mm = std::max(result.largest_mm, std::abs(off));
   return result;
 }
@@ -44,7 +44,7 @@ std::vector<std::size_t> in_order(const MeasuredBelts& belts) {
   return order;
 }
 
-Foretold foretell_one_by_one(const MeasuredBelts& belts, const FrameView& view) {
+BeltPrediction foretell_one_by_one(const MeasuredBelts& belts, const FitDiagnostics& view) {
   std::vector<double> off_mm;
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     // A taped place is not left out: the tape would still hold its place.
@@ -54,7 +54,8 @@ Foretold foretell_one_by_one(const MeasuredBelts& belts, const FrameView& view) 
   return summed(off_mm);
 }
 
-std::optional<Foretold> foretell_by_halves(const MeasuredBelts& belts, const SettledFrame& frame) {
+std::optional<BeltPrediction> foretell_by_halves(const MeasuredBelts& belts,
+                                                 const AnchorFit& frame) {
   if (belts.points.size() < 2 * kFewestBeltPoints) return std::nullopt;
   MeasuredBelts untaped = belts;
   untaped.distances.clear();

@@ -20,16 +20,17 @@ void foretell(const MeasuredBelts& belts,
               const AnchorVector& anchors,
               const model::PerBelt<bool>& counting,
               std::vector<double>& off_mm);
-[[nodiscard]] Foretold summed(const std::vector<double>& off_mm);
+[[nodiscard]] BeltPrediction summed(const std::vector<double>& off_mm);
 /// Points in the order of their visits, of the file where that is not known.
 [[nodiscard]] std::vector<std::size_t> in_order(const MeasuredBelts& belts);
 
 /// Each place by the anchors without it. Readings that are set aside neither foretell nor are
 /// foretold.
-[[nodiscard]] Foretold foretell_one_by_one(const MeasuredBelts& belts, const FrameView& view);
+[[nodiscard]] BeltPrediction foretell_one_by_one(const MeasuredBelts& belts,
+                                                 const FitDiagnostics& view);
 /// Every second place, in the order of the visits, by the others, and those by these. Empty where a
 /// half has fewer than kFewestBeltPoints, or settles nowhere.
-[[nodiscard]] std::optional<Foretold> foretell_by_halves(const MeasuredBelts& belts,
-                                                         const SettledFrame& frame);
+[[nodiscard]] std::optional<BeltPrediction> foretell_by_halves(const MeasuredBelts& belts,
+                                                               const AnchorFit& frame);
 
 }  // namespace chaintrue::grid::belts

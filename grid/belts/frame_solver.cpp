@@ -123,7 +123,7 @@ model::BeltMachine with_anchors(model::BeltMachine machine, const AnchorVector& 
   return machine;
 }
 
-FrameSolver::FrameSolver(const MeasuredBelts& belts, Counting counting, double sigma_mm)
+AnchorAdjustment::AnchorAdjustment(const MeasuredBelts& belts, Counting counting, double sigma_mm)
     : belts_(belts), counting_(std::move(counting)), sigma_mm_(sigma_mm) {
   if (counting_.size() != belts_.points.size() || !(sigma_mm_ > 0.0)) {
     throw std::logic_error(fmt::format("{} points, {} of which it is said what counts, with {} mm",
@@ -144,7 +144,7 @@ FrameSolver::FrameSolver(const MeasuredBelts& belts, Counting counting, double s
   }
 }
 
-Eigen::Index FrameSolver::belt_degrees_of_freedom() const {
+Eigen::Index AnchorAdjustment::belt_degrees_of_freedom() const {
   Eigen::Index free = -kAnchorUnknowns;
   for (std::size_t k = 0; k < counting_.size(); ++k) {
     if (is_placed_[k]) free += readings_counting(counting_[k]) - 2;
@@ -152,12 +152,12 @@ Eigen::Index FrameSolver::belt_degrees_of_freedom() const {
   return free;
 }
 
-Eigen::Index FrameSolver::degrees_of_freedom() const {
+Eigen::Index AnchorAdjustment::degrees_of_freedom() const {
   const auto distances = static_cast<Eigen::Index>(belts_.distances.size());
   return belt_degrees_of_freedom() + (distances > 0 ? distances - 1 : 0);
 }
 
-void FrameSolver::add_belts(const FrameState& state, FrameEquations& equations) const {
+void AnchorAdjustment::add_belts(const FrameState& state, FrameEquations& equations) const {
   const model::BeltMachine machine = with_anchors(belts_.machine, state.anchors);
   for (std::size_t k = 0; k < belts_.points.size(); ++k) {
     for (const Belt belt : kBelts) {
@@ -176,7 +176,7 @@ void FrameSolver::add_belts(const FrameState& state, FrameEquations& equations) 
   equations.cost += equations.belts_square_mm2 / (sigma_mm_ * sigma_mm_);
 }
 
-void FrameSolver::add_distances(const FrameState& state, FrameEquations& equations) const {
+void AnchorAdjustment::add_distances(const FrameState& state, FrameEquations& equations) const {
   const auto count = static_cast<Eigen::Index>(belts_.distances.size());
   equations.distance_residual = Eigen::VectorXd::Zero(count);
   equations.distance_by_frame = Eigen::MatrixXd::Zero(count, unknowns_);
@@ -210,7 +210,7 @@ void FrameSolver::add_distances(const FrameState& state, FrameEquations& equatio
   equations.cost += equations.distance_residual.squaredNorm();
 }
 
-FrameEquations FrameSolver::equations(const FrameState& state) const {
+FrameEquations AnchorAdjustment::equations(const FrameState& state) const {
   FrameEquations equations;
   const auto rows = 4 * static_cast<Eigen::Index>(belts_.points.size());
   equations.residual = Eigen::VectorXd::Zero(rows);
@@ -220,9 +220,9 @@ FrameEquations FrameSolver::equations(const FrameState& state) const {
   return equations;
 }
 
-Eigen::VectorXd FrameSolver::frame_row(const FrameEquations& at,
-                                       std::size_t point,
-                                       Belt belt) const {
+Eigen::VectorXd AnchorAdjustment::frame_row(const FrameEquations& at,
+                                            std::size_t point,
+                                            Belt belt) const {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns_);
   const SparseRow own =
       sparse_row(belt, at.by_place.row(row_of(point, belt)), place_column_[point]);
@@ -230,9 +230,9 @@ Eigen::VectorXd FrameSolver::frame_row(const FrameEquations& at,
   return row;
 }
 
-FrameSolver::Eliminated FrameSolver::eliminated(const FrameEquations& at,
-                                                std::size_t point,
-                                                double damping) const {
+AnchorAdjustment::Eliminated AnchorAdjustment::eliminated(const FrameEquations& at,
+                                                          std::size_t point,
+                                                          double damping) const {
   const double weight = 1.0 / (sigma_mm_ * sigma_mm_);
   Eliminated result;
   result.cross = Eigen::MatrixX2d::Zero(unknowns_, 2);
@@ -252,7 +252,7 @@ FrameSolver::Eliminated FrameSolver::eliminated(const FrameEquations& at,
   return result;
 }
 
-FrameSolver::Reduced FrameSolver::reduce(const FrameEquations& at, double damping) const {
+AnchorAdjustment::Reduced AnchorAdjustment::reduce(const FrameEquations& at, double damping) const {
   const double weight = 1.0 / (sigma_mm_ * sigma_mm_);
   Reduced reduced;
   reduced.normal = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
@@ -285,9 +285,9 @@ FrameSolver::Reduced FrameSolver::reduce(const FrameEquations& at, double dampin
   return reduced;
 }
 
-FrameState FrameSolver::stepped(const FrameState& state,
-                                const Reduced& reduced,
-                                const Eigen::VectorXd& step) const {
+FrameState AnchorAdjustment::stepped(const FrameState& state,
+                                     const Reduced& reduced,
+                                     const Eigen::VectorXd& step) const {
   FrameState next = state;
   next.anchors += step.head<kAnchorUnknowns>();
   if (fits_scale()) next.log_scale += step[kScaleColumn];
@@ -304,7 +304,7 @@ FrameState FrameSolver::stepped(const FrameState& state,
   return next;
 }
 
-bool FrameSolver::solve(FrameState& state) const {
+bool AnchorAdjustment::solve(FrameState& state) const {
   // A frame begins within a metre of where it ends; of a thousand drawn ones the slowest took 40.
   constexpr int kMostSteps = 100;
   constexpr double kLargestDamping = 1e12;

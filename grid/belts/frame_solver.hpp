@@ -63,11 +63,11 @@ struct FrameEquations {
   Eigen::MatrixXd distance_by_frame;  ///< in sigmas, a column for each unknown of the frame
 };
 
-class FrameSolver {
+class AnchorAdjustment {
  public:
   /// `belts` outlives this. \throws std::logic_error where `counting` is not of its points, or a
   /// hole stands beside anchors that are not known.
-  FrameSolver(const MeasuredBelts& belts, Counting counting, double sigma_mm);
+  AnchorAdjustment(const MeasuredBelts& belts, Counting counting, double sigma_mm);
 
   /// From this state to the nearest minimum. False where it does not settle.
   [[nodiscard]] bool solve(FrameState& state) const;

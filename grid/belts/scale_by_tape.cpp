@@ -53,8 +53,8 @@ std::vector<BeltEnd> ends_of(const MeasuredBelts& belts, const BeltsFit& fit) {
   return ends;
 }
 
-belts::SettledFrame frame_of(const BeltsFit& fit) {
-  belts::SettledFrame frame;
+belts::AnchorFit frame_of(const BeltsFit& fit) {
+  belts::AnchorFit frame;
   frame.state.anchors = belts::anchors_of(fit.machine);
   for (const FittedPlace& place : fit.places) {
     frame.state.places.push_back(place.at);
@@ -70,18 +70,18 @@ belts::SettledFrame frame_of(const BeltsFit& fit) {
 
 /// One sigma of the scale beside this distance; infinity where it is not determined.
 double sigma_beside(const MeasuredBelts& belts,
-                    const belts::SettledFrame& frame,
+                    const belts::AnchorFit& frame,
                     BeltDistance& distance) {
   // What it is expected to be changes no sigma: read from its residual, and then put in.
   MeasuredBelts taped = belts;
   taped.distances.push_back(distance);
-  const belts::FrameSolver solver(taped, frame.counting, frame.spread_mm);
+  const belts::AnchorAdjustment solver(taped, frame.counting, frame.spread_mm);
   const belts::FrameEquations at = solver.equations(frame.state);
   if (!std::isfinite(at.cost)) return std::numeric_limits<double>::infinity();
   const auto last = at.distance_residual.size() - 1;
   distance.distance_mm = -at.distance_residual(last) * distance.sigma_mm;
   taped.distances.back() = distance;
-  const belts::FrameView view(taped, frame);
+  const belts::FitDiagnostics view(taped, frame);
   const double variance = view.covariance()(belts::kAnchorUnknowns, belts::kAnchorUnknowns);
   return variance > 0.0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
 }
@@ -99,7 +99,7 @@ std::optional<DistanceForScale> distance_for_scale(const MeasuredBelts& belts,
   };
   add_pairs({model::kBelts.begin(), model::kBelts.end()});
   add_pairs(ends_of(belts, fit));
-  const belts::SettledFrame frame = frame_of(fit);
+  const belts::AnchorFit frame = frame_of(fit);
   std::optional<DistanceForScale> best;
   for (const auto& [from, to] : pairs) {
     BeltDistance distance{from, to, 0.0, kTapedDistanceMm};

@@ -30,8 +30,8 @@ bool is_upright_frame(const AnchorVector& a) {
   return a[4] > 0.0 && a[2] > a[0] && a[1] > 0.0 && a[3] > 0.0;
 }
 
-std::optional<SettledFrame> settled_once(const MeasuredBelts& belts, SettledFrame frame) {
-  const FrameSolver solver(belts, frame.counting, frame.spread_mm);
+std::optional<AnchorFit> settled_once(const MeasuredBelts& belts, AnchorFit frame) {
+  const AnchorAdjustment solver(belts, frame.counting, frame.spread_mm);
   const bool at_bottom = solver.solve(frame.state);
   const FrameEquations there = solver.equations(frame.state);
   if (!std::isfinite(there.cost)) return std::nullopt;
@@ -42,9 +42,7 @@ std::optional<SettledFrame> settled_once(const MeasuredBelts& belts, SettledFram
   return frame;
 }
 
-std::optional<SettledFrame> settled(const MeasuredBelts& belts,
-                                    FrameState state,
-                                    Counting counting) {
+std::optional<AnchorFit> settled(const MeasuredBelts& belts, FrameState state, Counting counting) {
   MeasuredBelts untaped = belts;
   untaped.distances.clear();
   auto frame = settled_once(untaped, {std::move(state), std::move(counting), 1.0, 0, false});
@@ -63,8 +61,8 @@ struct Worst {
   double sigmas = 0.0;
 };
 
-Worst worst_of(const MeasuredBelts& belts, const SettledFrame& frame, bool counting) {
-  const FrameView view(belts, frame);
+Worst worst_of(const MeasuredBelts& belts, const AnchorFit& frame, bool counting) {
+  const FitDiagnostics view(belts, frame);
   Worst worst{0, Belt::tl, counting ? 0.0 : std::numeric_limits<double>::infinity()};
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     for (const Belt belt : kBelts) {
@@ -80,7 +78,7 @@ Worst worst_of(const MeasuredBelts& belts, const SettledFrame& frame, bool count
 /// A point of another frame, or with digits lost, bends all others to itself, and its four readings
 /// hide one another: points are left out whole, the worst first, while that makes a frame of what was
 /// none.
-SettledFrame without_gross_points(const MeasuredBelts& belts, SettledFrame frame) {
+AnchorFit without_gross_points(const MeasuredBelts& belts, AnchorFit frame) {
   // Of more points one cannot bend the frame so far that its own readings do not stand out.
   constexpr std::size_t kMostPoints = 100;
   constexpr double kMuchBetter = 3.0;
@@ -92,7 +90,7 @@ SettledFrame without_gross_points(const MeasuredBelts& belts, SettledFrame frame
   untaped.distances.clear();
   for (std::size_t out = 0; out < most; ++out) {
     if (frame.is_sound && frame.spread_mm < kPlausibleSpreadMm) break;
-    std::optional<SettledFrame> best;
+    std::optional<AnchorFit> best;
     for (std::size_t k = 0; k < count; ++k) {
       if (!frame.counting[k].tl) continue;
       Counting fewer = frame.counting;
@@ -109,7 +107,7 @@ SettledFrame without_gross_points(const MeasuredBelts& belts, SettledFrame frame
 }
 
 /// The worst reading set aside, and again; at last those that fit after all are taken back.
-SettledFrame without_bad_readings(const MeasuredBelts& belts, SettledFrame frame) {
+AnchorFit without_bad_readings(const MeasuredBelts& belts, AnchorFit frame) {
   const auto most =
       static_cast<std::size_t>(kMostBadReadings * 4.0 * static_cast<double>(belts.points.size()));
   for (std::size_t aside = 0; frame.is_sound && aside < most && frame.checks > 1; ++aside) {
@@ -134,7 +132,7 @@ SettledFrame without_bad_readings(const MeasuredBelts& belts, SettledFrame frame
   return frame;
 }
 
-void place_the_unplaced(const MeasuredBelts& belts, SettledFrame& frame) {
+void place_the_unplaced(const MeasuredBelts& belts, AnchorFit& frame) {
   const model::BeltMachine machine = with_anchors(belts.machine, frame.state.anchors);
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     const auto& counts = frame.counting[k];
@@ -145,18 +143,18 @@ void place_the_unplaced(const MeasuredBelts& belts, SettledFrame& frame) {
 
 }  // namespace
 
-std::optional<SettledFrame> settle_from(const MeasuredBelts& belts,
-                                        FrameState state,
-                                        Counting counting) {
+std::optional<AnchorFit> settle_from(const MeasuredBelts& belts,
+                                     FrameState state,
+                                     Counting counting) {
   return settled(belts, std::move(state), std::move(counting));
 }
 
-std::optional<SettledFrame> settle(const MeasuredBelts& belts) {
+std::optional<AnchorFit> settle(const MeasuredBelts& belts) {
   const Counting all(belts.points.size(), {true, true, true, true});
   // A tape's slip must not lead the search for the frame.
   MeasuredBelts untaped = belts;
   untaped.distances.clear();
-  std::optional<SettledFrame> best;
+  std::optional<AnchorFit> best;
   for (const FrameState& first : first_frames(untaped, all)) {
     auto frame = settled(untaped, first, all);
     if (!frame) continue;
@@ -170,10 +168,10 @@ std::optional<SettledFrame> settle(const MeasuredBelts& belts) {
   return settled(belts, best->state, best->counting);
 }
 
-std::optional<SettledFrame> settle_robustly(const MeasuredBelts& belts) {
+std::optional<AnchorFit> settle_robustly(const MeasuredBelts& belts) {
   const auto first = settle(belts);
   if (!first) return std::nullopt;
-  SettledFrame frame = without_bad_readings(belts, *first);
+  AnchorFit frame = without_bad_readings(belts, *first);
   if (!frame.is_sound || frame.spread_mm > kPlausibleSpreadMm) {
     frame = without_bad_readings(belts, without_gross_points(belts, *first));
   }
@@ -181,7 +179,7 @@ std::optional<SettledFrame> settle_robustly(const MeasuredBelts& belts) {
   return frame;
 }
 
-FrameView::FrameView(const MeasuredBelts& belts, const SettledFrame& frame)
+FitDiagnostics::FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& frame)
     : frame_(frame),
       solver_(belts, frame.counting, frame.spread_mm),
       equations_(solver_.equations(frame.state)),
@@ -190,28 +188,28 @@ FrameView::FrameView(const MeasuredBelts& belts, const SettledFrame& frame)
   covariance_ = reduced_.normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
 }
 
-Eigen::Matrix2d FrameView::place_covariance_mm2(std::size_t point) const {
+Eigen::Matrix2d FitDiagnostics::place_covariance_mm2(std::size_t point) const {
   if (!solver_.is_placed(point)) return Eigen::Matrix2d::Zero();
   if (solver_.is_taped(point)) {
     const Eigen::Index column = solver_.place_column(point);
     return covariance_.block<2, 2>(column, column);
   }
-  const FrameSolver::Eliminated& own = reduced_.points[point];
+  const AnchorAdjustment::Eliminated& own = reduced_.points[point];
   const Eigen::Matrix2Xd gain = own.inverse * own.cross.transpose();
   return own.inverse + gain * covariance_ * gain.transpose();
 }
 
-Eigen::VectorXd FrameView::influence(std::size_t point, Belt belt) const {
+Eigen::VectorXd FitDiagnostics::influence(std::size_t point, Belt belt) const {
   const double weight = 1.0 / (frame_.spread_mm * frame_.spread_mm);
   Eigen::VectorXd row = solver_.frame_row(equations_, point, belt);
   if (!solver_.is_taped(point)) {
-    const FrameSolver::Eliminated& own = reduced_.points[point];
+    const AnchorAdjustment::Eliminated& own = reduced_.points[point];
     row -= own.cross * (own.inverse * equations_.by_place.row(row_of(point, belt)).transpose());
   }
   return weight * covariance_ * row;
 }
 
-BeltResidual FrameView::residual(std::size_t point, Belt belt) const {
+BeltResidual FitDiagnostics::residual(std::size_t point, Belt belt) const {
   BeltResidual result;
   const double r = equations_.residual[row_of(point, belt)];
   result.off_mm = r;
@@ -222,7 +220,7 @@ BeltResidual FrameView::residual(std::size_t point, Belt belt) const {
   Eigen::VectorXd row = solver_.frame_row(equations_, point, belt);
   double own_share = 0.0;
   if (!solver_.is_taped(point)) {
-    const FrameSolver::Eliminated& own = reduced_.points[point];
+    const AnchorAdjustment::Eliminated& own = reduced_.points[point];
     const Eigen::Vector2d by_place = equations_.by_place.row(row_of(point, belt)).transpose();
     own_share = by_place.dot(own.inverse * by_place) / s2;
     row -= own.cross * (own.inverse * by_place);
@@ -242,7 +240,7 @@ BeltResidual FrameView::residual(std::size_t point, Belt belt) const {
   return result;
 }
 
-AnchorVector FrameView::anchors_without(std::size_t point) const {
+AnchorVector FitDiagnostics::anchors_without(std::size_t point) const {
   const double weight = 1.0 / (frame_.spread_mm * frame_.spread_mm);
   const Eigen::Index n = solver_.unknowns();
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
@@ -253,7 +251,7 @@ AnchorVector FrameView::anchors_without(std::size_t point) const {
     normal += weight * row * row.transpose();
     gradient += weight * equations_.residual[row_of(point, belt)] * row;
   }
-  const FrameSolver::Eliminated& own = reduced_.points[point];
+  const AnchorAdjustment::Eliminated& own = reduced_.points[point];
   normal -= own.cross * own.inverse * own.cross.transpose();
   gradient -= own.cross * (own.inverse * own.gradient);
   const Eigen::VectorXd change = (reduced_.normal - normal).ldlt().solve(-gradient);

@@ -18,7 +18,7 @@
 
 namespace chaintrue::grid::belts {
 
-struct SettledFrame {
+struct AnchorFit {
   FrameState state;
   Counting counting;
   double spread_mm = 0.0;
@@ -29,23 +29,23 @@ struct SettledFrame {
 
 /// From the likeliest start that leads to a sound frame, every reading counting; where none does the
 /// one that fits best, and empty where no start leads anywhere.
-[[nodiscard]] std::optional<SettledFrame> settle(const MeasuredBelts& belts);
+[[nodiscard]] std::optional<AnchorFit> settle(const MeasuredBelts& belts);
 /// The same without the readings that do not fit.
-[[nodiscard]] std::optional<SettledFrame> settle_robustly(const MeasuredBelts& belts);
+[[nodiscard]] std::optional<AnchorFit> settle_robustly(const MeasuredBelts& belts);
 /// From a state near by, with what counts given.
-[[nodiscard]] std::optional<SettledFrame> settle_from(const MeasuredBelts& belts,
-                                                      FrameState state,
-                                                      Counting counting);
+[[nodiscard]] std::optional<AnchorFit> settle_from(const MeasuredBelts& belts,
+                                                   FrameState state,
+                                                   Counting counting);
 
 /// What is known about a settled frame: its equations and covariances.
-class FrameView {
+class FitDiagnostics {
  public:
   /// `belts` outlives this.
-  FrameView(const MeasuredBelts& belts, const SettledFrame& frame);
+  FitDiagnostics(const MeasuredBelts& belts, const AnchorFit& frame);
 
-  [[nodiscard]] const FrameSolver& solver() const { return solver_; }
+  [[nodiscard]] const AnchorAdjustment& solver() const { return solver_; }
   [[nodiscard]] const FrameEquations& equations() const { return equations_; }
-  [[nodiscard]] const FrameSolver::Reduced& reduced() const { return reduced_; }
+  [[nodiscard]] const AnchorAdjustment::Reduced& reduced() const { return reduced_; }
   /// Of the frame's unknowns. Not finite, or with a negative diagonal, where they are not determined.
   [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
   [[nodiscard]] Eigen::Matrix2d place_covariance_mm2(std::size_t point) const;
@@ -56,10 +56,10 @@ class FrameView {
   [[nodiscard]] AnchorVector anchors_without(std::size_t point) const;
 
  private:
-  SettledFrame frame_;
-  FrameSolver solver_;
+  AnchorFit frame_;
+  AnchorAdjustment solver_;
   FrameEquations equations_;
-  FrameSolver::Reduced reduced_;
+  AnchorAdjustment::Reduced reduced_;
   Eigen::MatrixXd covariance_;
 };
 

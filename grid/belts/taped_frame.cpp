@@ -19,7 +19,7 @@ Eigen::VectorXd frame_vector(const FrameState& state) {
 
 TapedFrame::TapedFrame(const MeasuredBelts& belts,
                        const std::vector<BeltHoles>& sets,
-                       SettledFrame alone)
+                       AnchorFit alone)
     : belts_(belts), sets_(sets), alone_(std::move(alone)) {
   if (belts.points.empty()) return;
   solver_.emplace(belts, alone_.counting, alone_.spread_mm);
@@ -141,7 +141,7 @@ FrameState TapedFrame::stepped(const FrameState& state,
   next.log_scale += step[kAnchorUnknowns];
   for (std::size_t k = 0; solver_ && k < next.places.size(); ++k) {
     if (!solver_->is_placed(k)) continue;
-    const FrameSolver::Eliminated& own = normal.belts->points[k];
+    const AnchorAdjustment::Eliminated& own = normal.belts->points[k];
     const Eigen::Vector2d move =
         solver_->is_taped(k)
             ? Eigen::Vector2d(step.segment<2>(solver_->place_column(k)))

@@ -37,7 +37,7 @@ class TapedFrame {
  public:
   /// `belts` and `sets` outlive this. `alone` is the frame that the belts settled on by themselves,
   /// of no points the stated one.
-  TapedFrame(const MeasuredBelts& belts, const std::vector<BeltHoles>& sets, SettledFrame alone);
+  TapedFrame(const MeasuredBelts& belts, const std::vector<BeltHoles>& sets, AnchorFit alone);
 
   [[nodiscard]] std::optional<TapedRows> rows(const FrameState& state) const;
   /// C about these rows; those set aside are known to nothing.
@@ -52,14 +52,14 @@ class TapedFrame {
   /// The minimum nearest to `state`, with C as it is; empty where it does not settle.
   [[nodiscard]] std::optional<FrameState> settled(FrameState state,
                                                   const Eigen::MatrixXd& covariance) const;
-  [[nodiscard]] const SettledFrame& alone() const { return alone_; }
+  [[nodiscard]] const AnchorFit& alone() const { return alone_; }
 
  private:
   struct Normal {
     double cost = 0.0;
     Eigen::MatrixXd matrix;
     Eigen::VectorXd gradient;
-    std::optional<FrameSolver::Reduced> belts;
+    std::optional<AnchorAdjustment::Reduced> belts;
   };
   /// Of everything but the holes.
   [[nodiscard]] Normal of_the_belts(const FrameState& state) const;
@@ -71,8 +71,8 @@ class TapedFrame {
 
   const MeasuredBelts& belts_;
   const std::vector<BeltHoles>& sets_;
-  SettledFrame alone_;
-  std::optional<FrameSolver> solver_;  ///< none without points
+  AnchorFit alone_;
+  std::optional<AnchorAdjustment> solver_;  ///< none without points
   Eigen::Index unknowns_ = kFrameUnknowns;
 };
 

@@ -15,7 +15,7 @@ namespace chaintrue::grid::diagnosis {
 namespace {
 
 constexpr int kCalibrations = 8;
-constexpr double kSettledMm = 1e-4;
+constexpr double kConvergedMm = 1e-4;
 
 DiagnosisFailure unreachable(const ObservationSet& session, const observation::Unreachable& failure) {
   const NumberedPlace& place = session.places[failure.place];
@@ -71,7 +71,7 @@ tl::expected<void, DiagnosisFailure> calibrate(Analysis& a) {
     state = with_settings(session, state, system->setting + change);
     const auto problems = model::problems_of(state.machine);
     if (!problems.empty()) return tl::unexpected(impossible(session, problems.front()));
-    a.settled = move_mm(session, change) < kSettledMm;
+    a.settled = move_mm(session, change) < kConvergedMm;
   }
   a.state = std::move(state);
   return {};

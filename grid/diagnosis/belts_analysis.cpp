@@ -184,7 +184,7 @@ void drop_hidden(BeltsAnalysis& a) {
 
 /// Anchors, places and sizes as the decision has them. The state stays where that settles nowhere.
 void move_state(BeltsAnalysis& a) {
-  belts::SettledFrame from = a.state.frame;
+  belts::AnchorFit from = a.state.frame;
   from.counting = decided_counting(a);
   auto beside = settle_beside(a.belts, decided_causes(a.analysis), from);
   if (!beside) return;

@@ -15,7 +15,7 @@ namespace chaintrue::grid::diagnosis {
 
 struct BeltsAnalysis {
   MeasuredBelts belts;        ///< without distances: they say nothing of a cause
-  belts::SettledFrame alone;  ///< anchors and places, no cause at work
+  belts::AnchorFit alone;     ///< anchors and places, no cause at work
   BeltsState state;
   BeltsSystem linear;
   Suspects suspects;      ///< to which it is turned

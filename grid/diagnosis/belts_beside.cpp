@@ -90,9 +90,9 @@ bool moved(const Eigen::VectorXd& change,
 
 /// (1): changes of the five anchor coordinates, then of the values.
 Eigen::VectorXd least_squares(const MeasuredBelts& freed,
-                              const belts::SettledFrame& frame,
+                              const belts::AnchorFit& frame,
                               const Eigen::MatrixXd& columns) {
-  const belts::FrameSolver solver(freed, frame.counting, frame.spread_mm);
+  const belts::AnchorAdjustment solver(freed, frame.counting, frame.spread_mm);
   const belts::FrameEquations at = solver.equations(frame.state);
   const Eigen::Index unknowns = belts::kAnchorUnknowns + columns.cols();
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
@@ -143,9 +143,9 @@ Eigen::VectorXd added_by(const MeasuredBelts& belts,
   return added;
 }
 
-MeasuredBelts freed_of(const MeasuredBelts& belts,
-                       const std::vector<BeltCause>& causes,
-                       const belts::FrameState& state) {
+MeasuredBelts without_effects(const MeasuredBelts& belts,
+                              const std::vector<BeltCause>& causes,
+                              const belts::FrameState& state) {
   MeasuredBelts freed = belts;
   const Eigen::VectorXd added = added_by(belts, causes, state);
   for (std::size_t k = 0; k < freed.points.size(); ++k) {
@@ -174,7 +174,7 @@ Eigen::MatrixXd checks_of(const belts::FrameEquations& at,
 
 std::optional<FrameBeside> settle_beside(const MeasuredBelts& belts,
                                          std::vector<BeltCause> causes,
-                                         const belts::SettledFrame& from) {
+                                         const belts::AnchorFit& from) {
   // Sizes and frame are nearly linear in each other: three rounds settle all but zeros of an arm's
   // length, which take six.
   constexpr int kMostRounds = 12;
@@ -183,15 +183,15 @@ std::optional<FrameBeside> settle_beside(const MeasuredBelts& belts,
   FrameBeside beside{from, std::move(causes)};
   const std::vector<FreeValue> free = free_values(beside.causes);
   for (int round = 0; round < kMostRounds; ++round) {
-    const MeasuredBelts freed = freed_of(untaped, beside.causes, beside.frame.state);
+    const MeasuredBelts freed = without_effects(untaped, beside.causes, beside.frame.state);
     auto frame = belts::settle_from(freed, beside.frame.state, beside.frame.counting);
     if (!frame) return std::nullopt;
     beside.frame = *std::move(frame);
     if (free.empty() && round > 0) return beside;
     const Eigen::MatrixXd columns =
         value_columns(untaped, beside.causes, beside.frame.state, free);
-    const Eigen::VectorXd change =
-        least_squares(freed_of(untaped, beside.causes, beside.frame.state), beside.frame, columns);
+    const Eigen::VectorXd change = least_squares(
+        without_effects(untaped, beside.causes, beside.frame.state), beside.frame, columns);
     if (moved(change, free, beside.causes) && round > 0) return beside;
   }
   return beside;

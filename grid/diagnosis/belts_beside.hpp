@@ -41,9 +41,9 @@ struct BeltCause {
                                        const belts::FrameState& state);
 
 /// The readings without that.
-[[nodiscard]] MeasuredBelts freed_of(const MeasuredBelts& belts,
-                                     const std::vector<BeltCause>& causes,
-                                     const belts::FrameState& state);
+[[nodiscard]] MeasuredBelts without_effects(const MeasuredBelts& belts,
+                                            const std::vector<BeltCause>& causes,
+                                            const belts::FrameState& state);
 
 /// Q of a place: 4 x (readings that count less 2), rows of readings that do not count 0.
 [[nodiscard]] Eigen::MatrixXd checks_of(const belts::FrameEquations& at,
@@ -52,13 +52,13 @@ struct BeltCause {
 
 /// Anchors, places and sizes at rest.
 struct FrameBeside {
-  belts::SettledFrame frame;
+  belts::AnchorFit frame;
   std::vector<BeltCause> causes;
 };
 /// From a state near by; sizes that are whole numbers stay, others within their ranges. Empty where
 /// nothing settles.
 [[nodiscard]] std::optional<FrameBeside> settle_beside(const MeasuredBelts& belts,
                                                        std::vector<BeltCause> causes,
-                                                       const belts::SettledFrame& from);
+                                                       const belts::AnchorFit& from);
 
 }  // namespace chaintrue::grid::diagnosis

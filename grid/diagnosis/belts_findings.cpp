@@ -108,28 +108,29 @@ ToolError tool_error(const Explained& explained,
 
 /// Of all readings, none set aside.
 double rms_of_all_mm(const MeasuredBelts& belts, const FrameBeside& beside) {
-  belts::SettledFrame from = beside.frame;
+  belts::AnchorFit from = beside.frame;
   from.counting.assign(belts.points.size(), {true, true, true, true});
   const auto fitted = settle_beside(belts, beside.causes, from);
   const FrameBeside& at = fitted ? *fitted : beside;
-  const MeasuredBelts freed = freed_of(belts, at.causes, at.frame.state);
-  const belts::FrameSolver solver(freed, at.frame.counting, at.frame.spread_mm);
+  const MeasuredBelts freed = without_effects(belts, at.causes, at.frame.state);
+  const belts::AnchorAdjustment solver(freed, at.frame.counting, at.frame.spread_mm);
   const Eigen::VectorXd left = solver.equations(at.frame.state).residual;
   return std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
 }
 
-std::optional<Foretold> foretold_by_halves(const MeasuredBelts& belts, const Explained& explained) {
+std::optional<BeltPrediction> foretold_by_halves(const MeasuredBelts& belts,
+                                                 const Explained& explained) {
   const std::size_t count = belts.points.size();
   if (count < 2 * kFewestBeltPoints) return std::nullopt;
   const std::vector<std::size_t> order = belts::in_order(belts);
   std::vector<double> off_mm;
   for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
-    belts::SettledFrame from = explained.beside.frame;
+    belts::AnchorFit from = explained.beside.frame;
     for (std::size_t i = half; i < count; i += 2)
       from.counting[order[i]] = {false, false, false, false};
     const auto fitted = settle_beside(belts, explained.beside.causes, from);
     if (!fitted || fitted->frame.checks < 1) return std::nullopt;
-    const MeasuredBelts freed = freed_of(belts, fitted->causes, fitted->frame.state);
+    const MeasuredBelts freed = without_effects(belts, fitted->causes, fitted->frame.state);
     for (std::size_t i = half; i < count; i += 2) {
       belts::foretell(freed,
                       order[i],
@@ -144,11 +145,11 @@ std::optional<Foretold> foretold_by_halves(const MeasuredBelts& belts, const Exp
 }  // namespace
 
 Explained explained(const BeltsAnalysis& a) {
-  belts::SettledFrame from = a.state.frame;
+  belts::AnchorFit from = a.state.frame;
   from.counting = decided_counting(a);
   auto beside = settle_beside(a.belts, decided_causes(a.analysis), from);
   Explained result{beside ? *std::move(beside) : FrameBeside{from, a.state.causes}, {}};
-  result.freed = freed_of(a.belts, result.beside.causes, result.beside.frame.state);
+  result.freed = without_effects(a.belts, result.beside.causes, result.beside.frame.state);
   return result;
 }
 
@@ -156,7 +157,7 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
                              const Explained& explained,
                              const MeasuredBelts& belts,
                              const BeltsFit& alone) {
-  const belts::SettledFrame& frame = explained.beside.frame;
+  const belts::AnchorFit& frame = explained.beside.frame;
   BeltsFindings found;
   found.machine = belts::with_anchors(belts.machine, frame.state.anchors);
   const Eigen::MatrixXd& covariance = a.analysis.estimate.setting_covariance;
@@ -171,7 +172,7 @@ BeltsFindings belts_findings(const BeltsAnalysis& a,
   found.spread_before_mm = alone.spread_mm;
   found.rms_before_mm = rms_of_all_mm(a.belts, {a.alone, {}});
   found.rms_mm = rms_of_all_mm(a.belts, explained.beside);
-  const belts::FrameView view(explained.freed, frame);
+  const belts::FitDiagnostics view(explained.freed, frame);
   double good_square = 0.0;
   for (std::size_t k = 0; k < belts.points.size(); ++k) {
     BeltPlacePicture place{frame.state.places[k], belts.points[k].order, {}, {}, {}};
@@ -210,7 +211,7 @@ Unexplained unexplained(const BeltsAnalysis& a) {
 namespace {
 
 /// What a place leaves of its other readings once it has been put where these want it, in sigmas^2.
-double left_without(const belts::FrameView& view, std::size_t point, Belt without) {
+double left_without(const belts::FitDiagnostics& view, std::size_t point, Belt without) {
   Eigen::Matrix<double, 3, 1> residual;
   Eigen::Matrix<double, 3, 2> by_place;
   Eigen::Index row = 0;
@@ -227,7 +228,7 @@ double left_without(const belts::FrameView& view, std::size_t point, Belt withou
 
 /// The belt that may be off in place of a bad one: on the line between two anchors the other two belts
 /// alone say how far beside it the place is, and nothing says which of them is off.
-std::optional<Belt> looks_alike(const belts::FrameView& view, std::size_t point, Belt bad) {
+std::optional<Belt> looks_alike(const belts::FitDiagnostics& view, std::size_t point, Belt bad) {
   // Odds of twenty to one tell them apart.
   const double told = left_without(view, point, bad) + 2.0 * std::log(20.0);
   std::optional<Belt> other;
@@ -245,7 +246,7 @@ std::optional<Belt> looks_alike(const belts::FrameView& view, std::size_t point,
 }  // namespace
 
 std::vector<Outlier> bad_belts(const Explained& explained) {
-  const belts::FrameView view(explained.freed, explained.beside.frame);
+  const belts::FitDiagnostics view(explained.freed, explained.beside.frame);
   std::vector<Outlier> result;
   for (std::size_t k = 0; k < explained.freed.points.size(); ++k) {
     std::vector<Belt> bad;

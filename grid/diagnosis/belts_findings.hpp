@@ -55,8 +55,8 @@ struct BeltsFindings {
   double rms_before_mm = 0.0;
   double rms_mm = 0.0;
   int checks = 0;
-  std::optional<Foretold> foretold_before;  ///< either half of the places by the other
-  std::optional<Foretold> foretold;
+  std::optional<BeltPrediction> foretold_before;  ///< either half of the places by the other
+  std::optional<BeltPrediction> foretold;
   ToolError tool;
   std::optional<BeltScale> scale;
   std::optional<FirmwareFit> firmware_fit;

@@ -90,7 +90,7 @@ class Gathering {
   [[nodiscard]] NextPlaces take() {
     const std::size_t count = next_.belts.points.size();
     const belts::Counting all(count, model::PerBelt<bool>{true, true, true, true});
-    const belts::FrameSolver solver(next_.belts, all, a_.sigma_mm);
+    const belts::AnchorAdjustment solver(next_.belts, all, a_.sigma_mm);
     const belts::FrameEquations at = solver.equations(next_.state);
     Eigen::MatrixXd by_anchor(4 * static_cast<Eigen::Index>(count), belts::kAnchorUnknowns);
     for (std::size_t k = 0; k < count; ++k) {
@@ -116,7 +116,7 @@ Candidate candidate_of(MeasurementKind kind,
                        model::BedPoint command,
                        const std::vector<Belt>& pulled,
                        std::size_t place) {
-  Candidate candidate{{kind, std::move(what), "", model::laid_as_bed(command), 0.0}, {}, 2};
+  Candidate candidate{{kind, std::move(what), "", model::identity_placement(command), 0.0}, {}, 2};
   candidate.measurement.pulled = pulled;
   const auto row = 2 * static_cast<Eigen::Index>(place);
   candidate.rows = {row, row + 1};
@@ -312,7 +312,7 @@ std::optional<double> all_once_more(const BeltsAnalysis& a,
   const NextPlaces next = gathering.take();
   std::vector<Eigen::Index> rows;
   for (Eigen::Index row = 0; row < next.by_anchor.rows(); ++row) rows.push_back(row);
-  return outlook(foretold(a, next, alternatives), rows).named_alone;
+  return expected_discrimination(foretold(a, next, alternatives), rows).named_alone;
 }
 
 }  // namespace

@@ -221,7 +221,7 @@ BeltsSystem system_of(const MeasuredBelts& belts,
                       double sigma_mm) {
   BeltsSystem result;
   const std::size_t count = belts.points.size();
-  const belts::FrameSolver solver(belts, state.frame.counting, sigma_mm);
+  const belts::AnchorAdjustment solver(belts, state.frame.counting, sigma_mm);
   const belts::FrameEquations at = solver.equations(state.frame.state);
   result.residual_mm = at.residual;
   result.by_anchor.resize(at.residual.size(), belts::kAnchorUnknowns);

@@ -28,7 +28,7 @@ using Suspects = std::vector<std::optional<model::Belt>>;
 
 /// About which everything is linear: the anchors and places with some causes at work, and these.
 struct BeltsState {
-  belts::SettledFrame frame;
+  belts::AnchorFit frame;
   std::vector<BeltCause> causes;  ///< secants of these are taken at their values
 };
 

@@ -70,11 +70,11 @@ double log_price_of_outlier(Eigen::Index rows) {
 }
 
 double log_price_of_outliers(const RegressorSystem& system, const std::vector<bool>& outliers) {
-  std::array<double, 2> set_aside{};
+  std::array<double, 2> rejected{};
   for (std::size_t u = 0; u < outliers.size(); ++u) {
-    if (outliers[u]) set_aside[static_cast<std::size_t>(system.units[u].rows - 1)] += 1.0;
+    if (outliers[u]) rejected[static_cast<std::size_t>(system.units[u].rows - 1)] += 1.0;
   }
-  return set_aside[0] * log_price_of_outlier(1) + set_aside[1] * log_price_of_outlier(2);
+  return rejected[0] * log_price_of_outlier(1) + rejected[1] * log_price_of_outlier(2);
 }
 
 MarginalisedSystem marginalise(const RegressorSystem& system,

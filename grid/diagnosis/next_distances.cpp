@@ -107,10 +107,13 @@ class HoleCandidates {
     if (std::hypot(nearest.x_mm - place.x_mm, nearest.y_mm - place.y_mm) < kApartMm) return;
     const Hole hole{fmt::format("({:.0f}, {:.0f})", place.x_mm + 0.0, place.y_mm + 0.0), place};
     if (!can_be_cut(hole)) return;
-    Candidate candidate{
-        {MeasurementKind::distance, "", "", model::laid_as_bed(place), measured_.tape.sigma_mm},
-        {},
-        1};
+    Candidate candidate{{MeasurementKind::distance,
+                         "",
+                         "",
+                         model::identity_placement(place),
+                         measured_.tape.sigma_mm},
+                        {},
+                        1};
     for (std::size_t k = 0; k < std::min(kArms, others.size()); ++k) {
       candidate.rows.push_back(static_cast<Eigen::Index>(set_.distances.size()));
       set_.distances.push_back({.from = set_.holes.size(), .to = others[k]});

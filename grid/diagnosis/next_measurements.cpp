@@ -54,16 +54,16 @@ std::vector<NextMeasurement> most_telling(const Analysis& a,
                                           std::vector<Candidate> options) {
   std::vector<NextMeasurement> result;
   std::vector<Eigen::Index> chosen;
-  Outlook now = outlook(alternatives, chosen);
+  ExpectedDiscrimination now = expected_discrimination(alternatives, chosen);
   double reached = a.decision.verdict == Verdict::named ? kEnough : now.named_alone;
   while (result.size() < kMostNextMeasurements && reached < kEnough) {
     std::size_t best = options.size();
-    Outlook then = now;
+    ExpectedDiscrimination then = now;
     for (std::size_t c = 0; c < options.size(); ++c) {
       if (options[c].times == 0) continue;
       std::vector<Eigen::Index> more = chosen;
       more.insert(more.end(), options[c].rows.begin(), options[c].rows.end());
-      const Outlook tried = outlook(alternatives, more);
+      const ExpectedDiscrimination tried = expected_discrimination(alternatives, more);
       if (tried.confusion < then.confusion) {
         then = tried;
         best = c;

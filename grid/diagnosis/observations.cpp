@@ -94,7 +94,7 @@ std::optional<StatedNoise> noise_of_repeats(const Machine& stated,
   for (const auto& group : repeat_groups(points)) {
     std::vector<Eigen::Vector2d> whitened;
     for (const std::size_t i : group) {
-      const auto reading = model.at(model::laid_as_bed(points[i].mark));
+      const auto reading = model.at(model::identity_placement(points[i].mark));
       if (!reading) continue;
       const Eigen::Matrix2d& j = reading->position_jacobian;
       const Eigen::Matrix2d covariance = std::pow(usual.position_mm, 2) * j * j.transpose() +

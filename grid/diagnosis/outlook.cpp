@@ -212,8 +212,8 @@ std::optional<std::vector<Alternative>> alternatives_about(const Analysis& a, co
   return alternatives;
 }
 
-Outlook outlook(const std::vector<Alternative>& alternatives,
-                const std::vector<Eigen::Index>& rows) {
+ExpectedDiscrimination expected_discrimination(const std::vector<Alternative>& alternatives,
+                                               const std::vector<Eigen::Index>& rows) {
   const Eigen::MatrixXd d = distances(alternatives, rows);
   const auto groups = groups_in(alternatives);
   const auto p = [&](Eigen::Index k) {
@@ -225,7 +225,7 @@ Outlook outlook(const std::vector<Alternative>& alternatives,
     return total;
   };
   const double odds = std::log(kNamedAlone / (1.0 - kNamedAlone));
-  Outlook result;
+  ExpectedDiscrimination result;
   for (const auto& own : groups) {
     for (const auto& other : groups) {
       if (other.first >= own.first) break;

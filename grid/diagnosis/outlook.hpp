@@ -55,12 +55,12 @@ struct Alternative {
 /// S with S S' = a positive semidefinite matrix of whitened rows, but for a hundredth of the noise.
 [[nodiscard]] Eigen::MatrixXd square_root(const Eigen::MatrixXd& matrix);
 
-struct Outlook {
+struct ExpectedDiscrimination {
   double confusion = 0.0;
   double named_alone = 0.0;  ///< probability that the right group is named alone
 };
 /// With these rows measured.
-[[nodiscard]] Outlook outlook(const std::vector<Alternative>& alternatives,
-                              const std::vector<Eigen::Index>& rows);
+[[nodiscard]] ExpectedDiscrimination expected_discrimination(
+    const std::vector<Alternative>& alternatives, const std::vector<Eigen::Index>& rows);
 
 }  // namespace chaintrue::grid::diagnosis

@@ -62,7 +62,7 @@ std::optional<double> misfit_mm(const ObservationSet& session, Read read) {
   for (const NumberedPlace& place : session.places) {
     if (!session.parts[place.part].reads_chains()) continue;
     const NumberedPlace p = read(place);
-    const auto reading = model.at(model::laid_as_bed(p.mark));
+    const auto reading = model.at(model::identity_placement(p.mark));
     if (!reading) return std::nullopt;
     sum += std::pow(p.lengths.left_mm - reading->lengths.left_mm, 2) +
            std::pow(p.lengths.right_mm - reading->lengths.right_mm, 2);

@@ -136,7 +136,7 @@ std::optional<std::size_t> Estimator::worst_alone() const {
   without[static_cast<Eigen::Index>(*worst)] = 0.0;
   const Fit fit = solve(without, Smoothing::choose, false);
   if (!fit) return std::nullopt;
-  const bool bad = LeftOut(*problem_, *fit, without).distance(*worst) > rule_of(1).set_aside_beyond;
+  const bool bad = LeftOut(*problem_, *fit, without).distance(*worst) > rule_of(1).rejected_beyond;
   return bad ? worst : std::nullopt;
 }
 
@@ -154,7 +154,7 @@ bool Estimator::update_weights(int pass) {
     const auto at = static_cast<Eigen::Index>(u);
     if (rule.worst_first && weights_[at] == 0.0) continue;
     const bool bad =
-        !rule.worst_first && pass >= kSoftPasses && distances_[at] > rule.set_aside_beyond;
+        !rule.worst_first && pass >= kSoftPasses && distances_[at] > rule.rejected_beyond;
     next[at] = bad ? 0.0 : std::min(1.0, rule.full_weight_within / std::max(distances_[at], 1e-12));
     change = std::max(change, std::abs(next[at] - weights_[at]));
   }

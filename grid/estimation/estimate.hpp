@@ -128,7 +128,7 @@ struct UnitEstimate {
   Eigen::VectorXd left_out;             ///< seen from a fit without the unit
   Eigen::MatrixXd left_out_covariance;  ///< of that, the unit's own noise in it
   Eigen::VectorXd left_out_with_group;  ///< empty where no group has the unit
-  [[nodiscard]] bool is_set_aside() const { return weight == 0.0; }
+  [[nodiscard]] bool is_rejected() const { return weight == 0.0; }
 };
 
 struct PlaceEstimate {

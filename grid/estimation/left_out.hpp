@@ -68,7 +68,7 @@ class LeftOut {
 /// What happens to a unit at a distance.
 struct UnitRule {
   double full_weight_within;  ///< 95 % of good units
-  double set_aside_beyond;
+  double rejected_beyond;
   bool worst_first;  ///< one at a time, by what the others make of it with their own noise
 };
 [[nodiscard]] UnitRule rule_of(Eigen::Index rows);

@@ -155,16 +155,17 @@ std::optional<Json> written_covariance(const BeltsFit& fit) {
   return rows;
 }
 
-struct StatedForetold {
-  Foretold one_left_out;
-  std::optional<Foretold> half_left_out;
+struct StatedBeltPrediction {
+  BeltPrediction one_left_out;
+  std::optional<BeltPrediction> half_left_out;
 };
 
-const Record<StatedForetold>& both_foretold_record() {
+const Record<StatedBeltPrediction>& both_foretold_record() {
   static const auto record =
-      Record<StatedForetold>("what was foretold")
-          .required("one_left_out", &StatedForetold::one_left_out, object(foretold_record()))
-          .optional("half_left_out", &StatedForetold::half_left_out, object(foretold_record()));
+      Record<StatedBeltPrediction>("what was foretold")
+          .required("one_left_out", &StatedBeltPrediction::one_left_out, object(foretold_record()))
+          .optional(
+              "half_left_out", &StatedBeltPrediction::half_left_out, object(foretold_record()));
   return record;
 }
 

@@ -58,7 +58,7 @@ const Record<BeltTapedDistance>& taped_distance_record() {
           .required("off_mm", &BeltTapedDistance::off_mm, number(kMillimetres))
           .required("left_out_mm", &BeltTapedDistance::left_out_mm, number(kMillimetres))
           .required("left_out_sigma_mm", &BeltTapedDistance::left_out_sigma_mm, number(kSigmaMm))
-          .required("set_aside", &BeltTapedDistance::set_aside, boolean());
+          .required("set_aside", &BeltTapedDistance::rejected, boolean());
   return record;
 }
 

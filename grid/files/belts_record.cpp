@@ -267,20 +267,20 @@ const Record<FirmwareFit>& firmware_fit_record() {
   return record;
 }
 
-const Record<Foretold>& foretold_record() {
+const Record<BeltPrediction>& foretold_record() {
   static const auto record =
-      Record<Foretold>("what was foretold")
+      Record<BeltPrediction>("what was foretold")
           .custom(
               "readings",
               true,
               {"a whole number", integer(0, kMostReadings).expected.schema},
-              [](const Cursor& at, Foretold& f) {
+              [](const Cursor& at, BeltPrediction& f) {
                 if (const auto count = at.integer(0, kMostReadings))
                   f.readings = static_cast<std::size_t>(*count);
               },
-              [](const Foretold& f) { return std::optional<Json>(f.readings); })
-          .required("rms_mm", &Foretold::rms_mm, number(kSpreadMm))
-          .required("largest_mm", &Foretold::largest_mm, number(kSpreadMm));
+              [](const BeltPrediction& f) { return std::optional<Json>(f.readings); })
+          .required("rms_mm", &BeltPrediction::rms_mm, number(kSpreadMm))
+          .required("largest_mm", &BeltPrediction::largest_mm, number(kSpreadMm));
   return record;
 }
 

@@ -33,7 +33,7 @@ std::string write_fit(const CompensationMap& map, std::string_view sentence) {
                                        {"y_mm", contents.accuracy.expected_worst_at.y_mm}};
   if (contents.distances) {
     json["distances"] = {{"used", contents.distances->used},
-                         {"set_aside", contents.distances->set_aside},
+                         {"set_aside", contents.distances->rejected},
                          {"left_out", summary_of(contents.distances->left_out_good)}};
   }
   json["settings"] = Json::array();

@@ -58,7 +58,7 @@ Comparison compare_lengths(const MeasuredGrid& grid, const StatedNoise& noise) {
     if (!point.lengths) continue;
     Compared reading{i, point.mark, point.lengths->left_mm, point.lengths->right_mm};
     if (kinematics) {
-      const auto pose = kinematics->inverse(model::laid_as_bed(point.mark));
+      const auto pose = kinematics->inverse(model::identity_placement(point.mark));
       if (!pose) continue;
       reading.first_mm -= pose->lengths.left_mm;
       reading.second_mm -= pose->lengths.right_mm;

@@ -180,7 +180,7 @@ const Record<DistancesUsed>& distances_record() {
   static const auto record =
       Record<DistancesUsed>("the distances between holes")
           .required("used", &DistancesUsed::used, integer(0, kMost))
-          .required("set_aside", &DistancesUsed::set_aside, integer(0, kMost))
+          .required("set_aside", &DistancesUsed::rejected, integer(0, kMost))
           .required("tape_sigma_mm", &DistancesUsed::tape_sigma_mm, number(kNotNegative))
           .required("left_out_all", &DistancesUsed::left_out_all, object(summary_record()))
           .required("left_out_good", &DistancesUsed::left_out_good, object(summary_record()));

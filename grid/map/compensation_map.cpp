@@ -151,7 +151,7 @@ tl::expected<MapAnswer, MapFailure> CompensationMap::query(MarkPoint mark) const
 
 tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted) const {
   constexpr int kSteps = 30;
-  constexpr double kSettledMm = 1e-9;
+  constexpr double kConvergedMm = 1e-9;
   const interp::Rectangle& domain = contents_.domain;
   const std::shared_ptr<const MapField> field = field_to_search(contents_, field_);
   MarkPoint mark{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
@@ -166,11 +166,12 @@ tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted
     // sled.
     mark.x_mm = std::clamp(mark.x_mm + move.x(), domain.x_min - 50.0, domain.x_max + 50.0);
     mark.y_mm = std::clamp(mark.y_mm + move.y(), domain.y_min - 50.0, domain.y_max + 50.0);
-    if (move.norm() < kSettledMm) {
+    if (move.norm() < kConvergedMm) {
       // On the domain's edge the last step may end beside it by what it may miss.
       const MarkPoint within{std::clamp(mark.x_mm, domain.x_min, domain.x_max),
                              std::clamp(mark.y_mm, domain.y_min, domain.y_max)};
-      if (std::hypot(within.x_mm - mark.x_mm, within.y_mm - mark.y_mm) < kSettledMm) mark = within;
+      if (std::hypot(within.x_mm - mark.x_mm, within.y_mm - mark.y_mm) < kConvergedMm)
+        mark = within;
       if (!answers_at(mark)) return tl::unexpected(MapFailure::outside_map);
       return mark;
     }

@@ -109,7 +109,7 @@ struct MirrorTest {
 /// the distances say they are, and its held-out errors those of distances, along the tape.
 struct DistancesUsed {
   int used = 0;
-  int set_aside = 0;
+  int rejected = 0;
   double tape_sigma_mm = 0.0;
   ErrorSummary left_out_all;
   ErrorSummary left_out_good;

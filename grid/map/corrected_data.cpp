@@ -63,7 +63,7 @@ tl::expected<void, FitFailure> correct_readings(MeasuredGrid& grid,
     return tl::unexpected(FitFailure{FitFailure::Reason::no_lengths, points.error().sentence});
   std::vector<model::Visit> visits;
   for (const MeasuredPoint& point : grid.points)
-    visits.push_back({model::laid_as_bed(point.mark), *point.order});
+    visits.push_back({model::identity_placement(point.mark), *point.order});
   const auto disturbed = readings_with(with_visits, visits);
   if (!disturbed) return tl::unexpected(disturbed.error());
   const auto quiet = readings_with(without, visits);

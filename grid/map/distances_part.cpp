@@ -52,7 +52,7 @@ class DistancesPart final : public FitPart {
     if (file == 0) note_frame(draft.frame_notes);
     const auto rejected = std::count_if(fit.distances.begin(),
                                         fit.distances.end(),
-                                        [](const FittedDistance& one) { return one.set_aside; });
+                                        [](const FittedDistance& one) { return one.rejected; });
     draft.sources.push_back(fmt::format(
         "{} distances between {} holes of {}{}, which come out within {:.2f} mm rms left out one "
         "at a time",

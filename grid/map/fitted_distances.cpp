@@ -20,7 +20,7 @@ ErrorSummary summary_of(const std::vector<FittedDistance>& distances, bool with_
   double squares = 0.0;
   std::size_t count = 0;
   for (const FittedDistance& distance : distances) {
-    if (distance.set_aside && !with_set_aside) continue;
+    if (distance.rejected && !with_set_aside) continue;
     squares += distance.left_out_mm * distance.left_out_mm;
     summary.maximum_mm = std::max(summary.maximum_mm, std::abs(distance.left_out_mm));
     ++count;
@@ -35,7 +35,7 @@ void note_set_aside(const MeasuredHoles& set,
   std::map<std::size_t, int> at_hole;
   for (std::size_t k = 0; k < fit.distances.size(); ++k) {
     const FittedDistance& distance = fit.distances[k];
-    if (!distance.set_aside) continue;
+    if (!distance.rejected) continue;
     const HoleDistance& reading = set.distances[k];
     notes.push_back(
         fmt::format("{} ({:g} mm on the tape) was set aside: it is {:.1f} mm {} than the others "
@@ -75,7 +75,7 @@ FittedDistances fitted_distances(const observation::TapeDistances& distances,
                              own.predicted[at],
                              unit.left_out[0],
                              std::sqrt(unit.left_out_covariance(0, 0)),
-                             unit.is_set_aside()});
+                             unit.is_rejected()});
   }
   const auto holes = static_cast<Eigen::Index>(set.holes.size());
   const Eigen::VectorXd shift = own.nuisance.tail(2 * holes);
@@ -111,7 +111,7 @@ DistancesUsed distances_used(const std::vector<FittedDistance>& distances, doubl
   DistancesUsed used;
   used.tape_sigma_mm = tape_sigma_mm;
   for (const FittedDistance& distance : distances) {
-    (distance.set_aside ? used.set_aside : used.used) += 1;
+    (distance.rejected ? used.rejected : used.used) += 1;
   }
   used.left_out_all = summary_of(distances, true);
   used.left_out_good = summary_of(distances, false);

@@ -23,7 +23,7 @@ struct FittedDistance {
   /// Measured less predicted by a fit without this reading, and one sigma of that.
   double left_out_mm = 0.0;
   double left_out_sigma_mm = 0.0;
-  bool set_aside = false;
+  bool rejected = false;
   [[nodiscard]] double sigmas() const { return left_out_mm / left_out_sigma_mm; }
 };
 

@@ -76,7 +76,7 @@ std::vector<FittedPoint> fitted_points(const std::vector<LengthPoint>& points,
     if (unit.observation != observation) continue;
     FittedPoint point;
     point.point = points[unit.unit];
-    point.bad = unit.is_set_aside();
+    point.bad = unit.is_rejected();
     point.distance = unit.distance;
     point.residual_mm = unit.residual;
     point.left_out_residual_mm = unit.left_out;

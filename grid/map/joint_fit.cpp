@@ -124,7 +124,7 @@ tl::expected<void, FitFailure> check_enough_good(const std::vector<MeasuredFile>
     for (const estimation::UnitEstimate& unit : estimate.units) {
       if (unit.observation != k) continue;
       ++all;
-      bad += unit.is_set_aside() ? 1 : 0;
+      bad += unit.is_rejected() ? 1 : 0;
     }
     const bool alone = parts.size() == 1;
     if (3 * bad <= all && (!alone || all - bad >= parts[k]->fewest_good)) continue;

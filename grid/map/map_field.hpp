@@ -29,10 +29,10 @@ class MapField {
   [[nodiscard]] tl::expected<WithCovariance, MapFailure> with_covariance(
       model::MarkPoint mark) const;
   [[nodiscard]] virtual model::MarkPoint to_mark(model::BedPoint bed) const {
-    return model::laid_as_bed(bed);
+    return model::identity_placement(bed);
   }
   [[nodiscard]] virtual model::BedPoint to_bed(model::MarkPoint mark) const {
-    return model::laid_as_bed(mark);
+    return model::identity_placement(mark);
   }
 
  protected:

@@ -208,7 +208,7 @@ tl::expected<TapeDistances, TapeDistancesFailure> TapeDistances::in_given_order(
                       model::explain(lengths.error()))});
     }
     result.places_.push_back(
-        {i, hole.name, model::laid_as_bed(hole.commanded), *lengths, static_cast<int>(i)});
+        {i, hole.name, model::identity_placement(hole.commanded), *lengths, static_cast<int>(i)});
   }
   const std::size_t count = result.set_.distances.size();
   result.measured_.resize(static_cast<Eigen::Index>(count));
@@ -246,10 +246,10 @@ tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const V
   // A correction changes by a thousandth of a hole's way, the chains' scale by 0.2 %: each turn
   // gains two digits at least, and begins within some mm.
   constexpr int kTurns = 6;
-  constexpr double kSettledMm = 1e-9;
+  constexpr double kConvergedMm = 1e-9;
   std::vector<PlaceState> states;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    model::BedPoint start = model::laid_as_bed(places_[i].mark);
+    model::BedPoint start = model::identity_placement(places_[i].mark);
     model::ChainLengths own = places_[i].lengths;
     if (view.correction != nullptr)
       own = own_lengths(*view.correction, places_[i].mark, places_[i].lengths, own);
@@ -259,7 +259,7 @@ tl::expected<std::vector<PlaceState>, Unreachable> TapeDistances::placed(const V
       const model::ChainLengths before = own;
       own = own_lengths(*view.correction, view.sheet.to_mark(start), places_[i].lengths, own);
       if (std::abs(own.left_mm - before.left_mm) + std::abs(own.right_mm - before.right_mm) <
-          kSettledMm)
+          kConvergedMm)
         break;
       reading = view.chains().find(own, start);
     }

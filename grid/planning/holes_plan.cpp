@@ -127,8 +127,8 @@ MeasuredHoles set_of(const model::Machine& machine,
   set.hole_sigma_mm = request.hole_sigma_mm;
   for (std::size_t i = 0; i < order.size(); ++i) {
     number[order[i]] = i;
-    set.holes.push_back(
-        {std::string(1, static_cast<char>('A' + i)), model::laid_as_bed(holes[order[i]]->place)});
+    set.holes.push_back({std::string(1, static_cast<char>('A' + i)),
+                         model::identity_placement(holes[order[i]]->place)});
   }
   for (const HoleDistance& distance : distances) {
     if (distance.edge) {

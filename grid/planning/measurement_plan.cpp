@@ -41,7 +41,7 @@ class Planner {
     grid.machine = machine_;
     grid.noise = StatedNoise{request_.noise.length_mm, request_.noise.position_mm, kCertainDof};
     for (const MarkPoint& mark : marks) {
-      const auto reading = model_.at(model::laid_as_bed(mark));
+      const auto reading = model_.at(model::identity_placement(mark));
       if (!reading) {
         return tl::unexpected(
             PlanFailure{PlanFailure::Reason::unreachable,
@@ -51,7 +51,7 @@ class Planner {
                                     mark.y_mm,
                                     model::explain(reading.error()))});
       }
-      const model::ChainLengths beside = synthetic::unmodelled(model::laid_as_bed(mark));
+      const model::ChainLengths beside = synthetic::unmodelled(model::identity_placement(mark));
       grid.points.push_back(
           {mark,
            model::ChainLengths{reading->lengths.left_mm + kDisturbanceMm * beside.left_mm,

@@ -70,7 +70,7 @@ tl::expected<HolesPass, FitFailure> HolesPasses::add(const MeasuredHoles& set,
   pass.as_cut_rms_mm = as_cut_rms_mm(set, wanted);
   pass.left_out_rms_mm = fit->distances.front().left_out_good.rms_mm;
   for (const FittedDistance& distance : fit->distances.front().distances)
-    pass.set_aside += distance.set_aside ? 1 : 0;
+    pass.rejected += distance.rejected ? 1 : 0;
   pass.expected_mm = tool_sigma_mm(stated_, fit->estimate.knowledge.covariance);
   pass.expected_next_mm =
       tool_sigma_mm(stated_, after_one_more(prior_.covariance, fit->estimate.knowledge.covariance));
@@ -96,7 +96,8 @@ double true_error_mm(const model::Machine& truth,
                           0.9 * stated.bed.height_mm * ((i / kAcross + 0.5) / kUp - 0.5)};
     std::optional<model::ChainLengths> lengths;
     if (map != nullptr) {
-      if (const auto answer = map->lengths(model::laid_as_bed(wanted))) lengths = answer->lengths;
+      if (const auto answer = map->lengths(model::identity_placement(wanted)))
+        lengths = answer->lengths;
     } else if (const auto paid_out = controller->lengths(wanted)) {
       lengths = *paid_out;
     }
@@ -140,7 +141,7 @@ tl::expected<SimulatedPasses, FitFailure> simulate_passes(const model::Machine& 
     tell(request.progress, {"a set of holes, fitted", number, request.most});
     MeasuredHoles design = plan->set;
     for (std::size_t i = 0; map && i < wanted.size(); ++i) {
-      const auto lengths = map->lengths(model::laid_as_bed(wanted[i]));
+      const auto lengths = map->lengths(model::identity_placement(wanted[i]));
       const auto command = lengths ? controller->command(lengths->lengths)
                                    : tl::expected<BedPoint, model::PoseFailure>(wanted[i]);
       if (!command) {

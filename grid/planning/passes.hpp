@@ -36,7 +36,7 @@ struct HolesPass {
   /// How far distances between holes were from what was wanted, as cut; root mean square.
   double as_cut_rms_mm = 0.0;
   double left_out_rms_mm = 0.0;
-  int set_aside = 0;
+  int rejected = 0;
   /// Of the tool over the bed with this pass's map, one sigma, and with one more pass.
   double expected_mm = 0.0;
   double expected_next_mm = 0.0;

@@ -13,7 +13,7 @@ namespace chaintrue::grid {
 using model::MarkPoint;
 
 std::optional<PlannedPlace> planned_place(const model::ReadingModel& model, MarkPoint place) {
-  const auto reading = model.at(model::laid_as_bed(place));
+  const auto reading = model.at(model::identity_placement(place));
   if (!reading) return std::nullopt;
   Eigen::Matrix<double, 2, estimation::kMachineUnknowns> lengths;
   for (std::size_t i = 0; i < model::kMachineSettings.size(); ++i) {

@@ -111,7 +111,7 @@ CellResult hold_against_truth(const SweepSpec& spec,
     for (int column = 0; column < spec.evaluation_columns; ++column) {
       const BedPoint p{raster(width, column, spec.evaluation_columns),
                        raster(height, row, spec.evaluation_rows)};
-      const auto told = map.lengths(model::laid_as_bed(p));
+      const auto told = map.lengths(model::identity_placement(p));
       const auto real = truth.at(p);
       if (!told || !real) {
         errors.miss();

@@ -60,7 +60,8 @@ EffectPicture picture_effect(const Machine& machine,
       signature(machine, {picture.applied}, visits).tool_shift_mm();
   const std::vector<Eigen::Vector2d> calibrated = table.calibrated_shift_mm(picture.applied);
   for (std::size_t i = 0; i < visits.size(); ++i) {
-    picture.marks.push_back({model::laid_as_bed(visits[i].position), stated[i], calibrated[i]});
+    picture.marks.push_back(
+        {model::identity_placement(visits[i].position), stated[i], calibrated[i]});
   }
   // In the middle, and where most shapes suffer: towards a lower corner.
   picture.squares.push_back(square_at(machine, picture.applied, {0.0, 0.0}));

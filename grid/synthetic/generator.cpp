@@ -288,10 +288,11 @@ PlacesRead read_places(const Machine& stated,
   const auto lengths = model::readings(reading_model, reached, counting(progress, reached.size()));
   result.grid.machine = stated;
   for (std::size_t i = 0; i < reached.size(); ++i) {
-    result.grid.points.push_back({mark_frame.written(model::laid_as_bed(reached[i].position)),
-                                  lengths->at(i),
-                                  std::nullopt,
-                                  reached[i].order});
+    result.grid.points.push_back(
+        {mark_frame.written(model::identity_placement(reached[i].position)),
+         lengths->at(i),
+         std::nullopt,
+         reached[i].order});
   }
   return result;
 }

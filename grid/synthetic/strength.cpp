@@ -86,7 +86,7 @@ std::vector<Visit> regular_session(const Machine& machine, int columns, int rows
   Random unused(0);
   std::vector<Visit> visits;
   for (const Mark& mark : marks(machine.bed, design, unused)) {
-    visits.push_back({model::laid_as_bed(mark.place), static_cast<int>(visits.size())});
+    visits.push_back({model::identity_placement(mark.place), static_cast<int>(visits.size())});
   }
   return visits;
 }
@@ -115,7 +115,7 @@ SessionSignature signature(const Machine& stated,
     if (!reading) {
       throw precondition("signature: visit {}: {}", i, explain(reading.error()));
     }
-    const model::MarkPoint place = model::laid_as_bed(visits[i].position);
+    const model::MarkPoint place = model::identity_placement(visits[i].position);
     const model::MarkPoint written = mark_frame.written(place);
     const model::MarkPoint usual = stated_mark_frame.written(place);
     const Eigen::Vector2d moved{written.x_mm - usual.x_mm, written.y_mm - usual.y_mm};

@@ -32,7 +32,7 @@ const model::ReadingModel& true_model() {
 }
 
 ChainLengths truth_at(MarkPoint p) {
-  const ChainLengths machine = true_model().at(model::laid_as_bed(p)).value().lengths;
+  const ChainLengths machine = true_model().at(model::identity_placement(p)).value().lengths;
   return {machine.left_mm + 0.8 * std::sin(p.x_mm / 500.0 + 0.3) * std::cos(p.y_mm / 400.0),
           machine.right_mm + 0.8 * std::cos(p.x_mm / 450.0) * std::sin(p.y_mm / 420.0 + 0.5)};
 }

@@ -132,7 +132,7 @@ TEST(BeltsAndHoles, ADistanceReadWronglyIsSetAsideByItsEnds) {
   const auto fit = fit_belts_and_holes(set.belts, {set.holes});
   ASSERT_TRUE(fit);
   for (std::size_t i = 0; i < fit->holes.distances.size(); ++i) {
-    EXPECT_EQ(fit->holes.distances[i].set_aside, i == 5) << fit->holes.distances[i].words;
+    EXPECT_EQ(fit->holes.distances[i].rejected, i == 5) << fit->holes.distances[i].words;
   }
   const BeltTapedDistance& rejected = fit->holes.distances[5];
   // Twelve, give or take the tape and what nine holes leave uncertain.
@@ -144,7 +144,7 @@ TEST(BeltsAndHoles, ADistanceReadWronglyIsSetAsideByItsEnds) {
   const auto counted = fit_belts_and_holes(agreeing.belts, {agreeing.holes});
   ASSERT_TRUE(counted);
   const BeltTapedDistance& same = counted->holes.distances[5];
-  ASSERT_FALSE(same.set_aside);
+  ASSERT_FALSE(same.rejected);
   // The frame about which it is linearised is the same to what Newton leaves of it, some 1e-3 mm.
   EXPECT_NEAR(same.left_out_mm, 0.0, 0.01);
   // The noise's factor is chosen on a grid, with one distance more: the same step here.

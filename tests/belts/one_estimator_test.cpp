@@ -28,15 +28,15 @@ belts::Counting counting_of(const BeltsFit& fit) {
   return counting;
 }
 
-/// FrameSolver stops where a step lowers the cost by less than 1e-9 of itself: of readings of real
+/// AnchorAdjustment stops where a step lowers the cost by less than 1e-9 of itself: of readings of real
 /// machines some 1e-5 mm before the minimum. Taken up again it goes on by a step or more.
-belts::SettledFrame at_the_minimum(const MeasuredBelts& measured,
-                                   const BeltsFit& fit,
-                                   const belts::Counting& counting) {
+belts::AnchorFit at_the_minimum(const MeasuredBelts& measured,
+                                const BeltsFit& fit,
+                                const belts::Counting& counting) {
   belts::FrameState state;
   state.anchors = belts::anchors_of(fit.machine);
   for (const FittedPlace& place : fit.places) state.places.push_back(place.at);
-  std::optional<belts::SettledFrame> frame;
+  std::optional<belts::AnchorFit> frame;
   for (int again = 0; again < 4; ++again) {
     frame = belts::settle_from(measured, state, counting);
     state = frame.value().state;
@@ -46,7 +46,7 @@ belts::SettledFrame at_the_minimum(const MeasuredBelts& measured,
 
 /// Two ways to one minimum: rounding of sums of some hundred readings of metres.
 constexpr double kSameMinimumMm = 1e-6;
-/// Where FrameSolver stops, see above.
+/// Where AnchorAdjustment stops, see above.
 constexpr double kStopsBeforeMm = 2e-5;
 
 /// Anchors, their sigmas and the noise, with the readings that fit_belts counts, from a centimetre
@@ -55,13 +55,13 @@ void expect_the_same(const MeasuredBelts& measured) {
   const auto fit = fit_belts(measured);
   ASSERT_TRUE(fit) << fit.error().sentence;
   const belts::Counting counting = counting_of(*fit);
-  const belts::SettledFrame frame = at_the_minimum(measured, *fit, counting);
+  const belts::AnchorFit frame = at_the_minimum(measured, *fit, counting);
   belts::AnchorVector start = belts::anchors_of(fit->machine);
   start += (belts::AnchorVector() << 9.0, -11.0, -8.0, 10.0, 12.0).finished();
   const auto estimate = belts::estimate_anchors(measured, counting, start);
   ASSERT_TRUE(estimate) << estimate.error().sentence;
   EXPECT_TRUE(estimate->settled);
-  const belts::FrameView view(measured, frame);
+  const belts::FitDiagnostics view(measured, frame);
   for (std::size_t i = 0; i < fit->coordinates.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     SCOPED_TRACE(fit->coordinates[i].name);
@@ -145,7 +145,7 @@ TEST(OneEstimator, RejectsByItselfThePlacesOfWhichFitBeltsRejectsAReading) {
     ASSERT_TRUE(estimate && estimate->settled);
     std::vector<std::size_t> rejected;
     for (const estimation::UnitEstimate& unit : estimate->units) {
-      if (unit.is_set_aside())
+      if (unit.is_rejected())
         rejected.push_back(input.observations.front()->units()[unit.unit].index);
     }
     EXPECT_EQ(rejected, (std::vector<std::size_t>{3, 30, 31, 60}));

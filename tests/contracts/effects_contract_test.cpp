@@ -69,7 +69,7 @@ std::vector<double> seen(const Machine& machine, const std::vector<Visit>& visit
   const MarkFrame mark_frame(machine);
   std::vector<double> numbers;
   for (std::size_t i = 0; lengths && i < visits.size(); ++i) {
-    const MarkPoint mark = mark_frame.written(laid_as_bed(visits[i].position));
+    const MarkPoint mark = mark_frame.written(identity_placement(visits[i].position));
     numbers.insert(numbers.end(),
                    {mark.x_mm, mark.y_mm, (*lengths)[i].left_mm, (*lengths)[i].right_mm});
   }

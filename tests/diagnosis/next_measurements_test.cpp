@@ -56,9 +56,9 @@ TEST(NextMeasurements, AReadingThatNoContestedCauseTouchesChangesNothing) {
       if (!is_silent(*alternatives, candidate.rows)) continue;
       silent.insert(candidate.measurement.what);
       Rows with_it = next.all.front().rows;
-      const Outlook without = outlook(*alternatives, with_it);
+      const ExpectedDiscrimination without = expected_discrimination(*alternatives, with_it);
       with_it.insert(with_it.end(), candidate.rows.begin(), candidate.rows.end());
-      const Outlook with = outlook(*alternatives, with_it);
+      const ExpectedDiscrimination with = expected_discrimination(*alternatives, with_it);
       // A row of zeros more: the same sums in other blocks.
       EXPECT_NEAR(with.confusion, without.confusion, 1e-12) << candidate.measurement.what;
       EXPECT_NEAR(with.named_alone, without.named_alone, 1e-12) << candidate.measurement.what;
@@ -136,14 +136,14 @@ TEST(NextMeasurements, OfAClassEachCauseIsForetoldByItself) {
       const std::string& what = candidate.measurement.what;
       if (what != "tape_error_mm_per_m" && what != "link_pitch_mm") continue;
       all.push_back(candidate.rows.front());
-      // Foretold with Gaussian log odds and rivals by themselves; 2000 draws are good to 0.01.
-      EXPECT_NEAR(outlook(*alternatives, candidate.rows).named_alone,
+      // Predicted with Gaussian log odds and rivals by themselves; 2000 draws are good to 0.01.
+      EXPECT_NEAR(expected_discrimination(*alternatives, candidate.rows).named_alone,
                   drawn_named_alone(*alternatives, candidate.rows, seed),
                   0.1)
           << what;
     }
     ASSERT_EQ(all.size(), 4u);
-    EXPECT_NEAR(outlook(*alternatives, all).named_alone,
+    EXPECT_NEAR(expected_discrimination(*alternatives, all).named_alone,
                 drawn_named_alone(*alternatives, all, seed),
                 0.1);  // as above
   }
@@ -211,7 +211,7 @@ class WithCandidate {
   static void add_distances(const NextMeasurement& what,
                             const Eigen::VectorXd& read,
                             MeasuredHoles& set) {
-    if (what.mark) set.holes.push_back({"new", model::laid_as_bed(*what.mark)});
+    if (what.mark) set.holes.push_back({"new", model::identity_placement(*what.mark)});
     const std::size_t from = hole_of(set, what.mark ? "new" : what.from);
     for (std::size_t k = 0; k < what.to.size(); ++k) {
       HoleDistance distance{.from = from, .to = hole_of(set, what.to[k])};
@@ -265,8 +265,8 @@ std::vector<std::size_t> ends_of_kinds(const NextCandidates& next,
                                        const std::vector<Alternative>& alternatives) {
   std::map<MeasurementKind, std::map<double, std::size_t>> by_kind;
   for (std::size_t c = 0; c < next.all.size(); ++c) {
-    by_kind[next.all[c].measurement.kind].emplace(outlook(alternatives, next.all[c].rows).confusion,
-                                                  c);
+    by_kind[next.all[c].measurement.kind].emplace(
+        expected_discrimination(alternatives, next.all[c].rows).confusion, c);
   }
   std::map<double, std::size_t> ends;
   for (const auto& [kind, candidates] : by_kind) {
@@ -303,7 +303,7 @@ TEST(NextMeasurements, OfAMixTheChosenOneLowersTheConfusionMost) {
             truth.probability * confusion_left(with.read(next.all[c], truth), a, *alternatives);
       }
       // Each reading as expected stands for the mean over all that it could be.
-      const double foretold = outlook(*alternatives, next.all[c].rows).confusion;
+      const double foretold = expected_discrimination(*alternatives, next.all[c].rows).confusion;
       EXPECT_NEAR(left.back(), foretold, 0.2 * foretold) << next.all[c].measurement.what;
     }
     // The same, where two are as good.

@@ -168,7 +168,7 @@ TEST(Estimate, WhatIsToldOfTheUnitsBelongsToTheWeightsOfTheFitAlsoUnsettled) {
     const auto cut_short = estimation::estimate(input);
     ASSERT_TRUE(cut_short);
     EXPECT_FALSE(cut_short->settled);
-    EXPECT_FALSE(cut_short->units[3].is_set_aside()) << "the fit has it";
+    EXPECT_FALSE(cut_short->units[3].is_rejected()) << "the fit has it";
     // A fit with the very weights that are told finds the same, to what was left to settle.
     Eigen::VectorXd weights(static_cast<Eigen::Index>(cut_short->units.size()));
     for (Eigen::Index u = 0; u < weights.size(); ++u)

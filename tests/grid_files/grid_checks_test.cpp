@@ -61,7 +61,7 @@ MeasuredGrid some_grid(const model::Machine& machine, Dice& dice) {
       MeasuredPoint point;
       point.mark = {half_width * (2.0 * column / (columns - 1) - 1.0) + dice.between(-8.0, 8.0),
                     half_height * (2.0 * row / (rows - 1) - 1.0) + dice.between(-8.0, 8.0)};
-      const auto pose = kinematics->inverse(model::laid_as_bed(point.mark));
+      const auto pose = kinematics->inverse(model::identity_placement(point.mark));
       if (!pose) continue;
       point.lengths = {pose->lengths.left_mm + dice.between(-0.5, 0.5),
                        pose->lengths.right_mm + dice.between(-0.5, 0.5)};
@@ -148,7 +148,7 @@ TEST_P(GridOfAnyMachine, WithAMiscountedLinkInARepeatIsNamed) {
       model::make_kinematics(model::equilibrium_parameters(machine_), model::Model::elastic);
   again.mark.x_mm += 9.0;
   again.mark.y_mm -= 7.0;
-  const auto pose = kinematics->inverse(model::laid_as_bed(again.mark));
+  const auto pose = kinematics->inverse(model::identity_placement(again.mark));
   ASSERT_TRUE(pose.has_value());
   again.lengths = pose->lengths;
   grid_.points.push_back(again);

@@ -37,7 +37,7 @@ std::vector<PointPicture> sample_points(const model::Machine& machine) {
       point.mark = {-1100.0 + 2200.0 * column / 6 + 4.0 * normal(),
                     -500.0 + 1000.0 * row / 3 + 4.0 * normal()};
       point.order = static_cast<int>(points.size());
-      const model::PointReading reading = model.at(model::laid_as_bed(point.mark)).value();
+      const model::PointReading reading = model.at(model::identity_placement(point.mark)).value();
       point.lengths = reading.lengths;
       const double left_mm = kElongation * (2000.0 - reading.lengths.left_mm);
       point.best_mm = {left_mm, 0.0};

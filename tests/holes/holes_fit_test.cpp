@@ -72,7 +72,7 @@ TEST(HolesFit, TheSheetIsFoundFromItsEdges) {
   const model::SheetPlacement laid{7.0, -4.0, 0.006};
   std::vector<model::MarkPoint> marks;
   for (const model::MarkPoint& place : made->places)
-    marks.push_back(laid.to_mark(model::laid_as_bed(place)));
+    marks.push_back(laid.to_mark(model::identity_placement(place)));
   const observation::DistanceGeometry on_sheet = observation::distance_geometry(design, marks);
   for (std::size_t k = 20; k < made->set.distances.size(); ++k)
     made->set.distances[k].distance_mm = on_sheet.predicted_mm[static_cast<Eigen::Index>(k)];
@@ -210,9 +210,9 @@ TEST(HolesFit, ABadReadingIsNamedAndSetAside) {
     made->set.distances[bad].distance_mm += seed % 2 == 0 ? 10.0 : -10.0;
     const auto fit = joint_fit(made->set);
     ASSERT_TRUE(fit) << "seed " << seed;
-    found += fit->distances.front().distances[bad].set_aside;
+    found += fit->distances.front().distances[bad].rejected;
     for (std::size_t k = 0; k < fit->distances.front().distances.size(); ++k)
-      good_lost += k != bad && fit->distances.front().distances[k].set_aside;
+      good_lost += k != bad && fit->distances.front().distances[k].rejected;
     if (seed == 1) {
       EXPECT_THAT(fit->map.contents().notes.front(), HasSubstr(words_of(made->set, made->set.distances[bad])));
       EXPECT_THAT(fit->map.contents().notes.front(), HasSubstr("shorter than the others make it"));

@@ -63,7 +63,7 @@ MeasuredGrid measured_at(const std::vector<MarkPoint>& marks,
   MeasuredGrid grid;
   grid.noise = StatedNoise{kNoiseMm, 0.0, 15.0};
   for (const MarkPoint& mark : marks) {
-    const auto reading = model.at(model::laid_as_bed(mark));
+    const auto reading = model.at(model::identity_placement(mark));
     const double left_mm = reading->lengths.left_mm + kNoiseMm * random.normal();
     const double right_mm = reading->lengths.right_mm + kNoiseMm * random.normal();
     grid.points.push_back({mark, model::ChainLengths{left_mm, right_mm}, {}, {}});
@@ -210,7 +210,7 @@ TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
   const model::ReadingModel model(one.truth);
   model::PerSide<double> squares;
   for (const MarkPoint& mark : kFive) {
-    const model::ChainLengths lengths = model.at(model::laid_as_bed(mark))->lengths;
+    const model::ChainLengths lengths = model.at(model::identity_placement(mark))->lengths;
     squares.left += lengths.left_mm * lengths.left_mm;
     squares.right += lengths.right_mm * lengths.right_mm;
   }
@@ -438,7 +438,7 @@ TEST(MapCheck, EffectsOfPaperAndVisitAreTakenOutOfTheNewReadings) {
     const model::MarkFrame marks(disturbed);
     std::vector<model::Visit> visits;
     for (std::size_t i = 0; i < kFive.size(); ++i)
-      visits.push_back({model::laid_as_bed(marks.place(kFive[i])), static_cast<int>(i)});
+      visits.push_back({model::identity_placement(marks.place(kFive[i])), static_cast<int>(i)});
     const auto read = model::readings(model::ReadingModel(disturbed), visits).value();
     MeasuredGrid grid;
     grid.machine = classic();

@@ -132,7 +132,7 @@ void add(Pool& pool, const JointFit& fit) {
     pool.all2 += distance.left_out_mm * distance.left_out_mm;
     pool.sigma2 += distance.left_out_sigma_mm * distance.left_out_sigma_mm;
     ++pool.all;
-    if (distance.set_aside) continue;
+    if (distance.rejected) continue;
     pool.good2 += distance.left_out_mm * distance.left_out_mm;
     ++pool.good;
   }

@@ -25,7 +25,7 @@ using testing::HasSubstr;
 /// The default machine and something smooth that no setting explains.
 model::ChainLengths truth_at(MarkPoint p) {
   static const model::ReadingModel kModel{model::Machine{}};
-  const model::ChainLengths machine = kModel.at(model::laid_as_bed(p)).value().lengths;
+  const model::ChainLengths machine = kModel.at(model::identity_placement(p)).value().lengths;
   return {machine.left_mm + 0.8 * std::sin(p.x_mm / 500.0) * std::cos(p.y_mm / 400.0),
           machine.right_mm + 0.8 * std::cos(p.x_mm / 450.0) * std::sin(p.y_mm / 420.0)};
 }

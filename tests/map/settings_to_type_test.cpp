@@ -44,11 +44,10 @@ MeasuredGrid grid_of(const Machine& machine, const ControllerSettings& right) {
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 7; ++column) {
       const model::BedPoint command{-1080.0 + 360.0 * column, -510.0 + 340.0 * row};
-      grid.points.push_back(
-          {model::laid_as_bed(*true_one->command(*told->lengths(command))),
-           std::nullopt,
-           command,
-           std::nullopt});
+      grid.points.push_back({model::identity_placement(*true_one->command(*told->lengths(command))),
+                             std::nullopt,
+                             command,
+                             std::nullopt});
     }
   }
   return grid;

@@ -133,7 +133,7 @@ TEST(Generator, WithoutNoiseIsTheReadingModelItself) {
   const model::ReadingModel model(machine);
   ASSERT_THAT(session.grid.points, SizeIs(28));
   for (const MeasuredPoint& point : session.grid.points) {
-    const auto reading = model.at(model::laid_as_bed(point.mark));
+    const auto reading = model.at(model::identity_placement(point.mark));
     ASSERT_TRUE(reading);
     EXPECT_EQ(point.lengths->left_mm, reading->lengths.left_mm);
     EXPECT_EQ(point.lengths->right_mm, reading->lengths.right_mm);

@@ -119,7 +119,7 @@ void say_the_holes(const grid::HolesBesideBelts& holes, Section& section) {
                   holes.left_out_rms_mm,
                   holes.noise_factor));
   for (const auto& distance : holes.distances) {
-    if (!distance.set_aside) continue;
+    if (!distance.rejected) continue;
     say(section,
         fmt::format("Set aside: the distance {}, taped {:.1f} mm {} than all others make it; tape "
                     "it again.",
@@ -247,8 +247,8 @@ Section taped_section(const grid::HolesBesideBelts& holes) {
                  distance.off_mm,
                  distance.left_out_mm,
                  distance.left_out_sigma_mm};
-    row.is_flagged = distance.set_aside;
-    if (distance.set_aside) row.cells.emplace_back("*");
+    row.is_flagged = distance.rejected;
+    if (distance.rejected) row.cells.emplace_back("*");
   }
   return {"Holes on the sheet", {std::move(table)}, false, Detail::verbose};
 }

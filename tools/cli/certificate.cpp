@@ -34,8 +34,8 @@ report::Section measured_section(const grid::CompensationMap& map) {
     row("holes and a tape",
         fmt::format("{} holes, {} distances, {} of them set aside",
                     contents.points.size(),
-                    used.used + used.set_aside,
-                    used.set_aside));
+                    used.used + used.rejected,
+                    used.rejected));
     row("distances that the fit had not seen",
         fmt::format("within {:.2f} mm rms, {:.2f} mm at most",
                     used.left_out_good.rms_mm,

@@ -68,7 +68,7 @@ Lines lines_of(const Diagnosis& found,
     if (from.empty()) continue;
     if (next.mark) {
       from = names.next();
-      lines.holes.push_back({from, model::laid_as_bed(*next.mark)});
+      lines.holes.push_back({from, model::identity_placement(*next.mark)});
     }
     for (const std::string& to : next.to) {
       lines.distances.emplace_back(from, name_in_file(set, position, to));

@@ -46,8 +46,8 @@ report::Section distances_section(const grid::MeasuredHoles& set,
                  distance.commanded_mm,
                  distance.left_out_mm,
                  distance.sigmas()};
-    row.is_flagged = distance.set_aside;
-    if (distance.set_aside) row.cells.emplace_back("set aside");
+    row.is_flagged = distance.rejected;
+    if (distance.rejected) row.cells.emplace_back("set aside");
   }
   report::Section section{
       "Distance by distance", {}, true, report::Detail::verbose, /*is_titled=*/false};

@@ -80,7 +80,7 @@ std::string fit_sentence(const grid::CompensationMap& map) {
         used.used,
         points,
         used.left_out_good.rms_mm,
-        used.set_aside == 0 ? "" : fmt::format(" ({} more set aside)", used.set_aside));
+        used.rejected == 0 ? "" : fmt::format(" ({} more set aside)", used.rejected));
   }
   const bool sheet = has_placed_sheet(contents);
   return fmt::format(

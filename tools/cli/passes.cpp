@@ -48,7 +48,7 @@ std::string line_of(const grid::HolesPass& pass) {
                                  pass.number,
                                  pass.as_cut_rms_mm,
                                  pass.left_out_rms_mm,
-                                 pass.set_aside,
+                                 pass.rejected,
                                  pass.expected_mm,
                                  pass.expected_next_mm);
   if (pass.true_mm) text += fmt::format("{:>13.2f}", *pass.true_mm);
@@ -71,7 +71,7 @@ std::string as_json(const std::vector<grid::HolesPass>& passes, std::optional<do
                    pass.number,
                    pass.as_cut_rms_mm,
                    pass.left_out_rms_mm,
-                   pass.set_aside,
+                   pass.rejected,
                    pass.expected_mm,
                    pass.expected_next_mm,
                    pass.next_pays,

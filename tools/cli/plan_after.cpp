@@ -152,7 +152,7 @@ std::string drawing_of(const Diagnosis& found, const Sources& sources) {
   }
   for (const grid::MeasuredHoles& set : sources.sets) {
     for (const grid::Hole& hole : set.holes)
-      drawing.measured.push_back(model::laid_as_bed(hole.commanded));
+      drawing.measured.push_back(model::identity_placement(hole.commanded));
   }
   for (const FollowUpPlace& place : follow_up_places(found))
     drawing.next.push_back({place.numbers, place.mark});

@@ -108,7 +108,7 @@ std::vector<model::MarkPoint> points_asked(const QueryCommand& command) {
 model::MarkPoint mark_of(model::MarkPoint asked,
                          const grid::CompensationMap& map,
                          const QueryCommand& command) {
-  return command.frame == "bed" ? map.to_mark(model::laid_as_bed(asked)) : asked;
+  return command.frame == "bed" ? map.to_mark(model::identity_placement(asked)) : asked;
 }
 
 int run_inverse(const grid::CompensationMap& map, const QueryCommand& command) {
@@ -122,7 +122,7 @@ int run_inverse(const grid::CompensationMap& map, const QueryCommand& command) {
     return kNotSupportedOrOutside;
   }
   const model::MarkPoint point =
-      command.frame == "bed" ? model::laid_as_bed(map.to_bed(*mark)) : *mark;
+      command.frame == "bed" ? model::identity_placement(map.to_bed(*mark)) : *mark;
   write_output(command.output,
                command.json
                    ? fmt::format("{{\"x_mm\": {:.6f}, \"y_mm\": {:.6f}, \"status\": \"{}\"}}\n",
@@ -196,7 +196,7 @@ int run_query(Verb verb, const QueryCommand& command) {
   std::vector<model::BedPoint> points;
   if (command.inverse.empty()) {
     for (const model::MarkPoint& point : points_asked(command))
-      points.push_back(model::laid_as_bed(point));
+      points.push_back(model::identity_placement(point));
   }
   return query_anchors({file, std::move(points), command.inverse, command.output, command.json});
 }

@@ -58,7 +58,7 @@ std::string sheet_json(const Sheet& sheet,
   for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
     grid::MeasuredPoint point;
     point.mark = sheet.marks[i];
-    if (sheet.of == SheetOf::places) point.commanded = model::laid_as_bed(sheet.marks[i]);
+    if (sheet.of == SheetOf::places) point.commanded = model::identity_placement(sheet.marks[i]);
     point.order = static_cast<int>(i) + 1;
     grid.points.push_back(point);
   }
@@ -105,7 +105,7 @@ std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
   if (sheet.of == SheetOf::places) {
     std::vector<DrillPlace> places;
     for (std::size_t i = 0; i < sheet.marks.size(); ++i)
-      places.push_back({fmt::format("mark {}", i + 1), model::laid_as_bed(sheet.marks[i])});
+      places.push_back({fmt::format("mark {}", i + 1), model::identity_placement(sheet.marks[i])});
     return drill_gcode(fmt::format("{} marks", places.size()), places, options);
   }
   std::string text = fmt::format(

@@ -67,7 +67,7 @@ int simulate_places(const SimulateOptions& options, const model::Machine& machin
   problems.throw_if_any();
   std::vector<model::Visit> visits;
   for (const model::MarkPoint& place : files::read_points(options.points)) {
-    visits.push_back({model::laid_as_bed(place), static_cast<int>(visits.size())});
+    visits.push_back({model::identity_placement(place), static_cast<int>(visits.size())});
   }
   synthetic::PlacesRead read =
       synthetic::read_places(machine, hidden, visits, model, shown_progress());

@@ -34,7 +34,7 @@ TargetStatus from(grid::MapStatus status) {
 }  // namespace
 
 model::MarkPoint CompensationTarget::mark_of(model::BedPoint point) const {
-  return frame_ == ProgramFrame::bed ? map_.to_mark(point) : model::laid_as_bed(point);
+  return frame_ == ProgramFrame::bed ? map_.to_mark(point) : model::identity_placement(point);
 }
 
 tl::expected<model::ChainLengths, CorrectionFailure> CompensationTarget::lengths(
@@ -59,7 +59,7 @@ tl::expected<model::BedPoint, CorrectionFailure> CompensationTarget::tool(
     model::ChainLengths lengths) const {
   const auto found = map_.inverse(lengths);
   if (!found) return tl::unexpected(from(found.error()));
-  return frame_ == ProgramFrame::bed ? map_.to_bed(*found) : model::laid_as_bed(*found);
+  return frame_ == ProgramFrame::bed ? map_.to_bed(*found) : model::identity_placement(*found);
 }
 
 BedRectangle CompensationTarget::bounds() const {

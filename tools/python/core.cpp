@@ -175,7 +175,7 @@ py::dict query(const grid::CompensationMap& map, const Pairs& points, bool bed) 
   std::vector<std::string> status;
   for (std::size_t i = 0; i < count; ++i) {
     const model::BedPoint asked{points.data()[2 * i], points.data()[2 * i + 1]};
-    const auto answer = map.query(bed ? map.to_mark(asked) : model::laid_as_bed(asked));
+    const auto answer = map.query(bed ? map.to_mark(asked) : model::identity_placement(asked));
     outside.mutable_data()[i] = !answer;
     tool.mutable_data()[i] = answer ? answer->tool_sigma_mm : 0.0;
     status.emplace_back(grid::name(answer ? answer->status : grid::MapStatus::outside));
@@ -201,7 +201,7 @@ py::tuple inverse(const grid::CompensationMap& map, const Pairs& lengths, bool b
     const auto mark = map.inverse({lengths.data()[2 * i], lengths.data()[2 * i + 1]});
     outside.mutable_data()[i] = !mark;
     if (!mark) continue;
-    const model::BedPoint point = bed ? map.to_bed(*mark) : model::laid_as_bed(*mark);
+    const model::BedPoint point = bed ? map.to_bed(*mark) : model::identity_placement(*mark);
     put(points, i, point.x_mm, point.y_mm);
   }
   return py::make_tuple(points, outside);

@@ -117,7 +117,7 @@ std::optional<std::vector<Lengths>> predicted_by(const model::Machine& machine,
   std::vector<model::Visit> visits;
   for (std::size_t i = 0; i < fresh.marks.size(); ++i) {
     const model::MarkPoint mark{fresh.marks[i].x, fresh.marks[i].y};
-    visits.push_back({model::laid_as_bed(mark_frame.place(mark)), fresh.numbers[i]});
+    visits.push_back({model::identity_placement(mark_frame.place(mark)), fresh.numbers[i]});
   }
   const auto read = model::readings(model::ReadingModel(machine), visits);
   if (!read) return std::nullopt;
