@@ -236,4 +236,20 @@ model::ChainLengths BeltMap::sigma(BedPoint sheet) const {
   return {std::sqrt(variance.left_mm + own), std::sqrt(variance.right_mm + own)};
 }
 
+double BeltMap::tool_sigma_mm(BedPoint sheet) const {
+  const FramePoint place = best_.in_frame(sheet);
+  const double left = span_mm(best_.machine, Belt::tl, place);
+  const double right = span_mm(best_.machine, Belt::tr, place);
+  double variance = 0.0;
+  for (const Placing& other : others_) {
+    const auto there = end_of_spans(other.machine, left, right);
+    if (!there) continue;
+    const BedPoint tool = other.on_sheet(*there);
+    variance += std::pow(tool.x_mm - sheet.x_mm, 2) + std::pow(tool.y_mm - sheet.y_mm, 2);
+  }
+  const double own =
+      best_.displacement ? best_.displacement->own_variance_mm2(best_.sheet.to_mark(sheet)) : 0.0;
+  return std::sqrt(variance + 2.0 * own);
+}
+
 }  // namespace chaintrue::grid

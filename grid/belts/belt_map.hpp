@@ -54,6 +54,8 @@ class BeltMap {
       model::ChainLengths lengths) const;
   /// One sigma of each length, from what is uncertain of the fit; a point that lengths() answers.
   [[nodiscard]] model::ChainLengths sigma(model::BedPoint sheet) const;
+  /// Of the tool for such lengths: the root of the summed variances of x and y.
+  [[nodiscard]] double tool_sigma_mm(model::BedPoint sheet) const;
   [[nodiscard]] MapStatus status(model::BedPoint sheet) const {
     return area_->status(model::identity_placement(sheet));
   }

@@ -47,6 +47,7 @@ Json hypothesis_of(const CheckHypothesis& hypothesis) {
 
 std::string write_check(const MapCheck& check) {
   Json json = verdict_of(check);
+  if (check.settings_have_changed) json["settings_have_changed"] = true;
   if (!check.notes.empty()) json["notes"] = check.notes;
   json["new_zero"] = {{"left_mm", check.new_zero.left_mm}, {"right_mm", check.new_zero.right_mm}};
   json["hypotheses"] = Json::array();

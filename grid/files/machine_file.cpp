@@ -159,32 +159,6 @@ const Record<Uncertainty>& uncertainty_record() {
   return record;
 }
 
-const Record<ControllerSettings>& settings_record() {
-  using Settings = ControllerSettings;
-  static const auto record =
-      Record<Settings>("the controller's settings, named as GroundControl names them,")
-          .optional("bedwidth", &Settings::bed_width_mm, number_in("mm"))
-          .optional("bedheight", &Settings::bed_height_mm, number_in("mm"))
-          .optional("motorspacingx", &Settings::motor_spacing_mm, number_in("mm"))
-          .optional("motoroffsety", &Settings::motor_offset_y_mm, number_in("mm"))
-          .optional("rotationradius", &Settings::rotation_radius_mm, number_in("mm"))
-          .optional(
-              "chainsagcorrection", &Settings::chain_sag_correction, number_in("1e-12 / mm^2"))
-          .optional(
-              "leftchaintolerance", &Settings::left_chain_tolerance_percent, number_in("percent"))
-          .optional(
-              "rightchaintolerance", &Settings::right_chain_tolerance_percent, number_in("percent"))
-          .optional("topbeamtilt", &Settings::top_beam_tilt_deg, number_in("degrees"))
-          .optional("chainpitch", &Settings::chain_pitch_mm, number_in("mm"))
-          .optional("gearteeth", &Settings::gear_teeth, number_in("teeth"))
-          .optional("chainoversprocket",
-                    &Settings::chain_over_sprocket_top,
-                    choice<bool>({{"Top", true}, {"Bottom", false}}))
-          .optional("sledweight", &Settings::sled_weight_n, number_in("N"))
-          .optional("chainelongationfactor", &Settings::chain_elongation_per_n, number_in("1/N"));
-  return record;
-}
-
 const Record<Controller>& controller_record() {
   static const auto record =
       Record<Controller>("a controller")
@@ -195,14 +169,14 @@ const Record<Controller>& controller_record() {
                          {"maslow_classic", ControllerKind::maslow_classic},
                          {"holey", ControllerKind::holey},
                          {"fluidnc_wallplotter", ControllerKind::fluidnc_wallplotter}}))
-          .optional("settings", &Controller::settings, object(settings_record()));
+          .optional("settings", &Controller::settings, object(controller_settings_record()));
   return record;
 }
 
 /// The default controller, ideal and without settings, is left out of the file.
 std::optional<Json> write_controller(const Machine& machine) {
   if (machine.controller.kind == ControllerKind::ideal &&
-      settings_record().write(machine.controller.settings).empty()) {
+      controller_settings_record().write(machine.controller.settings).empty()) {
     return std::nullopt;
   }
   return controller_record().write(machine.controller);
@@ -279,6 +253,32 @@ ReadMachine parse_with(const std::string& text, const std::string& file) {
 }
 
 }  // namespace
+
+const Record<ControllerSettings>& controller_settings_record() {
+  using Settings = ControllerSettings;
+  static const auto record =
+      Record<Settings>("the controller's settings, named as GroundControl names them,")
+          .optional("bedwidth", &Settings::bed_width_mm, number_in("mm"))
+          .optional("bedheight", &Settings::bed_height_mm, number_in("mm"))
+          .optional("motorspacingx", &Settings::motor_spacing_mm, number_in("mm"))
+          .optional("motoroffsety", &Settings::motor_offset_y_mm, number_in("mm"))
+          .optional("rotationradius", &Settings::rotation_radius_mm, number_in("mm"))
+          .optional(
+              "chainsagcorrection", &Settings::chain_sag_correction, number_in("1e-12 / mm^2"))
+          .optional(
+              "leftchaintolerance", &Settings::left_chain_tolerance_percent, number_in("percent"))
+          .optional(
+              "rightchaintolerance", &Settings::right_chain_tolerance_percent, number_in("percent"))
+          .optional("topbeamtilt", &Settings::top_beam_tilt_deg, number_in("degrees"))
+          .optional("chainpitch", &Settings::chain_pitch_mm, number_in("mm"))
+          .optional("gearteeth", &Settings::gear_teeth, number_in("teeth"))
+          .optional("chainoversprocket",
+                    &Settings::chain_over_sprocket_top,
+                    choice<bool>({{"Top", true}, {"Bottom", false}}))
+          .optional("sledweight", &Settings::sled_weight_n, number_in("N"))
+          .optional("chainelongationfactor", &Settings::chain_elongation_per_n, number_in("1/N"));
+  return record;
+}
 
 const Record<model::AppliedEffect>& effect_record() {
   using model::AppliedEffect;

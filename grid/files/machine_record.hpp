@@ -13,5 +13,7 @@ namespace chaintrue::grid::files {
 /// An effect of the catalogue with its side and parameters; whether such an effect exists is the
 /// catalogue's affair.
 [[nodiscard]] const Record<model::AppliedEffect>& effect_record();
+/// By GroundControl's own names.
+[[nodiscard]] const Record<model::ControllerSettings>& controller_settings_record();
 
 }  // namespace chaintrue::grid::files

@@ -100,7 +100,11 @@ struct MapCheck {
   std::string not_told_apart;
   /// What was taken out of the readings, and what could not be; whole sentences.
   std::vector<std::string> notes;
-  [[nodiscard]] bool is_valid_as_it_is() const { return decided && verdict == CheckVerdict::valid; }
+  /// All of it is of the map for other settings than its own (check_settings.hpp).
+  bool settings_have_changed = false;
+  [[nodiscard]] bool is_valid_as_it_is() const {
+    return decided && verdict == CheckVerdict::valid && !settings_have_changed;
+  }
 };
 inline constexpr double kDecided = 0.8;
 

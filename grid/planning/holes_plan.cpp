@@ -21,8 +21,16 @@ namespace {
 using model::MarkPoint;
 using Holes = std::vector<const PlannedPlace*>;
 
-/// Holes nearer than this to each other weaken the sheet and tell little.
+/// Holes nearer than this to each other weaken the sheet and tell little; on a small bed nearer ones
+/// are all that there is room for.
 constexpr double kLeastApartMm = 150.0;
+/// The shorter side of the part of the bed where holes are planned.
+double shorter_side_mm(const model::Machine& machine, double margin_mm) {
+  return std::min(machine.bed.width_mm, machine.bed.height_mm) - 2.0 * margin_mm;
+}
+double least_apart_mm(const model::Machine& machine, double margin_mm) {
+  return std::min(kLeastApartMm, 0.5 * shorter_side_mm(machine, margin_mm));
+}
 /// Rows and columns of places that are tried.
 constexpr int kColumns = 9;
 constexpr int kRows = 5;
@@ -43,11 +51,11 @@ std::vector<PlannedPlace> candidates(const model::Machine& machine, double margi
   return result;
 }
 
-bool is_free(const Holes& holes, std::size_t moving, MarkPoint place) {
+bool is_free(const Holes& holes, std::size_t moving, MarkPoint place, double apart_mm) {
   for (std::size_t i = 0; i < holes.size(); ++i) {
     if (i == moving) continue;
     if (std::hypot(holes[i]->place.x_mm - place.x_mm, holes[i]->place.y_mm - place.y_mm) <
-        kLeastApartMm)
+        apart_mm)
       return false;
   }
   return true;
@@ -79,6 +87,7 @@ Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
 /// Moves single holes as long as one helps.
 DistanceChooser::Choice move_holes(const DistanceChooser& chooser,
                                    const std::vector<PlannedPlace>& places,
+                                   double apart_mm,
                                    const Progress& progress,
                                    Holes& holes) {
   constexpr int kSweeps = 4;
@@ -90,7 +99,7 @@ DistanceChooser::Choice move_holes(const DistanceChooser& chooser,
       const double share = static_cast<double>(i) / static_cast<double>(holes.size());
       tell(progress, {"where the holes are cut", 1, 2, share, sweep + 1});
       for (const PlannedPlace& place : places) {
-        if (&place == holes[i] || !is_free(holes, i, place.place)) continue;
+        if (&place == holes[i] || !is_free(holes, i, place.place, apart_mm)) continue;
         const PlannedPlace* before = holes[i];
         holes[i] = &place;
         DistanceChooser::Choice next = chooser.greedy(holes);
@@ -148,13 +157,13 @@ MeasuredHoles set_of(const model::Machine& machine,
 }
 
 void check(const model::Machine& machine, const HolesPlanRequest& request) {
-  const double half = 0.5 * std::min(machine.bed.width_mm, machine.bed.height_mm);
   const bool sound =
       request.holes >= kFewestPlannedHoles && request.holes <= kMostPlannedHoles &&
       request.distances >= 0 &&
       (request.distances == 0 || request.distances >= fewest_distances(request.edges)) &&
       request.tape_sigma_mm > 0.0 && request.hole_sigma_mm >= 0.0 && request.margin_mm >= 0.0 &&
-      request.margin_mm < half - kLeastApartMm && request.longest_mm > 2.0 * kLeastApartMm;
+      shorter_side_mm(machine, request.margin_mm) >= kLeastPlannedSideMm &&
+      request.longest_mm > 2.0 * kLeastApartMm;
   if (sound) return;
   throw precondition(
       "a plan of {} holes and {} distances, {} mm from the edges, with a tape of {} mm "
@@ -252,7 +261,8 @@ tl::expected<HolesPlan, PlanFailure> plan_holes(const model::Machine& machine,
   const ToolError error = tool_error(machine, request.edges);
   const DistanceChooser chooser(machine, request, prior, error.root);
   Holes holes = spread(places, static_cast<std::size_t>(request.holes));
-  DistanceChooser::Choice choice = move_holes(chooser, places, request.progress, holes);
+  DistanceChooser::Choice choice = move_holes(
+      chooser, places, least_apart_mm(machine, request.margin_mm), request.progress, holes);
   choice = chooser.exchange(holes, std::move(choice));
   const Eigen::MatrixXd after = chooser.covariance(holes, choice.distances);
   HolesPlan plan;

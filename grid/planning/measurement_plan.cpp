@@ -145,18 +145,19 @@ tl::expected<MeasurementPlan, PlanFailure> plan_measurement(const model::Machine
   const model::Bed& bed = machine.bed;
   const double width = bed.width_mm - 2.0 * request.margin_mm;
   const double height = bed.height_mm - 2.0 * request.margin_mm;
-  constexpr double kLeastSideMm = 100.0;
   if (request.points < kFewestPlanned || request.points > kMostPlanned ||
-      !(width >= kLeastSideMm) || !(height >= kLeastSideMm)) {
+      !(width >= kLeastPlannedSideMm) || !(height >= kLeastPlannedSideMm)) {
     throw precondition(
         "a plan of {} points on {} x {} mm, {} mm from its edges: {} to {} points on "
-        "at least 100 x 100 mm are possible",
+        "at least {} x {} mm are possible",
         request.points,
         bed.width_mm,
         bed.height_mm,
         request.margin_mm,
         kFewestPlanned,
-        kMostPlanned);
+        kMostPlanned,
+        kLeastPlannedSideMm,
+        kLeastPlannedSideMm);
   }
   const interp::GridShape shape = interp::grid_shape(width, height, request.points);
   const auto x = whole_mm(interp::chebyshev_lobatto(-0.5 * width, 0.5 * width, shape.columns));

@@ -28,6 +28,8 @@ namespace chaintrue::grid {
 /// Fewest and most points that a plan may have.
 inline constexpr int kFewestPlanned = 12;
 inline constexpr int kMostPlanned = 200;
+/// Marks and holes are planned on no less than so much by so much, the margin left out.
+inline constexpr double kLeastPlannedSideMm = 100.0;
 
 struct PlanRequest {
   int points = 28;

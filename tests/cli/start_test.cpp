@@ -134,5 +134,49 @@ TEST_F(Start, ReplacesNothingThatSomebodyFilledIn) {
   EXPECT_THAT(again.err, AllOf(HasSubstr("shop/marks.csv"), HasSubstr("--force")));
 }
 
+TEST_F(Start, TakesAnIniThatBeginsWithItsFirstSection) {
+  write("groundcontrol.ini",
+        "[Maslow Settings]\nbedwidth = 2438.4\nbedheight = 1219.2\nmotorspacingx = 2978.4\n"
+        "motoroffsety = 463\n[Advanced Settings]\nkinematicstype = Triangular\n"
+        "rotationradius = 139.1\nchainpitch = 6.35\ngearteeth = 10\nchainoversprocket = Top\n");
+  const Outcome outcome = run("start groundcontrol.ini shop");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+/// Every verb that plans finds room down to the smallest bed that a machine may have.
+TEST_F(Start, SmallBedsArePlannedDownToTheSmallest) {
+  for (const int side : {500, 450, 300, 200}) {
+    SCOPED_TRACE(side);
+    write("small.json",
+          R"({"file_type": "chaintrue_machine", "format_version": "1.0", "name": "small",
+ "bed": {"width_mm": )" +
+              std::to_string(side) + R"(, "height_mm": )" + std::to_string(side) + R"(},
+ "motors": {"left": {"x_mm": -400, "y_mm": 420}, "right": {"x_mm": 400, "y_mm": 420}},
+ "sprocket": {"teeth": 10, "pitch_mm": 6.35}, "feed": "over_top",
+ "attachment": {"kind": "ring", "radius_mm": 40}, "chain": {"mass_kg_per_m": 0.14, "compliance_per_n": 5.17e-6},
+ "sled": {"mass_kg": 3}, "frame": {"tilt_from_vertical_deg": 15}})");
+    for (const char* line : {"start small.json shop --force",
+                             "plan --machine small.json --points 28 -o marks.csv --force",
+                             "plan --machine small.json --holes 9 -o holes.csv --force",
+                             "simulate --machine small.json --holes 9 --seed 1 -o holes.json --force",
+                             "passes --machine small.json --passes 1 --seed 1"}) {
+      const Outcome outcome = run(line);
+      EXPECT_EQ(outcome.code, 0) << line << "\n" << outcome.err;
+    }
+  }
+}
+
+TEST_F(Start, ABedThatIsTooSmallIsSaid) {
+  write("plotter.yaml",
+        "kinematics:\n  WallPlotter:\n    left_anchor_x: -300\n    left_anchor_y: 300\n"
+        "    right_anchor_x: 300\n    right_anchor_y: 300\n"
+        "axes:\n  x:\n    max_travel_mm: 150\n  y:\n    max_travel_mm: 150\n");
+  const Outcome outcome = run("start plotter.yaml shop");
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("max_travel_mm"));
+  EXPECT_THAT(outcome.err, HasSubstr("200"));
+  EXPECT_FALSE(exists("shop/marks.csv"));
+}
+
 }  // namespace
 }  // namespace chaintrue

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/gcode/formula_target.hpp"
 #include "tests/gcode/random_program.hpp"
@@ -66,7 +68,56 @@ TEST_F(Limits, AFileThatWasCompensatedIsRefused) {
   const auto twice = compensate_within(once.text, corrector_);
   EXPECT_THAT(
       twice.message,
-      HasSubstr("has been compensated before; compensate the original (already_compensated)"));
+      HasSubstr("has been compensated before, as this mark in it says; compensate the original "
+                "(already_compensated)"));
+}
+
+/// A file without its head, the part of one tool alone, and what senders make of comments.
+TEST_F(Limits, AFileIsKnownByMoreThanItsFirstLine) {
+  const auto once = compensate_within(
+      "G21\nT1 M6\nG0 X10 Y10\nF100 G1 X20\nT2 M6\nG1 X30\nM2\n", corrector_);
+  ASSERT_EQ(once.message, "");
+  std::vector<std::string> lines;
+  std::istringstream text(once.text);
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  // Without as many of its first lines as one likes, down to the last change of the tool.
+  std::size_t last_tool = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (lines[i] == "T2 M6") last_tool = i;
+  ASSERT_GT(last_tool, 0U);
+  for (std::size_t first = 1; first <= last_tool; ++first) {
+    std::string rest;
+    for (std::size_t i = first; i < lines.size(); ++i) rest += lines[i] + "\n";
+    EXPECT_THAT(compensate_within(rest, corrector_).message, HasSubstr("already_compensated"))
+        << "without its first " << first << " lines";
+  }
+  // The end alone, numbered anew, in capitals, and as a comment of the other kind.
+  EXPECT_THAT(compensate_within("G0 X1 Y1\n(compensated by chaintrue)\nM2\n", corrector_).message,
+              HasSubstr("already_compensated"));
+  EXPECT_THAT(compensate_within("N10 (COMPENSATED  BY CHAINTRUE)\nN20 G0 X1 Y1\n", corrector_).message,
+              HasSubstr("already_compensated"));
+  EXPECT_THAT(compensate_within("; compensatedbychaintrue\nG0 X1 Y1\n", corrector_).message,
+              HasSubstr("already_compensated"));
+  // A comment that only speaks of it is none.
+  EXPECT_EQ(compensate_within("(not yet compensated by chaintrue)\nG0 X1 Y1\n", corrector_).message,
+            "");
+}
+
+TEST_F(Limits, TheHeaderSaysWhichSettingsArePresumed) {
+  CompensateOptions options;
+  options.settings = {"motorspacingx 2978.4", "motoroffsety 463", "rotationradius 139.1",
+                      "chainsagcorrection 6.1", "leftchaintolerance 0.12"};
+  const auto once = compensate_within("G21 G0 X10 Y10\nM2\n", corrector_, options);
+  ASSERT_EQ(once.message, "");
+  std::string settings;
+  std::istringstream text(once.text);
+  for (std::string line; std::getline(text, line);) {
+    EXPECT_LE(line.size(), kMaxOutputLine) << line;
+    if (line.starts_with("(settings")) settings += line.substr(9, line.size() - 10);
+  }
+  EXPECT_EQ(settings,
+            " motorspacingx 2978.4 motoroffsety 463 rotationradius 139.1 chainsagcorrection 6.1 "
+            "leftchaintolerance 0.12");
 }
 
 TEST_F(Limits, WhatCannotBeCutRightIsNamedByLine) {
@@ -110,7 +161,8 @@ TEST_F(Limits, HomeIsAddedAndTheOutputRunsAtZero) {
   options.home = {100.0, -50.0};
   const auto outcome =
       compensate_within("G21\nG0 X1 Y2\nG91 G0 X1\nG90 F60 G1 X0 Y0\nM2\n", corrector_, options);
-  EXPECT_THAT(outcome.text, HasSubstr("\nG0 X104 Y-50\nG0 X105 Y-50\nG1 X103 Y-52 F60\nM2\n"));
+  EXPECT_THAT(outcome.text, HasSubstr("\nG0 X104 Y-50\nG0 X105 Y-50\nG1 X103 Y-52 F60\n"
+                                      "(compensated by chaintrue)\nM2\n"));
 }
 
 TEST_F(Limits, KeepsWordsCommentsAndFeedsInPlace) {
@@ -120,14 +172,14 @@ TEST_F(Limits, KeepsWordsCommentsAndFeedsInPlace) {
       corrector_);
   EXPECT_EQ(outcome.message, "");
   EXPECT_THAT(outcome.text,
-              HasSubstr("G21 G90\n(part)\nS900 M3\nG0 Z5\nG0 X3 Y-2\nT2 M6\nG1 Z-1 F90\nG4 P1\nG1 "
-                        "X8 Y-2\nG1 X18 Y-2 F20\n( last)\n"
-                        "G1 X19 Y-2 F300\nM5\nM30\n"));
+              HasSubstr("G21 G90\n(part)\nS900 M3\nG0 Z5\nG0 X3 Y-2\nT2 M6\n"
+                        "(compensated by chaintrue)\nG1 Z-1 F90\nG4 P1\nG1 X8 Y-2\nG1 X18 Y-2 F20\n( last)\n"
+                        "G1 X19 Y-2 F300\nM5\n(compensated by chaintrue)\nM30\n"));
 }
 
 TEST_F(Limits, NeverTouchesAnAxisThatTheProgramDoesNot) {
   const std::string text = compensate_within("G0 Z5\nM3\nG0 Z6\n", corrector_).text;
-  EXPECT_THAT(text, testing::EndsWith("G21 G90\nG0 Z5\nM3\nG0 Z6\n"));
+  EXPECT_THAT(text, testing::EndsWith("G21 G90\nG0 Z5\nM3\nG0 Z6\n(compensated by chaintrue)\n"));
 }
 
 TEST_F(Limits, MovesThatRoundToNothingAreLeftOut) {

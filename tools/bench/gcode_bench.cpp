@@ -16,6 +16,7 @@
 
 #include "grid/files/grid_file.hpp"
 #include "grid/map/fit.hpp"
+#include "grid/map/map_for_settings.hpp"
 #include "tools/gcode/compensation_target.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/verifier.hpp"
@@ -29,7 +30,7 @@ struct Fitted {
       : map(grid::fit(grid::files::read_grid(CHAINTRUE_FIXTURES "/grids/seven_by_four.json").grid)
                 .value()),
         target(map),
-        machine(with_classic_controller(*stated_machine(map))),
+        machine(with_classic_controller(*grid::stated_machine(map))),
         kinematics(model::make_controller_kinematics(machine)),
         corrector(target, *kinematics, firmware(machine.controller.kind)) {}
 

@@ -7,16 +7,22 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "grid/files/anchors_file.hpp"
+#include "grid/files/controller_settings.hpp"
 #include "grid/files/groundcontrol_file.hpp"
+#include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
 #include "tools/cli/input_file.hpp"
+#include "tools/cli/option_rules.hpp"
 #include "tools/cli/places.hpp"
+#include "tools/cli/settings_file.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -28,13 +34,17 @@ namespace files = grid::files;
 struct ExportCommand {
   std::string input;
   std::string output = "-";
+  /// The map that is right once the numbers are typed in.
+  std::string map_after;
 };
 
-/// The numbers, and what is said beside them.
+/// The numbers, and what is said of them.
 struct Exported {
   files::GroundcontrolText settings;
   std::string words;
   std::vector<std::string> next;
+  /// Of a map: it with the controller that holds the numbers.
+  std::optional<grid::CompensationMap> map_after = std::nullopt;
 };
 
 /// What the machine says otherwise than its controller.
@@ -46,38 +56,89 @@ std::vector<std::string> settings_page(const std::string& path) {
   return {"report", path, "-o", std::filesystem::path(path).replace_extension(".html").string()};
 }
 
+/// The controller that holds the numbers of such a text.
+model::Controller controller_of(const files::GroundcontrolText& settings,
+                                model::ControllerKind kind,
+                                const std::string& file) {
+  model::Controller typed = files::parse_groundcontrol(settings.text, file).machine.controller;
+  if (kind == model::ControllerKind::holey) typed.kind = kind;
+  return typed;
+}
+
+/// Of a map whose controller bears no settings: all numbers of its calibrated machine.
+Exported of_unsettled(const grid::CompensationMap& map, const ExportCommand& command) {
+  const model::Machine& machine = *map.machine();
+  const std::string& path = command.input;
+  Exported result = of_machine(machine, settings_page(path));
+  if (command.map_after.empty() ||
+      machine.controller.kind == model::ControllerKind::fluidnc_wallplotter)
+    return result;
+  result.map_after = grid::map_for_settings(
+      map,
+      controller_of(result.settings, machine.controller.kind, path),
+      "For a controller that holds the numbers of export groundcontrol.");
+  return result;
+}
+
+/// What leads on: type in, check with the map after, cut with it.
+std::vector<std::string> next_of(const ExportCommand& command, bool is_worth_typing) {
+  const std::string& map = command.input;
+  if (!is_worth_typing) return settings_page(map);
+  if (!command.map_after.empty())
+    return {"plan", "--check", command.map_after, "-o", "check.csv"};
+  return {"export", "groundcontrol", map, "-o", "settings.ini", "--map-after", after_name(map)};
+}
+
+std::string words_of(const grid::SettingsToType& typed, const ExportCommand& command) {
+  if (!typed.worth_typing) {
+    return fmt::format(
+        "With the settings in force the tool is {:.2f} mm rms off over the measured part; "
+        "other numbers would not bring that down by a tenth, so none changes.\n",
+        typed.as_it_is.rms_mm);
+  }
+  return fmt::format(
+      "With the settings in force the tool is {:.2f} mm rms off over the measured part, "
+      "{:.2f} mm at worst; with these numbers {:.2f} and {:.2f} mm. What no number can "
+      "mend, gcode compensate does with the map.\n{}",
+      typed.as_it_is.rms_mm,
+      typed.as_it_is.maximum_mm,
+      typed.typed.rms_mm,
+      typed.typed.maximum_mm,
+      command.map_after.empty()
+          ? "Once they are typed in this map is of the settings before; --map-after writes the one "
+            "that is right then.\n"
+          : fmt::format("Type them in, measure five marks and check them with {0}. Cut as the "
+                        "programs are, or truer, compensated with {0}: not with {1} any more.\n",
+                        command.map_after,
+                        command.input));
+}
+
 /// What the controller's formulas can make of the map.
 Exported of_map(const grid::CompensationMap& map,
                 const std::string& file,
-                const std::string& path) {
+                const ExportCommand& command) {
   const model::Machine* machine = map.machine();
-  if (machine != nullptr && !machine->controller.settings.motor_spacing_mm) {
-    return of_machine(*machine, settings_page(path));
-  }
+  if (machine != nullptr && !machine->controller.settings.motor_spacing_mm)
+    return of_unsettled(map, command);
   const auto typed = grid::settings_to_type(map);
   if (!typed) throw files::InputError({{file, "", "this map", typed.error().sentence}});
   Exported result{
       files::write_groundcontrol_settings(
           *machine, typed->settings, fmt::format("the {} points of {}", typed->points, file)),
-      "",
-      typed->worth_typing ? std::vector<std::string>{"plan", "--check", path, "-o", "check.csv"}
-                          : settings_page(path)};
-  result.words =
-      typed->worth_typing
-          ? fmt::format(
-                "With the settings in force the tool is {:.2f} mm rms off over the measured part, "
-                "{:.2f} mm at worst; with these numbers {:.2f} and {:.2f} mm. What no number can "
-                "mend, gcode compensate does with the map.\n"
-                "Measure a few points again once they are typed in: this map is of the settings "
-                "before.\n",
-                typed->as_it_is.rms_mm,
-                typed->as_it_is.maximum_mm,
-                typed->typed.rms_mm,
-                typed->typed.maximum_mm)
-          : fmt::format(
-                "With the settings in force the tool is {:.2f} mm rms off over the measured part; "
-                "other numbers would not bring that down by a tenth, so none changes.\n",
-                typed->as_it_is.rms_mm);
+      words_of(*typed, command),
+      next_of(command, typed->worth_typing),
+      map};
+  if (typed->worth_typing) {
+    const model::Controller now{machine->controller.kind, typed->settings};
+    model::Machine after = *machine;
+    after.controller = now;
+    result.map_after = grid::map_for_settings(
+        map,
+        now,
+        fmt::format("For a controller that holds the numbers of export groundcontrol ({}).",
+                    files::in_words(files::changed_settings(files::settings_in_force(*machine),
+                                                            files::settings_in_force(after)))));
+  }
   return result;
 }
 
@@ -87,7 +148,7 @@ bool is_untyped_json(const InputFile& file) {
          files::file_type_of(file.text, file.name).empty();
 }
 
-Exported export_of(const InputFile& file) {
+Exported export_of(const InputFile& file, const ExportCommand& command) {
   if (is_untyped_json(file)) return of_machine(load_machine(file), {});
   require_kind(file,
                {FileKind::machine, FileKind::map, FileKind::diagnosis},
@@ -95,7 +156,7 @@ Exported export_of(const InputFile& file) {
                                               : "");
   if (file.kind == FileKind::map) {
     return with_map(file, [&](const grid::CompensationMap& map) {
-      return of_map(map, file.name, file.path);
+      return of_map(map, file.name, command);
     });
   }
   if (file.kind == FileKind::diagnosis) {
@@ -112,9 +173,29 @@ Exported export_of(const InputFile& file) {
   return of_machine(load_machine(file), {"plan", "--machine", file.path, "-o", "marks.csv"});
 }
 
-int export_groundcontrol(const ExportCommand& command) {
-  const Exported exported = export_of(open_input(command.input));
-  write_output(command.output, exported.settings.text);
+Facts facts_of(const InputFile& file) {
+  if (file.kind == FileKind::map) return facts::map;
+  return file.kind == FileKind::diagnosis ? facts::diagnosis : facts::machine;
+}
+
+/// \throws files::InputError where no such map follows.
+std::string written_map_after(const Exported& exported, const ExportCommand& command) {
+  if (command.map_after.empty()) return "";
+  if (exported.map_after) return files::write_map(*exported.map_after);
+  throw files::InputError(
+      {{command.input,
+        "",
+        "a map of a controller that takes none of GroundControl's numbers",
+        "--map-after to be left out: put the machine's anchors into FluidNC's config.yaml, and "
+        "compensate with this map and --settings config.yaml"}});
+}
+
+int export_groundcontrol(Verb verb, const ExportCommand& command) {
+  const InputFile file = open_input(command.input);
+  const Exported exported = export_of(file, command);
+  refuse_what_does_nothing(verb, facts_of(file));
+  write_outputs({{command.map_after, written_map_after(exported, command)},
+                 {command.output, exported.settings.text}});
   for (const std::string& remark : exported.settings.remarks) fmt::print(stderr, "{}\n", remark);
   if (exported.settings.remarks.empty() && exported.words.empty())
     fmt::print(stderr, "No number changes.\n");
@@ -192,14 +273,26 @@ void add_export(Verb app, Run& run) {
              {Origin::list},
              "Where they go; - is standard output")
       .shows_default();
+  add_output(groundcontrol,
+             "--map-after",
+             command->map_after,
+             {Origin::map},
+             "Of a map: write the map that is right once these numbers are typed in");
   groundcontrol.footer(fmt::format(
       "Of a machine, or of the one that a diagnosis has found, the numbers that it says "
       "otherwise than its controller. Of a map the numbers with which the controller "
       "as it is comes nearest to it, and how near. All others come back as they "
-      "came.\n\n{}",
+      "came.\n\nOnce the numbers are typed in, a map is of the settings before: programs that are "
+      "compensated with it come out wrong by what the numbers have mended. The map of --map-after "
+      "is of the same machine with these numbers; what follows from it is what is left.\n\n{}\n"
+      "  build/chaintrue fit fixtures/start/marks.csv --machine fixtures/machines/groundcontrol.json "
+      "-o map.json\n"
+      "  build/chaintrue export groundcontrol map.json -o settings.ini --map-after map.after.json",
       kExample));
   groundcontrol.when_chosen(
-      [command, &run] { run = [command] { return export_groundcontrol(*command); }; });
+      [command, groundcontrol, &run] {
+        run = [command, groundcontrol] { return export_groundcontrol(groundcontrol, *command); };
+      });
   add_maslow4(verb, run);
 }
 

@@ -70,11 +70,17 @@ void add_map_options(Verb verb, GcodeOptions& options, bool map_required) {
 
 void add_machine_options(Verb verb, GcodeOptions& options, bool map_required) {
   add_map_options(verb, options, map_required);
-  add_input(
+  const Option machine = add_input(
       verb,
       "--machine",
       options.machine,
       "A machine file: what the controller believes, if not the map's machine as it was stated");
+  add_input(verb,
+            "--settings",
+            options.settings,
+            "What the controller holds now, if other than when the map was measured: "
+            "groundcontrol.ini, webcontrol.json, FluidNC's config.yaml, or a machine file")
+      .excludes(machine);
   verb.add_option("--controller", options.controller, "In place of the machine file's")
       .one_of({"maslow_classic", "holey", "fluidnc_wallplotter", "maslow4", "ideal"});
 }

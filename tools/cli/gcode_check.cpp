@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "grid/files/input_error.hpp"
 #include "tools/cli/gcode_verbs.hpp"
@@ -99,13 +100,9 @@ void say_next_of_program(const GcodeOptions& options) {
     if (options.program != "-") say_next({"gcode", "explain", options.program + ":1"});
     return;
   }
-  say_next({"gcode",
-            "compensate",
-            options.program,
-            "--map",
-            options.map,
-            "-o",
-            options.program == "-" ? "-" : compensated_name(options.program)});
+  std::vector<std::string> next = with_map_words(options, {"gcode", "compensate", options.program});
+  next.insert(next.end(), {"-o", options.program == "-" ? "-" : compensated_name(options.program)});
+  say_next(next);
 }
 
 /// `machine` is null without a map.

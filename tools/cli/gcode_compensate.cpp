@@ -3,10 +3,12 @@
 /// chaintrue gcode compensate.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 
+#include "tools/cli/gcode_expected.hpp"
 #include "tools/cli/gcode_verbs.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/talk.hpp"
@@ -63,30 +65,36 @@ std::string verdict(const GcodeOptions& options, const GcodeMachine& machine, co
       options.tolerance_mm);
 }
 
+report::PathPiece drawn(const gcode::Move& move,
+                        const gcode::PathSample& from,
+                        const gcode::PathSample& to) {
+  const auto correction = [](const gcode::PathSample& sample) {
+    return report::ToolVector{sample.command.x_mm - sample.target.x_mm,
+                              sample.command.y_mm - sample.target.y_mm};
+  };
+  return {move.line,
+          move.kind == gcode::MoveKind::rapid,
+          from.target.x_mm,
+          from.target.y_mm,
+          to.target.x_mm,
+          to.target.y_mm,
+          correction(from),
+          correction(to)};
+}
+
 int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   const GcodeText text(options.program);
   auto source = text.open({"the program", 1, options.no_verify ? 1 : 2});
   gcode::CompensateOptions settings = compensate_options(options, machine);
   settings.input_hash = text.hash();
   report::PathReport picture;
-  if (!options.report.empty()) {
-    settings.on_command = [&picture](const gcode::Move& move,
-                                     const gcode::PathSample& from,
-                                     const gcode::PathSample& to) {
-      const auto correction = [](const gcode::PathSample& sample) {
-        return report::ToolVector{sample.command.x_mm - sample.target.x_mm,
-                                  sample.command.y_mm - sample.target.y_mm};
-      };
-      picture.add({move.line,
-                   move.kind == gcode::MoveKind::rapid,
-                   from.target.x_mm,
-                   from.target.y_mm,
-                   to.target.x_mm,
-                   to.target.y_mm,
-                   correction(from),
-                   correction(to)});
-    };
-  }
+  gcode::CutPlaces cuts;
+  settings.on_command = [&](const gcode::Move& move,
+                            const gcode::PathSample& from,
+                            const gcode::PathSample& to) {
+    if (move.kind != gcode::MoveKind::rapid) cuts.add(move.line, from.target, to.target);
+    if (!options.report.empty() && move.names_xy) picture.add(drawn(move, from, to));
+  };
   grid::files::PendingFile output(options.output);
   gcode::Compensator compensator(
       machine.corrector(), settings, [&](std::string_view bytes) { output.write(bytes); });
@@ -100,6 +108,8 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
   Proof proof;
   if (!options.no_verify) proof = prove(options, machine, text, output);
   const bool holds = proof.fault.empty();
+  const PromisedError promised{cuts.expected(machine.target()),
+                               options.no_verify ? options.tolerance_mm : proof.largest_mm};
   const std::string words = fmt::format(
       "{} blocks, {} moves, {:.1f} m of path: {} commands for {}; largest correction {:.2f} mm on "
       "line {}",
@@ -117,6 +127,11 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
                        ? "A program"
                        : std::filesystem::path(options.program).filename().string();
     picture.verdict = verdict(options, machine, proof);
+    if (holds) {
+      std::string expected = in_words(promised);
+      std::replace(expected.begin(), expected.end(), '\n', ' ');
+      picture.verdict += " " + expected;
+    }
     picture.sheet = {sheet.left_mm, sheet.right_mm, sheet.bottom_mm, sheet.top_mm};
     picture.figures = {
         {fmt::format("{:.2f} mm", summary->largest_correction_mm), "largest correction"},
@@ -127,6 +142,11 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
       picture.figures.insert(
           picture.figures.begin(),
           {fmt::format("{:.3f} mm", proof.largest_mm), "largest distance from the path"});
+    }
+    if (const auto expected = promised.measured_mm(); expected && holds) {
+      picture.figures.insert(
+          picture.figures.begin(),
+          {fmt::format("{:.2f} mm", *expected), "expected error of the tool, one sigma"});
     }
     page = report::render_html(report::page_of(picture));
   }
@@ -155,8 +175,9 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
                proof.largest_mm,
                options.tolerance_mm);
   }
+  if (holds) fmt::print(stderr, "{}", in_words(promised));
   if (holds && is_usual(options))
-    say_next({"gcode", "verify", options.program, options.output, "--map", options.map});
+    say_next(with_map_words(options, {"gcode", "verify", options.program, options.output}));
   return holds ? kDone : kCheckFailed;
 }
 

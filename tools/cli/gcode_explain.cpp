@@ -104,7 +104,7 @@ int explain_line(const GcodeMachine* machine, const GcodeOptions& options) {
   if (options.map.empty()) {
     say_next({"gcode", "check", file});
   } else {
-    say_next({"gcode", "check", file, "--map", options.map});
+    say_next(with_map_words(options, {"gcode", "check", file}));
   }
   return kDone;
 }

@@ -19,8 +19,10 @@
 #include "grid/files/input_error.hpp"
 #include "grid/files/parse_double.hpp"
 #include "grid/files/whole_file.hpp"
+#include "grid/map/map_for_settings.hpp"
 #include "model/belts/belt_controller.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/settings_file.hpp"
 #include "tools/gcode/belt_target.hpp"
 #include "tools/gcode/file_hash.hpp"
 
@@ -105,6 +107,20 @@ gcode::BedRectangle rectangle_of(const model::BeltMachine& machine) {
           std::max(anchors.tl.y_mm, anchors.tr.y_mm) - centre.y_mm};
 }
 
+/// By the names that a Maslow 4 has for them.
+std::vector<grid::files::NamedSetting> settings_of(const model::BeltMachine& machine) {
+  std::vector<grid::files::NamedSetting> settings;
+  for (const model::Belt belt : model::kBelts) {
+    const model::Anchor& anchor = machine.anchors[belt];
+    for (const auto& [axis, value] : {std::pair('X', anchor.x_mm), std::pair('Y', anchor.y_mm)})
+      settings.push_back(
+          {fmt::format("{}{}", model::name(belt), axis), fmt::format("{:.4f}", value)});
+  }
+  settings.push_back({"Scale_X", fmt::format("{:.6g}", machine.scale_x)});
+  settings.push_back({"Scale_Y", fmt::format("{:.6g}", machine.scale_y)});
+  return settings;
+}
+
 GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarget& target) {
   if (!options.controller.empty() && options.controller != kFourBeltsName) {
     throw InputError(
@@ -120,28 +136,48 @@ GcodeController controller_of_belts(const GcodeOptions& options, const GcodeTarg
           &gcode::firmware_of_four_belts(),
           std::nullopt,
           rectangle_of(believed),
-          {}};
+          {},
+          settings_of(believed)};
 }
 
 model::Machine believed_machine(const GcodeOptions& options, const grid::CompensationMap& map) {
   if (!options.machine.empty()) return read_machine_input(options.machine);
-  if (const auto stated = gcode::stated_machine(map)) return *stated;
+  const auto stated = grid::stated_machine(map);
+  if (!options.settings.empty()) {
+    const SettingsFile now = read_settings_file(options.settings);
+    const auto in_place = controller_kind(options.controller);
+    return stated ? with_settings(*stated, now, in_place ? &*in_place : nullptr) : now.read.machine;
+  }
+  if (stated) return *stated;
   throw InputError({{options.map,
                      "",
                      "",
                      "a map that knows its machine; this one does not, so say with --machine "
-                     "what the controller believes"}});
+                     "or --settings what the controller believes"}});
+}
+
+/// Where --controller names another than the map was measured with.
+void say_other_controller(const grid::CompensationMap& map, model::ControllerKind kind) {
+  if (map.machine() == nullptr || map.machine()->controller.kind == kind) return;
+  fmt::print(stderr,
+             "The map was measured with the controller {}; --controller {} takes its place.\n",
+             name_of(map.machine()->controller.kind),
+             name_of(kind));
 }
 
 GcodeController controller_of(const GcodeOptions& options, const GcodeTarget& target) {
   if (target.map() == nullptr) return controller_of_belts(options, target);
   model::Machine machine = believed_machine(options, *target.map());
-  if (const auto kind = controller_kind(options.controller)) machine.controller.kind = *kind;
+  if (const auto kind = controller_kind(options.controller)) {
+    say_other_controller(*target.map(), *kind);
+    machine.controller.kind = *kind;
+  }
   return {model::make_controller_kinematics(machine),
           &gcode::firmware(machine.controller.kind),
           gcode::clamp_box(machine),
           rectangle_of(machine.bed),
-          gcode::half_play_mm(machine)};
+          gcode::half_play_mm(machine),
+          grid::files::settings_in_force(machine)};
 }
 
 }  // namespace
@@ -187,7 +223,7 @@ GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
                found.fit.machine.belt_turn_mm);
   }
   const model::BeltMachine in_force = map.in_force();
-  return {in_force, std::make_unique<const gcode::BeltTarget>(std::move(map)), ""};
+  return {in_force, std::make_unique<const gcode::BeltTarget>(std::move(map), found.fit.scale.has_value()), ""};
 }
 
 GcodeTarget::Parts GcodeTarget::of_map(const GcodeOptions& options) {
@@ -242,6 +278,8 @@ gcode::CompensateOptions compensate_options(const GcodeOptions& options,
   result.clamp_box = machine.controller().clamp_box;
   result.half_play_mm = machine.controller().half_play_mm;
   result.map_hash = machine.map_hash();
+  for (const grid::files::NamedSetting& setting : machine.controller().settings)
+    result.settings.push_back(setting.name + " " + setting.text);
   return result;
 }
 
@@ -283,6 +321,13 @@ std::string GcodeText::hash() const {
     hash.add({bytes.data(), static_cast<std::size_t>(file.gcount())});
   }
   return hash.text();
+}
+
+std::vector<std::string> with_map_words(const GcodeOptions& options,
+                                        std::vector<std::string> words) {
+  words.insert(words.end(), {"--map", options.map});
+  if (!options.settings.empty()) words.insert(words.end(), {"--settings", options.settings});
+  return words;
 }
 
 std::string compensated_name(const std::string& program) {

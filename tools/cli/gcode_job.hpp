@@ -9,7 +9,9 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
+#include "grid/files/controller_settings.hpp"
 #include "grid/files/pending_file.hpp"
 #include "grid/map/compensation_map.hpp"
 #include "grid/progress.hpp"
@@ -29,6 +31,8 @@ struct GcodeOptions {
   /// Of --map; opened before any verb begins.
   std::optional<InputFile> map_file;
   std::string machine;
+  /// What the controller holds now.
+  std::string settings;
   std::string controller;
   std::string frame = "marks";
   std::string home = "0,0";
@@ -98,6 +102,8 @@ struct GcodeController {
   gcode::BedRectangle sheet;
   /// Of the machine that the map was extended with; none of belts.
   model::ChainLengths half_play_mm;
+  /// What it believes, for the header of what is compensated.
+  std::vector<grid::files::NamedSetting> settings;
 };
 
 /// Map, machine and controller, which belong together.
@@ -145,6 +151,10 @@ class GcodeText {
   std::string path_;
   std::optional<std::string> text_;
 };
+
+/// A command on the map of these options, with their --settings.
+[[nodiscard]] std::vector<std::string> with_map_words(const GcodeOptions& options,
+                                                      std::vector<std::string> words);
 
 /// part.nc becomes part.true.nc.
 [[nodiscard]] std::string compensated_name(const std::string& program);

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 
+#include "tools/cli/gcode_expected.hpp"
 #include "tools/cli/gcode_verbs.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/talk.hpp"
@@ -41,12 +42,13 @@ std::string in_quotes(const std::string& text) {
 
 void print_json(const gcode::VerifySummary& summary,
                 const gcode::Result<gcode::Deviation>& control,
+                const PromisedError& promised,
                 double tolerance_mm) {
   fmt::print(
       "{{\"holds\": {}, \"largest_mm\": {:.6f}, \"feeds_mm\": {:.6f}, \"rapids_mm\": {:.6f}, "
       "\"original_line\": {}, \"tolerance_mm\": {}, \"uncompensated_mm\": {}, "
       "\"tick_overshoot_mm\": {:.6f}, \"commands\": {}, \"places\": {}, \"strays\": {}, "
-      "\"words_differ\": {}, \"motion_differs\": {}, \"fault\": {}}}\n",
+      "{}, \"words_differ\": {}, \"motion_differs\": {}, \"fault\": {}}}\n",
       summary.holds(),
       summary.largest_mm(),
       summary.feeds.largest_mm,
@@ -58,6 +60,7 @@ void print_json(const gcode::VerifySummary& summary,
       summary.commands,
       summary.places,
       summary.strays,
+      as_members(promised),
       in_quotes(summary.words_differ),
       in_quotes(summary.motion_differs),
       in_quotes(summary.fault));
@@ -65,11 +68,13 @@ void print_json(const gcode::VerifySummary& summary,
 
 void print_words(const gcode::VerifySummary& summary,
                  const gcode::Result<gcode::Deviation>& control,
+                 const PromisedError& promised,
                  const GcodeOptions& options,
                  std::string_view controller) {
   fmt::print("{}: the tool strays at most {}\n",
              summary.holds() ? "holds" : "does not hold",
              in_words(worst(summary)));
+  if (summary.holds()) fmt::print("{}", in_words(promised));
   if (!summary.fault.empty()) fmt::print("the first fault: {}\n", summary.fault);
   fmt::print("tolerance {} mm, {} commands, {} places compared, controller {}\n",
              options.tolerance_mm,
@@ -106,7 +111,9 @@ namespace {
 int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   const GcodeText original(options.program);
   const GcodeText other(options.other);
-  const gcode::VerifyOptions settings = verify_options(options, machine);
+  gcode::VerifyOptions settings = verify_options(options, machine);
+  gcode::CutPlaces cuts;
+  settings.on_move = [&cuts](const gcode::Move& move) { cuts.add(move); };
   auto intended = original.open({"the program on the simulated machine", 1, 2});
   auto run = other.open();
   const auto summary =
@@ -118,10 +125,13 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   auto again = original.open({"the same without compensation", 2, 2});
   const auto control =
       gcode::uncompensated(again, machine.corrector(), options.dialect(), settings);
+  // Where the original cannot be followed to its end, neither can what is cut be told.
+  const PromisedError promised{control ? cuts.expected(machine.target()) : std::nullopt,
+                               summary->largest_mm()};
   if (options.json) {
-    print_json(*summary, control, options.tolerance_mm);
+    print_json(*summary, control, promised, options.tolerance_mm);
   } else {
-    print_words(*summary, control, options, machine.corrector().firmware().name);
+    print_words(*summary, control, promised, options, machine.corrector().firmware().name);
   }
   const bool has_belts =
       machine.corrector().firmware().name == gcode::firmware_of_four_belts().name;
@@ -130,11 +140,11 @@ int verify_on(const GcodeMachine& machine, const GcodeOptions& options) {
   } else if (summary->holds()) {
     say_next({"plan", "--check", options.map, "-o", "check.csv"});
   } else if (options.program != "-") {
-    say_next({"gcode",
-              "explain",
-              fmt::format("{}:{}", options.program, worst(*summary).original_line),
-              "--map",
-              options.map});
+    say_next(with_map_words(
+        options,
+        {"gcode",
+         "explain",
+         fmt::format("{}:{}", options.program, worst(*summary).original_line)}));
   }
   return summary->holds() ? kDone : kCheckFailed;
 }

@@ -121,9 +121,11 @@ int run_check_plan(Verb verb, PlanOptions options) {
   request.points = options.points.value_or(request.points);
   take(options.length_noise_mm, request.length_mm);
   take(options.position_noise_mm, request.position_mm);
-  request.margin_mm = options.margin_mm.value_or(kReachableMm);
   options.check.measure = options.measure;
   return with_map(open_input(options.check.map), [&](const grid::CompensationMap& map) {
+    const model::Machine* machine = map.machine();
+    request.margin_mm =
+        options.margin_mm.value_or(machine == nullptr ? kReachableMm : reachable_mm(machine->bed));
     refuse_what_does_nothing(
         verb, with_program(options, facts::check, drills_marks(options, map.machine())));
     return plan_the_check(map, options.check, outputs_of(options));
@@ -140,13 +142,13 @@ int run_plan(Verb verb, PlanOptions options) {
                                         of_tape ? facts::tape : facts::lattice,
                                         of_tape || drills_marks(options, &machine)));
   if (of_tape) {
-    options.holes.request.margin_mm = options.margin_mm.value_or(kReachableMm);
+    options.holes.request.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));
     const int code = plan_the_holes(options.holes, machine, outputs_of(options));
     if (code == kDone) say_next_of_sheet(outputs_of(options), options.machine);
     return code;
   }
   options.request.points = options.points.value_or(options.request.points);
-  options.request.margin_mm = options.margin_mm.value_or(kReachableMm);
+  options.request.margin_mm = options.margin_mm.value_or(reachable_mm(machine.bed));
   take(options.length_noise_mm, options.request.noise.length_mm);
   take(options.position_noise_mm, options.request.noise.position_mm);
   check_options(options, machine.bed);
@@ -223,8 +225,8 @@ void add_plan(Verb app, Run& run) {
              "--margin-mm",
              options->margin_mm,
              {"mm", 0.0, 10000.0},
-             fmt::format("From the bed's edge to the outermost marks; {:g} where unsaid: nearer, a "
-                         "sled hangs over the edge",
+             fmt::format("From the bed's edge to the outermost marks; {:g} where unsaid, on a small "
+                         "bed a fifth of its shorter side: nearer, a sled hangs over the edge",
                          kReachableMm));
   add_plan_holes_options(verb, options->holes, points);
   const auto noise_words = [](const char* what, double usually_mm, double in_check_mm) {

@@ -30,7 +30,7 @@ void check(const HolesPlanOptions& options, const model::Bed& bed) {
   require_sound(problems, request);
   problems.require("--tape-length-mm", request.longest_mm, 500.0, 100000.0);
   const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
-  problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 200.0));
+  problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 0.5 * grid::kLeastPlannedSideMm));
   problems.throw_if_any();
 }
 

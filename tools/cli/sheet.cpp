@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "grid/files/grid_file.hpp"
@@ -16,6 +17,10 @@ namespace {
 std::string whole(double mm) { return fmt::format("{:.0f}", mm + 0.0); }
 
 }  // namespace
+
+double reachable_mm(const model::Bed& bed) {
+  return std::min(kReachableMm, 0.2 * std::min(bed.width_mm, bed.height_mm));
+}
 
 SheetOf sheet_of(const std::string& word, const model::Machine* machine) {
   if (!word.empty()) return word == "lengths" ? SheetOf::lengths : SheetOf::places;

@@ -24,6 +24,8 @@ enum class SheetOf {
 /// From the bed's edge to the outermost marks and holes, where unsaid. A sled of 18 inches stands on
 /// the sheet with more than half of it, which it needs not to tip, and clears the supports below.
 inline constexpr double kReachableMm = 100.0;
+/// On a bed of less than half a metre a fifth of its shorter side.
+[[nodiscard]] double reachable_mm(const model::Bed& bed);
 
 /// The words of --measure, and what a machine's owner can do: a controller that knows only settings
 /// tells no lengths.

@@ -31,7 +31,7 @@ void check_values(const SimulateOptions& options,
   problems.require("--tape-rounding-mm", options.holes.rounding_mm, 0.0, 100.0);
   if (options.margin_mm) {
     const double half = 0.5 * std::min(stated.bed.width_mm, stated.bed.height_mm);
-    problems.require("--margin-mm", *options.margin_mm, 0.0, std::max(0.0, half - 200.0));
+    problems.require("--margin-mm", *options.margin_mm, 0.0, std::max(0.0, half - 0.5 * grid::kLeastPlannedSideMm));
   }
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "grid/files/whole_file.hpp"
+#include "grid/map/map_for_settings.hpp"
 #include "model/kinematics.hpp"
 #include "model/square.hpp"
 #include "tools/cli/effect_argument.hpp"
@@ -81,7 +82,7 @@ tl::expected<model::CutSquare, SquareRefusal> by_map(const SquareOptions& option
                                                      const model::SquareTask& task,
                                                      const grid::CompensationMap& map) {
   const auto believed = options.controller_machine.empty()
-                            ? gcode::stated_machine(map)
+                            ? grid::stated_machine(map)
                             : read_machine_input(options.controller_machine);
   if (!believed) {
     throw files::InputError({{options.map,

@@ -10,17 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "grid/files/file_type.hpp"
-#include "grid/files/fluidnc_file.hpp"
-#include "grid/files/groundcontrol_file.hpp"
 #include "grid/files/machine_file.hpp"
-#include "grid/files/webcontrol_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/planning/holes_plan.hpp"
 #include "grid/planning/measurement_plan.hpp"
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
+#include "tools/cli/settings_file.hpp"
 #include "tools/cli/sheet_page.hpp"
 #include "tools/cli/start_readme.hpp"
 #include "tools/cli/talk.hpp"
@@ -38,25 +35,6 @@ struct StartCommand {
   std::string folder = "my-machine";
 };
 
-/// A machine's settings, whoever keeps them.
-struct Started {
-  files::ReadMachine read;
-  /// It is this program's own file already, and stays as it is.
-  bool is_ours = false;
-};
-
-Started started_from(const std::string& path) {
-  const std::string text = files::read_whole_file(path);
-  const std::string file = files::name_in_messages(path);
-  const bool json = files::is_json(text);
-  if (json && files::is_webcontrol(text, file)) return {files::parse_webcontrol(text, file)};
-  if (json) return {files::parse_machine_with_warnings(text, file), true};
-  const std::string ending = fs::path(path).extension().string();
-  if (ending == ".yaml" || ending == ".yml" || files::is_fluidnc(text))
-    return {files::parse_fluidnc(text, file)};
-  return {files::parse_groundcontrol(text, file)};
-}
-
 /// What the plans of `chaintrue plan` make where nothing else is said.
 struct Plans {
   grid::MeasurementPlan marks;
@@ -68,10 +46,10 @@ tl::expected<Plans, grid::PlanFailure> plans_for(const model::Machine& machine) 
   constexpr double kByEyeMm = 0.5;
   constexpr double kPaidOutMm = 0.1;
   grid::PlanRequest marks;
-  marks.margin_mm = kReachableMm;
+  marks.margin_mm = reachable_mm(machine.bed);
   marks.noise = {kPaidOutMm, kByEyeMm};
   grid::HolesPlanRequest holes;
-  holes.margin_mm = kReachableMm;
+  holes.margin_mm = reachable_mm(machine.bed);
   auto planned_marks = grid::plan_measurement(machine, marks);
   if (!planned_marks) return tl::unexpected(planned_marks.error());
   auto planned_holes = grid::plan_holes(machine, holes);
@@ -122,7 +100,7 @@ int run_start(Verb verb, const StartCommand& command) {
   if (command.file.empty()) return start_template(verb, command.folder);
   if (command.file != "-" && names_a_folder(command.file))
     return start_template(verb, command.file);
-  const Started started = started_from(command.file);
+  const SettingsFile started = read_settings_file(command.file);
   const model::Machine& machine = started.read.machine;
   print_warnings(started.read.warnings);
   const auto plans = plans_for(machine);

@@ -88,7 +88,10 @@ std::string start_readme(const model::Machine& machine, const StartWays& ways) {
       settings ? R"(
    or type better numbers in once:
 
-       chaintrue export groundcontrol map.json
+       chaintrue export groundcontrol map.json --map-after map.after.json
+
+   From then on map.after.json is the map that is right, to check the machine with and, where you
+   want what no number can mend, to rewrite programs with.
 )"
                : "");
 }

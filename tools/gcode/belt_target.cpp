@@ -26,7 +26,10 @@ tl::expected<model::ChainLengths, CorrectionFailure> BeltTarget::lengths(
 tl::expected<TargetAnswer, CorrectionFailure> BeltTarget::query(model::BedPoint point) const {
   const auto found = lengths(point);
   if (!found) return tl::unexpected(found.error());
-  return TargetAnswer{*found, map_.sigma(point), status(point)};
+  return TargetAnswer{*found,
+                      map_.sigma(point),
+                      status(point),
+                      knows_scale_ ? std::optional(map_.tool_sigma_mm(point)) : std::nullopt};
 }
 
 TargetStatus BeltTarget::status(model::BedPoint point) const {

@@ -11,7 +11,9 @@ namespace chaintrue::gcode {
 
 class BeltTarget final : public TargetMap {
  public:
-  explicit BeltTarget(grid::BeltMap map) : map_(std::move(map)) {}
+  /// Without a known scale nothing is known of the tool's error in true millimetres.
+  explicit BeltTarget(grid::BeltMap map, bool knows_scale = true)
+      : map_(std::move(map)), knows_scale_(knows_scale) {}
 
   [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> lengths(
       model::BedPoint point) const override;
@@ -24,6 +26,7 @@ class BeltTarget final : public TargetMap {
 
  private:
   grid::BeltMap map_;
+  bool knows_scale_;
 };
 
 }  // namespace chaintrue::gcode

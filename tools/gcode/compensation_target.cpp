@@ -3,8 +3,6 @@
 /// Between the map's words and the pipeline's.
 #include "tools/gcode/compensation_target.hpp"
 
-#include "model/calibration/setting.hpp"
-
 namespace chaintrue::gcode {
 namespace {
 
@@ -48,7 +46,7 @@ tl::expected<TargetAnswer, CorrectionFailure> CompensationTarget::query(
     model::BedPoint point) const {
   const auto found = map_.query(mark_of(point));
   if (!found) return tl::unexpected(from(found.error()));
-  return TargetAnswer{found->lengths, found->sigma, from(found->status)};
+  return TargetAnswer{found->lengths, found->sigma, from(found->status), found->tool_sigma_mm};
 }
 
 TargetStatus CompensationTarget::status(model::BedPoint point) const {
@@ -65,19 +63,6 @@ tl::expected<model::BedPoint, CorrectionFailure> CompensationTarget::tool(
 BedRectangle CompensationTarget::bounds() const {
   const auto& domain = map_.contents().domain;
   return {domain.x_min, domain.x_max, domain.y_min, domain.y_max};
-}
-
-std::optional<model::Machine> stated_machine(const grid::CompensationMap& map) {
-  if (map.machine() == nullptr) return std::nullopt;
-  model::Machine machine = *map.machine();
-  for (const grid::SettingResult& result : map.contents().settings) {
-    bool of_machine = false;
-    for (const model::Setting setting : model::kMachineSettings)
-      of_machine = of_machine || setting == result.setting;
-    if (of_machine)
-      machine = model::with_setting(std::move(machine), result.setting, result.stated);
-  }
-  return machine;
 }
 
 model::ChainLengths half_play_mm(const model::Machine& machine) {

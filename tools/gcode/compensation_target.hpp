@@ -4,8 +4,6 @@
 /// program is written in.
 #pragma once
 
-#include <optional>
-
 #include "grid/map/compensation_map.hpp"
 #include "model/machine.hpp"
 #include "tools/gcode/target_map.hpp"
@@ -37,11 +35,6 @@ class CompensationTarget final : public TargetMap {
   const grid::CompensationMap& map_;
   ProgramFrame frame_;
 };
-
-/// The machine that the controller believes in where a file does not say otherwise: the map's, with
-/// the settings as they were stated, not as they were calibrated. Empty for a map without a
-/// machine.
-[[nodiscard]] std::optional<model::Machine> stated_machine(const grid::CompensationMap& map);
 
 /// Half the width of the machine's direction_hysteresis, per chain; zero where it has none.
 [[nodiscard]] model::ChainLengths half_play_mm(const model::Machine& machine);

@@ -81,7 +81,8 @@ Result<CompensateSummary> Compensator::run(LineSource& source, const Dialect& di
                    corrector_.firmware().name,
                    options_.tolerance_mm,
                    options_.home.x_mm,
-                   options_.home.y_mm});
+                   options_.home.y_mm,
+                   options_.settings});
   const auto program = run_program(source, dialect, *this);
   if (!program) return tl::unexpected(program.error());
   summary_.blocks = program->blocks;
@@ -264,6 +265,7 @@ Result<void> Compensator::move(const Move& original) {
     const auto written =
         emitter_.command(move.kind == MoveKind::rapid, move.line, std::nullopt, move.to.z_mm, feed);
     if (!written) return tl::unexpected(written.error());
+    if (here_ && options_.on_command) options_.on_command(move, *here_, *here_);
     return {};
   }
   return along(move, feed);
@@ -283,12 +285,11 @@ Result<void> Compensator::word(const PassedWord& word) {
 }
 
 Result<void> Compensator::comment(const Comment& comment) {
-  std::string_view text = comment.text;
-  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
-  if (text.starts_with(kMarker)) {
+  if (is_marked(comment.text)) {
     return refuse(ProblemName::already_compensated,
                   {comment.line, 0},
-                  "this file has been compensated before; compensate the original");
+                  "this file has been compensated before, as this mark in it says; compensate the "
+                  "original");
   }
   if (findings_.problem_count == 0) emitter_.comment(comment);
   return {};

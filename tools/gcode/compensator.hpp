@@ -53,7 +53,10 @@ struct CompensateOptions {
   model::ChainLengths half_play_mm;
   std::string map_hash;
   std::string input_hash;
-  /// Called for every command in X and Y, with its start and end; for pictures.
+  /// "motorspacingx 2978.4": what the controller is presumed to hold, for the header.
+  std::vector<std::string> settings;
+  /// Called for every command in X and Y with its start and end, and for every plunge with its place
+  /// as both.
   std::function<void(const Move&, const PathSample&, const PathSample&)> on_command;
 };
 

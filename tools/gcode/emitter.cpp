@@ -34,7 +34,33 @@ std::size_t cut(std::string_view text, std::size_t most) {
   return end;
 }
 
+/// As many to a line as it holds, each line by itself.
+std::vector<std::string> settings_lines(const std::vector<std::string>& settings) {
+  constexpr std::string_view kHead = "(settings";
+  std::vector<std::string> lines;
+  for (const std::string& setting : settings) {
+    if (lines.empty() || lines.back().size() + setting.size() + 2 > kMaxOutputLine)
+      lines.emplace_back(kHead);
+    lines.back() += " " + setting;
+  }
+  for (std::string& line : lines) line += ")";
+  return lines;
+}
+
+char small_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
 }  // namespace
+
+bool is_marked(std::string_view comment) {
+  std::size_t found = 0;
+  for (const char wanted : kMarker) {
+    if (wanted == ' ') continue;
+    while (found < comment.size() && (comment[found] == ' ' || comment[found] == '\t')) ++found;
+    if (found == comment.size() || small_letter(comment[found]) != wanted) return false;
+    ++found;
+  }
+  return true;
+}
 
 Emitter::Emitter(ByteSink out, int decimals)
     : out_(std::move(out)), decimals_(decimals), per_mm_(1) {
@@ -70,6 +96,8 @@ void Emitter::put_line(std::string_view text) {
   out_("\n");
 }
 
+void Emitter::put_mark() { put_line(fmt::format("({})", kMarker)); }
+
 void Emitter::flush_word() {
   if (waiting_word_.empty()) return;
   put_line(waiting_word_);
@@ -82,6 +110,7 @@ void Emitter::header(const Header& header) {
   put_line(fmt::format("(input {})", header.input_hash));
   put_line(fmt::format("(controller {}, tolerance {} mm)", header.controller, header.tolerance_mm));
   put_line(fmt::format("(home was X{} Y{})", header.home_x_mm, header.home_y_mm));
+  for (const std::string& line : settings_lines(header.settings)) put_line(line);
   put_line("G21 G90");
 }
 
@@ -159,6 +188,7 @@ Result<void> Emitter::word(const PassedWord& word) {
     waiting_word_ += ' ';
     waiting_word_ += text;
     flush_word();
+    if (text == "M6") put_mark();
     return {};
   }
   flush_word();
@@ -168,6 +198,7 @@ Result<void> Emitter::word(const PassedWord& word) {
     return {};
   }
   put_line(text);
+  if (text == "M6") put_mark();
   return {};
 }
 
@@ -191,6 +222,7 @@ void Emitter::comment(const Comment& comment) {
 
 void Emitter::end(std::string_view word) {
   flush_word();
+  put_mark();
   if (!word.empty() && word != "%") put_line(word);
 }
 

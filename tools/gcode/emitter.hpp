@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "model/coordinates.hpp"
 #include "tools/gcode/events.hpp"
@@ -20,8 +21,12 @@ namespace chaintrue::gcode {
 using ByteSink = std::function<void(std::string_view)>;
 
 inline constexpr std::size_t kMaxOutputLine = 60;
-/// The first words of the first comment of every file written here.
+/// The first words of the first comment of every file written here. The same comment stands at every
+/// change of the tool and at the end, so that a file without its head, or the part of one tool alone,
+/// is still known.
 inline constexpr std::string_view kMarker = "compensated by chaintrue";
+/// A comment that begins so, whatever a sender has made of its capitals and blanks.
+[[nodiscard]] bool is_marked(std::string_view comment);
 
 /// What the header says, so that nobody compensates twice or with the wrong map.
 struct Header {
@@ -31,6 +36,8 @@ struct Header {
   double tolerance_mm = 0.0;
   double home_x_mm = 0.0;
   double home_y_mm = 0.0;
+  /// "motorspacingx 2978.4", ...: what the controller is presumed to hold.
+  std::vector<std::string> settings;
 };
 
 class Emitter {
@@ -55,6 +62,7 @@ class Emitter {
 
  private:
   void put_line(std::string_view text);
+  void put_mark();
   void flush_word();
   std::int64_t rounded(double value_mm) const;
   void append(std::string& text, char letter, std::int64_t count) const;

@@ -43,6 +43,8 @@ void Interpreter::note_once(NoteOnce which, std::size_t line) {
        "unchanged"},
       {"deletable_line",
        "a line begins with a slash; it is executed, as with the block delete switch off"},
+      {"units_assumed",
+       "the program moves before it says G20 or G21; it is taken to be in millimetres"},
   };
   bool& noted = noted_[static_cast<std::size_t>(which)];
   if (noted) return;
@@ -73,7 +75,10 @@ Result<AfterBlock> Interpreter::execute(const Block& block, const std::vector<Co
   set_modes(block);
   CHAINTRUE_GCODE_TRY(tool_length(block));
   CHAINTRUE_GCODE_TRY(once(block));
-  if (*motion >= 0) CHAINTRUE_GCODE_TRY(move(block, *motion));
+  if (*motion >= 0) {
+    if (!units_stated_) note_once(NoteOnce::units_assumed, block.line);
+    CHAINTRUE_GCODE_TRY(move(block, *motion));
+  }
   return after(block);
 }
 
@@ -220,7 +225,10 @@ Result<void> Interpreter::set_feed(const Block& block, int motion) {
 
 void Interpreter::set_modes(const Block& block) {
   if (const GCode* plane = block.code(GGroup::plane)) modes_.plane = plane->tenths;
-  if (const GCode* units = block.code(GGroup::units)) modes_.inches = units->tenths == 200;
+  if (const GCode* units = block.code(GGroup::units)) {
+    modes_.inches = units->tenths == 200;
+    units_stated_ = true;
+  }
   if (const GCode* system = block.code(GGroup::system)) {
     select_system(system->tenths <= 590 ? (system->tenths - 530) / 10 : system->tenths - 590 + 6);
   }

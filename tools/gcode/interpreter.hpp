@@ -99,7 +99,7 @@ class Interpreter {
   };
   struct Cycle;
   /// Remarks that are made once a program.
-  enum class NoteOnce { dotted_code, dwell_unit, deletable_line };
+  enum class NoteOnce { dotted_code, dwell_unit, deletable_line, units_assumed };
 
   // interpreter.cpp: the order of execution.
   Result<void> comments(const Block& block, const std::vector<CommentText>& texts);
@@ -174,7 +174,8 @@ class Interpreter {
   std::uint64_t steps_ = 0;
   std::size_t call_level_ = 0;
   bool home_known_[2] = {false, false};
-  bool noted_[3] = {false, false, false};
+  bool noted_[4] = {false, false, false, false};
+  bool units_stated_ = false;
   bool z_unknown_ = false;  ///< after probing
 };
 

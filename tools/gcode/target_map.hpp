@@ -39,6 +39,8 @@ struct TargetAnswer {
   model::ChainLengths lengths;
   model::ChainLengths sigma;  ///< 1 sigma of each
   TargetStatus status = TargetStatus::inside;
+  /// One sigma of where the tool is: the root of the summed variances of x and y.
+  std::optional<double> tool_sigma_mm = std::nullopt;
 };
 
 struct BedRectangle {

@@ -369,6 +369,7 @@ Result<Deviation> uncompensated(LineSource& original,
     if ((*event)->kind == ProgramEvent::Kind::end) return worst;
     if ((*event)->kind == ProgramEvent::Kind::move) {
       const Move& move = (*event)->move;
+      if (options.on_move) options.on_move(move);
       const bool from_nowhere = !started && move.kind == MoveKind::rapid;
       started = started || begins(move);
       const auto look = [&](Point tool, Point command) {

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -37,6 +38,8 @@ struct VerifyOptions {
   /// The tool's speed against the intended one: what the steepest correction that is allowed by
   /// default (0.05 mm per mm) makes of it, and the rounding of F.
   double speed_share = 0.06;
+  /// Of uncompensated(): called for every move of the original, on the sheet.
+  std::function<void(const Move&)> on_move;
 };
 
 struct Deviation {

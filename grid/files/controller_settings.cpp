@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/files/controller_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "grid/files/machine_record.hpp"
+#include "grid/files/number_text.hpp"
+#include "model/calibration/setting.hpp"
+
+namespace chaintrue::grid::files {
+namespace {
+
+constexpr std::array<std::string_view, 3> kOfTheChain = {
+    "chainpitch", "gearteeth", "chainoversprocket"};
+/// What a firmware takes for 0 where nobody has set it.
+constexpr std::array<std::string_view, 3> kZeroUnlessSet = {
+    "topbeamtilt", "leftchaintolerance", "rightchaintolerance"};
+
+template <std::size_t count>
+bool is_among(const std::array<std::string_view, count>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<NamedSetting> anchors_of(const model::Machine& machine) {
+  const auto number = [](double value) { return fmt::format("{}", value); };
+  return {{"left_anchor_x", number(machine.motors.left.x_mm)},
+          {"left_anchor_y", number(machine.motors.left.y_mm)},
+          {"right_anchor_x", number(machine.motors.right.x_mm)},
+          {"right_anchor_y", number(machine.motors.right.y_mm)}};
+}
+
+const NamedSetting* find(const std::vector<NamedSetting>& settings, const std::string& name) {
+  const auto found = std::find_if(settings.begin(), settings.end(), [&](const NamedSetting& one) {
+    return one.name == name;
+  });
+  return found == settings.end() ? nullptr : &*found;
+}
+
+/// The text, or what nothing stands for.
+std::string value_of(const NamedSetting* setting, const std::string& name) {
+  if (setting != nullptr) return setting->text;
+  return is_among(kZeroUnlessSet, name) ? "0" : "";
+}
+
+bool are_equal(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  const auto x = number_of(a);
+  const auto y = number_of(b);
+  if (!x || !y) return false;
+  // An export writes four decimals, and four digits of what is a thousandth of that.
+  constexpr double kHalfAUnit = 0.5001e-4;
+  constexpr double kSmall = 1e-3;
+  constexpr double kShare = 1e-3;
+  const double largest = std::max(std::abs(*x), std::abs(*y));
+  return std::abs(*x - *y) <= (largest < kSmall ? kShare * largest : kHalfAUnit);
+}
+
+}  // namespace
+
+std::vector<NamedSetting> settings_in_force(const model::Machine& machine) {
+  std::vector<NamedSetting> settings;
+  switch (machine.controller.kind) {
+    case model::ControllerKind::fluidnc_wallplotter:
+      return anchors_of(machine);
+    case model::ControllerKind::ideal:
+      for (const model::Setting setting : model::kMachineSettings) {
+        settings.push_back({std::string(model::name(setting)),
+                            fmt::format("{}", model::stated_value(machine, setting))});
+      }
+      return settings;
+    default:
+      break;
+  }
+  const Json json = controller_settings_record().write(machine.controller.settings);
+  for (const auto& [name, value] : json.items()) {
+    settings.push_back({name,
+                        value.is_string() ? value.get<std::string>()
+                                          : fmt::format("{}", value.get<double>())});
+  }
+  return settings;
+}
+
+std::vector<SettingChange> changed_settings(const std::vector<NamedSetting>& before,
+                                            const std::vector<NamedSetting>& now) {
+  std::vector<SettingChange> changes;
+  const auto compare = [&](const std::string& name) {
+    const std::string old_value = value_of(find(before, name), name);
+    const std::string new_value = value_of(find(now, name), name);
+    if (are_equal(old_value, new_value)) return;
+    const auto shown = [](const std::string& value) { return value.empty() ? "not set" : value; };
+    changes.push_back({name, shown(old_value), shown(new_value)});
+  };
+  for (const NamedSetting& setting : before) compare(setting.name);
+  for (const NamedSetting& setting : now) {
+    if (find(before, setting.name) == nullptr) compare(setting.name);
+  }
+  return changes;
+}
+
+std::string in_words(const std::vector<SettingChange>& changes) {
+  std::string words;
+  for (const SettingChange& change : changes) {
+    fmt::format_to(std::back_inserter(words),
+                   "{}{} {} -> {}",
+                   words.empty() ? "" : ", ",
+                   change.name,
+                   change.before,
+                   change.now);
+  }
+  return words;
+}
+
+std::vector<SettingChange> of_the_chain(const std::vector<SettingChange>& changes) {
+  std::vector<SettingChange> result;
+  std::copy_if(changes.begin(), changes.end(), std::back_inserter(result), [](const auto& change) {
+    return is_among(kOfTheChain, change.name);
+  });
+  return result;
+}
+
+}  // namespace chaintrue::grid::files

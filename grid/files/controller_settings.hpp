@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a controller goes by, setting by setting under the names of its own files, and where two
+/// controllers differ.
+///
+/// \code
+///   const auto changes = changed_settings(settings_in_force(before), settings_in_force(now));
+///   if (!changes.empty()) say(in_words(changes));   // "motorspacingx 2978.4 -> 2982.7791"
+/// \endcode
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/machine.hpp"
+
+namespace chaintrue::grid::files {
+
+struct NamedSetting {
+  std::string name;
+  std::string text;  ///< the value, in the digits that it has
+};
+
+/// Of a Maslow GroundControl's names; of FluidNC's WallPlotter its anchors; of an ideal controller
+/// the machine that it believes. `machine` is as it was stated, not as it was calibrated.
+[[nodiscard]] std::vector<NamedSetting> settings_in_force(const model::Machine& machine);
+
+struct SettingChange {
+  std::string name;
+  std::string before;  ///< "not set" where it has none
+  std::string now;
+};
+
+/// By more than the rounding that an export writes; a tilt or a tolerance that is not set is 0.
+[[nodiscard]] std::vector<SettingChange> changed_settings(const std::vector<NamedSetting>& before,
+                                                          const std::vector<NamedSetting>& now);
+
+/// "motorspacingx 2978.4 -> 2982.7791, rotationradius 139.1 -> 138.2759"
+[[nodiscard]] std::string in_words(const std::vector<SettingChange>& changes);
+
+/// Those that say how a turn of the motor becomes millimetres of chain, and how the chain is led:
+/// chain lengths that were measured before such a change mean something else after it.
+[[nodiscard]] std::vector<SettingChange> of_the_chain(const std::vector<SettingChange>& changes);
+
+}  // namespace chaintrue::grid::files

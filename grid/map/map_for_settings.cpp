@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/map_for_settings.hpp"
+
+#include <utility>
+
+#include "grid/precondition.hpp"
+#include "model/calibration/setting.hpp"
+#include "model/controllers/payout.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+/// Where the tool is beyond where this controller takes it to be; the sheet stays where it was laid.
+void tell_of(const model::ControllerKinematics& controller, MapPoint& point) {
+  const auto believed = controller.command(point.lengths);
+  if (!believed) return;
+  const Eigen::Vector2d beyond(believed->x_mm - point.mark.x_mm, believed->y_mm - point.mark.y_mm);
+  point.sheet_placed_mm += beyond - point.as_stated_mm;
+  point.as_stated_mm = beyond;
+}
+
+}  // namespace
+
+std::optional<model::Machine> stated_machine(const CompensationMap& map) {
+  if (map.machine() == nullptr) return std::nullopt;
+  model::Machine machine = *map.machine();
+  for (const SettingResult& result : map.contents().settings) {
+    bool of_machine = false;
+    for (const model::Setting setting : model::kMachineSettings)
+      of_machine = of_machine || setting == result.setting;
+    if (of_machine)
+      machine = model::with_setting(std::move(machine), result.setting, result.stated);
+  }
+  return machine;
+}
+
+CompensationMap map_for_settings(const CompensationMap& map,
+                                 const model::Controller& now,
+                                 const std::string& note) {
+  MapContents contents = map.contents();
+  auto* surface = std::get_if<ModelSurface>(&contents.surface);
+  if (surface == nullptr) throw precondition("settings of a map without a machine");
+  surface->machine.controller = now;
+  model::Machine believed = stated_machine(map).value();
+  believed.controller = now;
+  const auto controller = model::make_controller_kinematics(believed);
+  for (MapPoint& point : contents.points) tell_of(*controller, point);
+  if (!note.empty()) contents.notes.push_back(note);
+  return CompensationMap(std::move(contents));
+}
+
+Measured commanded_with(const Measured& measured, const model::Controller& now) {
+  Measured result;
+  for (MeasuredFile file : measured.files()) {
+    std::visit(
+        [&now](auto& one) {
+          if (one.machine) one.machine->controller = now;
+        },
+        file.measured);
+    result.add(std::move(file));
+  }
+  return result;
+}
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/settings_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "grid/files/controller_settings.hpp"
+#include "grid/files/file_type.hpp"
+#include "grid/files/fluidnc_file.hpp"
+#include "grid/files/groundcontrol_file.hpp"
+#include "grid/files/input_error.hpp"
+#include "grid/files/webcontrol_file.hpp"
+#include "grid/files/whole_file.hpp"
+#include "tools/gcode/firmware.hpp"
+
+namespace chaintrue::cli {
+namespace {
+
+namespace files = grid::files;
+using model::ControllerKind;
+
+/// Which kinds read the same settings.
+enum class SettingsOf { maslow, wall_plotter, none };
+
+SettingsOf settings_of(ControllerKind kind) {
+  switch (kind) {
+    case ControllerKind::maslow_classic:
+    case ControllerKind::holey:
+      return SettingsOf::maslow;
+    case ControllerKind::fluidnc_wallplotter:
+      return SettingsOf::wall_plotter;
+    case ControllerKind::ideal:
+      break;
+  }
+  return SettingsOf::none;
+}
+
+/// The kind of controller that reads `now`. \throws files::InputError where none does.
+ControllerKind kind_with(const model::Machine& stated,
+                         const SettingsFile& now,
+                         const ControllerKind* in_place) {
+  const ControllerKind of_file = now.read.machine.controller.kind;
+  if (settings_of(of_file) == SettingsOf::none) {
+    throw files::InputError({{now.name,
+                              "/controller",
+                              "a machine that names no controller",
+                              "settings that a controller holds; a machine that it believes as it "
+                              "stands is given with --machine"}});
+  }
+  const ControllerKind of_map = in_place != nullptr ? *in_place : stated.controller.kind;
+  if (settings_of(of_map) == SettingsOf::none && in_place == nullptr) return of_file;
+  if (settings_of(of_map) == settings_of(of_file)) return of_map;
+  throw files::InputError(
+      {{now.name,
+        "",
+        fmt::format("settings of a {} controller", name_of(of_file)),
+        in_place != nullptr
+            ? fmt::format("those of a {}, as --controller says", name_of(of_map))
+            : fmt::format("those of a {}, which the map was measured with; where another "
+                          "controller runs the machine now, name it with --controller",
+                          name_of(of_map))}});
+}
+
+void refuse_other_chain(const std::vector<files::SettingChange>& changes,
+                        const std::string& file) {
+  const auto of_chain = files::of_the_chain(changes);
+  if (of_chain.empty()) return;
+  throw files::InputError(
+      {{file,
+        "",
+        files::in_words(of_chain),
+        "the values that the map was measured with: with others a chain length means something "
+        "else, so measure and fit again, or set them back"}});
+}
+
+}  // namespace
+
+std::string_view name_of(ControllerKind kind) { return gcode::firmware(kind).name; }
+
+std::string after_name(const std::string& map) {
+  return std::filesystem::path(map).replace_extension(".after.json").string();
+}
+
+SettingsFile read_settings_file(const std::string& path) {
+  const std::string text = files::read_whole_file(path);
+  const std::string file = files::name_in_messages(path);
+  // A list is no settings file, and the first section of an .ini looks like one.
+  const bool json = files::is_json(text) && text.find('{') < text.find('[');
+  if (json && files::is_webcontrol(text, file)) return {file, files::parse_webcontrol(text, file)};
+  if (json) return {file, files::parse_machine_with_warnings(text, file), true};
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".yaml" || ending == ".yml" || files::is_fluidnc(text))
+    return {file, files::parse_fluidnc(text, file)};
+  return {file, files::parse_groundcontrol(text, file)};
+}
+
+model::Machine with_settings(const model::Machine& stated,
+                             const SettingsFile& now,
+                             const ControllerKind* in_place) {
+  const model::Machine& file = now.read.machine;
+  const bool names_none = settings_of(stated.controller.kind) == SettingsOf::none;
+  model::Machine machine = stated;
+  machine.controller.kind = kind_with(stated, now, in_place);
+  machine.controller.settings = file.controller.settings;
+  // GroundControl's numbers of brackets are the machine's own.
+  if (!std::holds_alternative<model::Ring>(file.attachment) ||
+      !std::holds_alternative<model::Ring>(stated.attachment))
+    machine.attachment = file.attachment;
+  if (settings_of(machine.controller.kind) != SettingsOf::maslow) {
+    machine.motors = file.motors;
+    machine.bed = file.bed;
+  }
+  if (names_none) {
+    fmt::print(stderr,
+               "The map names no controller; its lengths are paid out by a {} with the settings of "
+               "{}.\n",
+               name_of(machine.controller.kind),
+               now.name);
+    return machine;
+  }
+  model::Machine before = stated;
+  before.controller.kind = machine.controller.kind;
+  const auto changes =
+      files::changed_settings(files::settings_in_force(before), files::settings_in_force(machine));
+  refuse_other_chain(changes, now.name);
+  if (changes.empty()) {
+    fmt::print(stderr, "{} holds the settings that the map is for.\n", now.name);
+  } else {
+    fmt::print(stderr,
+               "{} holds other settings than the map was measured with ({}): what follows is for "
+               "these.\n",
+               now.name,
+               files::in_words(changes));
+  }
+  return machine;
+}
+
+}  // namespace chaintrue::cli

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/gcode/expected_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/gcode/path.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+/// A map's error changes over the spacing of its points, some hundred millimetres.
+constexpr double kSquareMm = 20.0;
+/// What a plunge counts for among cuts.
+constexpr double kPlungeMm = 1.0;
+/// A whole circle in chords that stay within a square.
+constexpr double kChordsPerRadian = 4.0;
+
+void take(ErrorAlong& part, double length_mm, double sigma_mm, std::size_t line) {
+  part.rms_mm += length_mm * sigma_mm * sigma_mm;
+  part.length_mm += length_mm;
+  if (sigma_mm <= part.largest_mm) return;
+  part.largest_mm = sigma_mm;
+  part.largest_line = line;
+}
+
+void finish(ErrorAlong& part) {
+  if (part.length_mm > 0.0) part.rms_mm = std::sqrt(part.rms_mm / part.length_mm);
+}
+
+}  // namespace
+
+CutPlaces::Square& CutPlaces::square_at(At at, std::size_t line) {
+  if (last_ == nullptr || at != last_at_) {
+    last_ = &squares_.try_emplace(at, Square{0.0, line}).first->second;
+    last_at_ = at;
+  }
+  return *last_;
+}
+
+void CutPlaces::add(std::size_t line, const Point& from, const Point& to) {
+  const double length = std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm);
+  const double pieces = std::max(1.0, std::ceil(length / kSquareMm));
+  for (double i = 0.5; i < pieces; i += 1.0) {
+    const Point place = between(from, to, i / pieces);
+    const At at{static_cast<int>(std::floor(place.x_mm / kSquareMm)),
+                static_cast<int>(std::floor(place.y_mm / kSquareMm))};
+    square_at(at, line).length_mm += std::max(length, kPlungeMm) / pieces;
+  }
+}
+
+void CutPlaces::add(const Move& move) {
+  if (move.kind == MoveKind::rapid) return;
+  if (!move.arc) return add(move.line, move.from, move.to);
+  const double chords = std::ceil(kChordsPerRadian * std::fabs(move.arc->sweep_rad)) + 1.0;
+  Point from = move.from;
+  for (double i = 1.0; i <= chords; i += 1.0) {
+    const Point to = at(move, i / chords);
+    add(move.line, from, to);
+    from = to;
+  }
+}
+
+std::optional<ExpectedError> CutPlaces::expected(const TargetMap& map) const {
+  ExpectedError error;
+  for (const auto& [at, square] : squares_) {
+    const auto answer =
+        map.query({kSquareMm * (at.first + 0.5), kSquareMm * (at.second + 0.5)});
+    // A square's middle may lie off the map where the cut does not.
+    if (!answer) continue;
+    if (!answer->tool_sigma_mm) return std::nullopt;
+    take(answer->status == TargetStatus::extrapolated ? error.outside : error.measured,
+         square.length_mm,
+         *answer->tool_sigma_mm,
+         square.line);
+  }
+  finish(error.measured);
+  finish(error.outside);
+  return error;
+}
+
+}  // namespace chaintrue::gcode
