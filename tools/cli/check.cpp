@@ -102,8 +102,15 @@ grid::CompensationMap take_settings(const CheckCommand& command,
                                     "a map that knows no machine",
                                     "--settings to be left out: its points are chain lengths"}});
   }
-  const model::Controller now =
-      with_settings(*stated, read_settings_file(command.settings), nullptr).controller;
+  const SettingsFile file = read_settings_file(command.settings);
+  const model::Controller now = with_settings(*stated, file, nullptr).controller;
+  if (now.kind == model::ControllerKind::fluidnc_wallplotter) {
+    throw grid::files::InputError({{file.name,
+                                    "",
+                                    "anchors of a wall plotter",
+                                    "the new points with the machine that they were commanded on: "
+                                    "--machine takes it"}});
+  }
   measured = grid::commanded_with(measured, now);
   return grid::map_for_settings(map, now, "");
 }
