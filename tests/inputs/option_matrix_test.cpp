@@ -46,6 +46,8 @@ const std::vector<Use>& uses() {
       {"grid", "fit", facts::grid | facts::one_grid | facts::residual, "fit @placed.json -o map.json", kAskMap},
       {"csv", "fit", facts::grid | facts::one_grid | facts::residual,
        "fit @grid.csv --machine @classic.json -o map.json", kAskMap},
+      {"causes", "fit", facts::grid | facts::one_grid | facts::residual | facts::causes,
+       "fit @worn_both.json --causes -o map.json", kAskMap},
       {"direct", "fit", facts::grid | facts::one_grid | facts::direct,
        "fit @lattice.csv --surface direct -o map.json", "query map.json 0 0 700 300 350 -150 1200 600 --json; query map.json 0 0 --frame bed"},
       {"fade", "fit", facts::grid | facts::one_grid | facts::residual | facts::fade,
@@ -189,6 +191,9 @@ std::vector<Telling> tellings() {
       {"fit", "--ends", "--ends natural"},
       {"fit", "--outside", "--outside refuse"},
       {"fit", "--fade-mm", "--fade-mm 500"},
+      {"fit", "--causes", "--causes", in_words},
+      {"fit", "--causes", "--causes", in_numbers, "grid"},
+      {"fit", "--accept-class", "--accept-class"},
       {"fit", "--verbose", "--verbose", in_words},
       {"fit", "--json", "--json", in_form},
       {"diagnose", "--machine", "--machine @other.json"},
@@ -361,6 +366,7 @@ struct NotShown {
 };
 constexpr NotShown kNotShown[] = {
     {"diagnose", "--accept-class", "", "needs points that cannot tell a long chain from a long tape"},
+    {"fit", "--causes", "causes", "stands in the line already"},
     {"fit", "--machine", "direct", "only places that were commanded go by the machine"},
     {"fit", "--outside", "direct", "a direct surface ends where its points do"},
     {"fit", "--outside", "mix", "the points of this mix reach to the edges of the sheet"},
