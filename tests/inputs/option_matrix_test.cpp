@@ -232,6 +232,7 @@ std::vector<Telling> tellings() {
       {"check", "--json", "--json", in_form},
       {"check", "--output", "--output answer.txt", as_file},
       {"plan", "--machine", "--machine @other.json", in_numbers},
+      {"plan", "--second-visits", "--second-visits 3", in_form},
       {"plan", "--after", "--after @diagnosis.json", in_words},
       {"plan", "--with", "--with @holes.json", in_words},
       {"plan", "--with", "--with @grid.json", in_words, "after_holes"},

@@ -18,6 +18,7 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/planning/holes_plan.hpp"
 #include "grid/planning/measurement_plan.hpp"
+#include "grid/planning/second_visits.hpp"
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
@@ -80,7 +81,10 @@ tl::expected<Plans, grid::PlanFailure> plans_for(const model::Machine& machine) 
 }
 
 std::vector<FolderFile> sheets_of(const model::Machine& machine, const Plans& plans) {
-  const Sheet sheet{plans.marks.marks, SheetOf::places};
+  const Sheet sheet{
+      plans.marks.marks,
+      SheetOf::places,
+      grid::with_second_visits(plans.marks.marks.size(), grid::kUsualSecondVisits)};
   std::vector<DrillPlace> holes;
   for (const grid::Hole& hole : plans.holes.set.holes)
     holes.push_back({"hole " + hole.name, hole.commanded});
