@@ -166,6 +166,18 @@ double factor_beyond(const CompensationMap& plain, const CompensationMap& own) {
   return factor;
 }
 
+/// Before is before: what the tool missed on the machine as its owner states it.
+CompensationMap with_errors_before(const CompensationMap& own, const CompensationMap& plain) {
+  MapContents contents = own.contents();
+  const std::vector<MapPoint>& before = plain.contents().points;
+  if (before.size() != contents.points.size()) return own;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    contents.points[k].as_stated_mm = before[k].as_stated_mm;
+    contents.points[k].sheet_placed_mm = before[k].sheet_placed_mm;
+  }
+  return CompensationMap(std::move(contents));
+}
+
 /// The sentences stand in the map's file as well.
 CausesFit noted(CausesFit fit) {
   fit.fit.map = fit.fit.map.with_notes_first(in_words(fit));
@@ -237,8 +249,8 @@ tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
     offer(sure, OfferedCause::Reason::gains_nothing, result);
     return noted(std::move(result));
   }
-  with_causes->map = with_causes->map.with_sigma_beyond(
-      factor_beyond(result.fit.map, with_causes->map));
+  with_causes->map = with_errors_before(with_causes->map, result.fit.map)
+                         .with_sigma_beyond(factor_beyond(result.fit.map, with_causes->map));
   result.fit = *std::move(with_causes);
   result.built_on = std::move(sure);
   return noted(std::move(result));
