@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/findings.hpp"
 #include "grid/diagnosis/leading.hpp"
 #include "model/effects/catalogue.hpp"
@@ -25,10 +26,6 @@ void extend(const Analysis& a, Diagnosis& diagnosis) {
     const int column = best_regressor(a, cause.cause);
     // Links miscounted or skipped are none of the machine's: readings are mended whatever it gains.
     if (worse && !regressor(a, column).fixed) continue;
-    model::AppliedEffect applied{std::string(cause.cause.effect->id),
-                                 std::string(model::effects::name(cause.cause.side)),
-                                 {}};
-    for (const ParameterEstimate& p : cause.parameters) applied.parameters[p.parameter] = p.value;
     const bool paper_too =
         std::any_of(cause.same_as.begin(), cause.same_as.end(), [](const auto& s) {
           return s.cause.effect->station == model::effects::Station::paper;
@@ -37,7 +34,7 @@ void extend(const Analysis& a, Diagnosis& diagnosis) {
     if (paper_too && !scale_read && !a.options.accept_class) continue;
     const bool in_machine = !model::effects::depends_on_visit(*cause.cause.effect) &&
                             cause.cause.effect->station != model::effects::Station::paper;
-    (in_machine ? into_machine : diagnosis.data_corrections).push_back(std::move(applied));
+    (in_machine ? into_machine : diagnosis.data_corrections).push_back(applied(cause));
     taken.push_back(column);
   }
   // The settings that belong to what is taken, and to nothing else.
@@ -46,9 +43,8 @@ void extend(const Analysis& a, Diagnosis& diagnosis) {
                               : estimate_with(a, taken);
   const Eigen::VectorXd values = a.system.setting + fitted.setting_change;
   diagnosis.extended_machine = with_settings(session, stated_state(session), values).machine;
-  for (model::AppliedEffect& applied : into_machine) {
-    diagnosis.extended_machine.effects.push_back(std::move(applied));
-  }
+  diagnosis.extended_machine.effects.insert(
+      diagnosis.extended_machine.effects.end(), into_machine.begin(), into_machine.end());
 }
 
 }  // namespace chaintrue::grid::diagnosis

@@ -33,8 +33,11 @@ struct Format {
   bool is_read = true;  ///< some are for other programs alone
 };
 
-inline constexpr std::array kOlderMaps = {OlderVersion{
-    "1.0", "written before maps carried a hash of their content; taken to be undamaged"}};
+inline constexpr std::array kOlderMaps = {
+    OlderVersion{"1.0",
+                 "written before maps carried a hash of their content; taken to be undamaged"},
+    OlderVersion{"1.1",
+                 "written before a map could be built on causes that were found; taken to be plain"}};
 
 inline constexpr std::array kOlderDiagnoses = {
     OlderVersion{"1.0",
@@ -61,7 +64,7 @@ inline constexpr Format kGridFormat{"chaintrue_grid", "1.0"};
 inline constexpr Format kHolesFormat{"chaintrue_holes", "1.1", kOlderHoles};
 inline constexpr Format kBeltsFormat{"chaintrue_belts", "1.0"};
 inline constexpr Format kAnchorsFormat{"chaintrue_anchors", "1.2", kOlderAnchors};
-inline constexpr Format kMapFormat{"chaintrue_map", "1.1", kOlderMaps};
+inline constexpr Format kMapFormat{"chaintrue_map", "1.2", kOlderMaps};
 inline constexpr Format kDiagnosisFormat{"chaintrue_diagnosis", "1.3", kOlderDiagnoses};
 inline constexpr Format kSweepFormat{"chaintrue_sweep", "1.0"};
 inline constexpr Format kSweepSummaryFormat{"chaintrue_sweep_summary", "1.0", {}, false};

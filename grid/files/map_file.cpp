@@ -18,6 +18,7 @@ namespace chaintrue::grid::files {
 namespace {
 
 constexpr Range kErrorMm{"mm", -1e5, 1e5};
+constexpr Range kSigmaFactor{"", 1.0, 1e6};
 
 const Record<model::MarkPoint>& mark_record() {
   static const auto record = Record<model::MarkPoint>("a point")
@@ -245,6 +246,17 @@ Record<MapContents> make_map_record() {
             if (const auto rule = outside_record().read(at)) map.outside = *rule;
           },
           write_outside)
+      .custom(
+          "sigma_factor_beyond",
+          false,
+          number(kSigmaFactor).expected,
+          [](const Cursor& at, MapContents& map) {
+            if (const auto factor = number(kSigmaFactor).read(at)) map.sigma_factor_beyond = *factor;
+          },
+          [](const MapContents& map) -> std::optional<Json> {
+            if (map.sigma_factor_beyond == MapContents{}.sigma_factor_beyond) return std::nullopt;
+            return map.sigma_factor_beyond;
+          })
       .required("noise", &MapContents::noise, object(map_noise_record()))
       .required("accuracy", &MapContents::accuracy, object(accuracy_record()))
       .required("settings", &MapContents::settings, list(object(setting_record())))

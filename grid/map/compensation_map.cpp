@@ -123,6 +123,18 @@ CompensationMap CompensationMap::with_mirror(std::optional<MirrorTest> mirror) c
   return map;
 }
 
+CompensationMap CompensationMap::with_notes_first(std::vector<std::string> notes) const {
+  CompensationMap map = *this;
+  map.contents_.notes.insert(map.contents_.notes.begin(), notes.begin(), notes.end());
+  return map;
+}
+
+CompensationMap CompensationMap::with_sigma_beyond(double factor) const {
+  CompensationMap map = *this;
+  map.contents_.sigma_factor_beyond = factor;
+  return map;
+}
+
 CompensationMap CompensationMap::with_outside(OutsideRule rule) const {
   MapContents contents = contents_;
   contents.outside = rule;
@@ -141,11 +153,13 @@ tl::expected<MapAnswer, MapFailure> CompensationMap::query(MarkPoint mark) const
   MapAnswer answer;
   answer.lengths = found->here.lengths;
   answer.mark_jacobian = found->here.mark_jacobian;
+  answer.status = area_.status(mark);
   answer.covariance = found->covariance;
+  if (answer.status == MapStatus::extrapolated)
+    answer.covariance *= contents_.sigma_factor_beyond * contents_.sigma_factor_beyond;
   answer.sigma = {std::sqrt(answer.covariance(0, 0)), std::sqrt(answer.covariance(1, 1))};
   const Eigen::Matrix2d to_tool = found->here.mark_jacobian.inverse();
   answer.tool_sigma_mm = std::sqrt((to_tool * answer.covariance * to_tool.transpose()).trace());
-  answer.status = area_.status(mark);
   return answer;
 }
 

@@ -162,6 +162,9 @@ struct MapContents {
   double edge_mm = 0.0;
   interp::Rectangle domain;
   OutsideRule outside;
+  /// What sigmas are multiplied by where the status is extrapolated, at least 1: there another map of
+  /// the same readings may be as right (diagnosis/causes_fit.hpp).
+  double sigma_factor_beyond = 1.0;
   MapNoise noise;
   MapAccuracy accuracy;
   std::vector<SettingResult> settings;
@@ -226,6 +229,10 @@ class CompensationMap {
   /// The same map with this said of its error, and of its mirror image.
   [[nodiscard]] CompensationMap with_accuracy(MapAccuracy accuracy) const;
   [[nodiscard]] CompensationMap with_mirror(std::optional<MirrorTest> mirror) const;
+  /// The same map with these sentences before its own.
+  [[nodiscard]] CompensationMap with_notes_first(std::vector<std::string> notes) const;
+  /// The same map with sigmas beyond the measured part so many times as large.
+  [[nodiscard]] CompensationMap with_sigma_beyond(double factor) const;
   [[nodiscard]] const MapContents& contents() const { return contents_; }
 
   [[nodiscard]] tl::expected<MapAnswer, MapFailure> query(model::MarkPoint mark) const;

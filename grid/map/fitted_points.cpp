@@ -75,6 +75,7 @@ std::vector<FittedPoint> fitted_points(const std::vector<LengthPoint>& points,
   for (const estimation::UnitEstimate& unit : estimate.units) {
     if (unit.observation != observation) continue;
     FittedPoint point;
+    point.file = observation;
     point.point = points[unit.unit];
     point.bad = unit.is_rejected();
     point.distance = unit.distance;

@@ -14,6 +14,7 @@ namespace chaintrue::grid {
 
 /// One point after the fit.
 struct FittedPoint {
+  std::size_t file = 0;  ///< the number of its file
   LengthPoint point;
   bool bad = false;
   double distance = 0.0;  ///< of the left-out residual, in sigmas

@@ -298,7 +298,10 @@ tl::expected<JointFit, FitFailure> joint_fit(const Measured& measured,
   MapDraft draft;
   CompensationMap map = map_of(files, *parts, *fitting, draft);
   if (options.outside.way != Outside::continued) map = map.with_outside(options.outside);
-  return JointFit{std::move(fitting->estimate), std::move(draft.distances), std::move(map)};
+  return JointFit{std::move(fitting->estimate),
+                  std::move(draft.points),
+                  std::move(draft.distances),
+                  std::move(map)};
 }
 
 }  // namespace chaintrue::grid

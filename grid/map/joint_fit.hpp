@@ -23,6 +23,7 @@
 
 #include "grid/map/fit.hpp"
 #include "grid/map/fitted_distances.hpp"
+#include "grid/map/fitted_points.hpp"
 #include "grid/observation/measured.hpp"
 
 namespace chaintrue::grid {
@@ -37,6 +38,7 @@ struct JointFitOptions {
 
 struct JointFit {
   estimation::Estimate estimate;           ///< its observations in the order of the files
+  std::vector<FittedPoint> points;         ///< of the files that are grids, in their order
   std::vector<FittedDistances> distances;  ///< of the files that are sets of holes
   CompensationMap map;
 };

@@ -147,6 +147,8 @@ Workshop::Workshop() : folder_(temporary_folder()) {
   make("fit @belts.json -o @anchors.json");
   make("simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
        "--effect chain_pitch_error:left:elongation=0.0016 --seed 5 -o @worn.json");
+  make("simulate --machine @classic.json --grid 7x4 --length-noise-mm 0.2 --position-noise-mm 0.3 "
+       "--effect chain_pitch_error:both:elongation=0.003 --seed 5 -o @worn_both.json");
   make("simulate --machine @classic.json --holes 9 --seed 4 -o @holes2.json");
   make("simulate --belts @anchors.json --grid 4x3 --length-noise-mm 0.6 --seed 2 -o @few_belts.json");
   make("diagnose @grid.json -o @diagnosis.json");

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/diagnosis/causes_fit.hpp"
 #include "grid/files/fit_file.hpp"
 #include "grid/files/map_file.hpp"
 #include "grid/files/whole_file.hpp"
@@ -41,6 +42,9 @@ struct FitCommand {
   std::string surface = "residual";
   std::string ends = "not_a_knot";
   OutsideOption outside;
+  /// Build on the causes that are found.
+  bool causes = false;
+  bool accept_class = false;
   bool verbose = false;
   bool json = false;
 };
@@ -131,10 +135,21 @@ std::vector<report::Section> distances_of(const grid::Measured& measured,
   return sections;
 }
 
+/// The plain fit, or that on the machine with the causes that were found.
+tl::expected<grid::JointFit, grid::FitFailure> fit_of(const FitCommand& command,
+                                                      const grid::Measured& measured) {
+  const grid::JointFitOptions options{.outside = rule_of(command.outside, {}),
+                                      .progress = shown_progress()};
+  if (!command.causes) return grid::joint_fit(measured, options);
+  auto found = grid::diagnosis::fit_with_causes(
+      measured, {.fit = options, .accept_class = command.accept_class});
+  if (!found) return tl::unexpected(found.error());
+  return std::move(found->fit);
+}
+
 /// The file and those of --with in one estimate.
 int fit_jointly(const FitCommand& command, const grid::Measured& measured) {
-  auto fit = grid::joint_fit(
-      measured, {.outside = rule_of(command.outside, {}), .progress = shown_progress()});
+  auto fit = fit_of(command, measured);
   if (fit) return finish(command, fit->map, distances_of(measured, *fit));
   if (measured.files().size() == 1) return finish(command, tl::unexpected(fit.error()), {});
   fmt::print(stderr, "chaintrue fit: {}\n", fit.error().sentence);
@@ -155,6 +170,7 @@ int fit_directly(const FitCommand& command, const grid::MeasuredFile& file) {
 Facts facts_of(const FitCommand& command, const std::vector<InputFile>& files) {
   const bool of_belts = std::any_of(files.begin(), files.end(), is_of_four_belts);
   Facts facts = command.surface == "direct" ? facts::direct : facts::residual;
+  if (command.causes) facts |= facts::causes;
   if (command.outside.way == "fade") facts |= facts::fade;
   for (const InputFile& file : files) {
     if (file.kind == FileKind::belts) facts |= facts::belts;
@@ -218,6 +234,13 @@ void add_fit(Verb app, Run& run) {
       .one_of({"not_a_knot", "natural", "parabolic", "clamped"})
       .shows_default();
   add_outside_options(verb, command->outside, "continued where not said");
+  verb.add_flag("--causes",
+                command->causes,
+                "Look for causes as diagnose does, and build the map on those that make it better on "
+                "points left out");
+  verb.add_flag("--accept-class",
+                command->accept_class,
+                "With --causes: where links and tape cannot be told apart, it is the links");
   verb.add_flag("-v,--verbose",
                 command->verbose,
                 "Tell the tables as well: settings, errors of points left out, each distance, the "

@@ -53,6 +53,8 @@ inline constexpr Facts program = 1U << 21;
 inline constexpr Facts drilled = 1U << 22;
 /// A program by itself, without --map.
 inline constexpr Facts no_map = 1U << 23;
+/// fit: on the causes that are found.
+inline constexpr Facts causes = 1U << 24;
 inline constexpr Facts any = ~0U;
 
 }  // namespace facts

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "grid/planning/measurement_plan.hpp"
+#include "grid/planning/second_visits.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
@@ -38,6 +39,7 @@ struct PlanOptions {
   HolesPlanOptions holes;
   CheckPlanOptions check;
   std::optional<int> points;
+  int second_visits = 0;
   std::optional<double> length_noise_mm;
   std::optional<double> position_noise_mm;
   std::optional<double> margin_mm;
@@ -60,6 +62,7 @@ void check_options(const PlanOptions& options, const model::Bed& bed) {
   const grid::PlanRequest& request = options.request;
   problems.require("--points", request.points, grid::kFewestPlanned, grid::kMostPlanned);
   const double half = 0.5 * std::min(bed.width_mm, bed.height_mm);
+  problems.require("--second-visits", options.second_visits, 0, request.points / 3);
   problems.require("--margin-mm", request.margin_mm, 0.0, std::max(0.0, half - 50.0));
   problems.require("--length-noise-mm", request.noise.length_mm, 0.001, 50.0);
   problems.require("--position-noise-mm", request.noise.position_mm, 0.001, 50.0);
@@ -158,7 +161,10 @@ int run_plan(Verb verb, PlanOptions options) {
     return kNotSupportedOrOutside;
   }
   const ExpectedErrors errors = expected_errors(plan->map, machine.bed);
-  const Sheet sheet{plan->marks, sheet_of(options.measure, &machine)};
+  const Sheet sheet{
+      plan->marks,
+      sheet_of(options.measure, &machine),
+      grid::with_second_visits(plan->marks.size(), static_cast<std::size_t>(options.second_visits))};
   const grid::observation::PointNoise& noise = options.request.noise;
   std::vector<files::OutputFile> outputs =
       sheet_outputs(sheet,
@@ -215,6 +221,12 @@ void add_plan(Verb app, Run& run) {
                              grid::kFewestCheckPoints,
                              grid::kMostCheckPoints,
                              usual_check.points));
+  add_number(verb,
+             "--second-visits",
+             options->second_visits,
+             {"", 0.0, 66.0},
+             "So many marks come a second time, the first one last: they show what changes during "
+             "the session");
   add_input(verb,
             "--check",
             options->check.map,

@@ -22,6 +22,25 @@ double reachable_mm(const model::Bed& bed) {
   return std::min(kReachableMm, 0.2 * std::min(bed.width_mm, bed.height_mm));
 }
 
+std::string SheetVisit::name() const {
+  return again == 0 ? fmt::format("{}", number) : fmt::format("{} (mark {} again)", number, again);
+}
+
+std::vector<SheetVisit> visits_of(const Sheet& sheet) {
+  std::vector<std::size_t> order = sheet.visits;
+  if (order.empty()) {
+    for (std::size_t i = 0; i < sheet.marks.size(); ++i) order.push_back(i);
+  }
+  std::vector<SheetVisit> visits;
+  std::vector<std::size_t> first(sheet.marks.size(), 0);
+  for (const std::size_t mark : order) {
+    const std::size_t number = visits.size() + 1;
+    visits.push_back({number, sheet.marks.at(mark), first[mark]});
+    if (first[mark] == 0) first[mark] = number;
+  }
+  return visits;
+}
+
 SheetOf sheet_of(const std::string& word, const model::Machine* machine) {
   if (!word.empty()) return word == "lengths" ? SheetOf::lengths : SheetOf::places;
   const bool is_told =
@@ -43,12 +62,12 @@ std::string sheet_csv(const Sheet& sheet) {
   const bool places = sheet.of == SheetOf::places;
   std::string text = places ? "order,commanded_x_mm,commanded_y_mm,x_mm,y_mm\n"
                             : "order,x_mm,y_mm,left_mm,right_mm\n";
-  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+  for (const SheetVisit& visit : visits_of(sheet)) {
     fmt::format_to(std::back_inserter(text),
                    "{},{},{},,\n",
-                   i + 1,
-                   whole(sheet.marks[i].x_mm),
-                   whole(sheet.marks[i].y_mm));
+                   visit.number,
+                   whole(visit.mark.x_mm),
+                   whole(visit.mark.y_mm));
   }
   return text;
 }
@@ -60,11 +79,11 @@ std::string sheet_json(const Sheet& sheet,
   grid.name = machine.name;
   grid.machine = machine;
   grid.noise = noise;
-  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+  for (const SheetVisit& visit : visits_of(sheet)) {
     grid::MeasuredPoint point;
-    point.mark = sheet.marks[i];
-    if (sheet.of == SheetOf::places) point.commanded = model::identity_placement(sheet.marks[i]);
-    point.order = static_cast<int>(i) + 1;
+    point.mark = visit.mark;
+    if (sheet.of == SheetOf::places) point.commanded = model::identity_placement(visit.mark);
+    point.order = static_cast<int>(visit.number);
     grid.points.push_back(point);
   }
   return grid::files::write_grid_sheet(grid);
@@ -109,21 +128,26 @@ std::string drill_gcode(std::string_view what,
 std::string sheet_gcode(const Sheet& sheet, const DrillOptions& options) {
   if (sheet.of == SheetOf::places) {
     std::vector<DrillPlace> places;
-    for (std::size_t i = 0; i < sheet.marks.size(); ++i)
-      places.push_back({fmt::format("mark {}", i + 1), model::identity_placement(sheet.marks[i])});
+    for (const SheetVisit& visit : visits_of(sheet)) {
+      // A comment in brackets holds no further brackets.
+      places.push_back({visit.again == 0
+                            ? fmt::format("mark {}", visit.number)
+                            : fmt::format("mark {}: mark {} again", visit.number, visit.again),
+                        model::identity_placement(visit.mark)});
+    }
     return drill_gcode(fmt::format("{} marks", places.size()), places, options);
   }
   std::string text = fmt::format(
       "(chaintrue plan: {} marks, a stop at each)\n(Zero is the middle of the bed.)\nG21 G90 G17 "
       "G94\nG0 Z{:g}\n",
-      sheet.marks.size(),
+      visits_of(sheet).size(),
       options.clearance_mm);
-  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+  for (const SheetVisit& visit : visits_of(sheet)) {
     fmt::format_to(std::back_inserter(text),
                    "G0 X{} Y{}\nM0 (mark {}: write down both chain lengths, then go on)\n",
-                   whole(sheet.marks[i].x_mm),
-                   whole(sheet.marks[i].y_mm),
-                   i + 1);
+                   whole(visit.mark.x_mm),
+                   whole(visit.mark.y_mm),
+                   visit.number);
   }
   return text + "G0 X0 Y0\nM2\n";
 }

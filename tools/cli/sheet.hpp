@@ -33,9 +33,21 @@ inline constexpr double kReachableMm = 100.0;
 void add_measure_option(Verb verb, std::string& word);
 
 struct Sheet {
-  std::vector<model::MarkPoint> marks;  ///< in driving order
+  std::vector<model::MarkPoint> marks;
   SheetOf of = SheetOf::places;
+  /// Numbers of the marks in driving order; empty: each once, as they stand.
+  std::vector<std::size_t> visits = {};
 };
+
+/// A line of a sheet. Marks are numbered in the order of their first visits.
+struct SheetVisit {
+  std::size_t number = 0;  ///< of the visit, from 1
+  model::MarkPoint mark;
+  std::size_t again = 0;  ///< the number of the mark's first visit; 0: this is the first
+  /// "29 (mark 8 again)"
+  [[nodiscard]] std::string name() const;
+};
+[[nodiscard]] std::vector<SheetVisit> visits_of(const Sheet& sheet);
 
 /// order,commanded_x_mm,commanded_y_mm,x_mm,y_mm or order,x_mm,y_mm,left_mm,right_mm.
 [[nodiscard]] std::string sheet_csv(const Sheet& sheet);

@@ -84,8 +84,9 @@ std::string drawing_of(const Sheet& sheet, const model::Bed& bed) {
       kEdge,
       kWide,
       high);
-  for (const MarkPoint& mark : sheet.marks)
-    fmt::format_to(std::back_inserter(svg), "{:.1f},{:.1f} ", x(mark), y(mark));
+  const std::vector<SheetVisit> visits = visits_of(sheet);
+  for (const SheetVisit& visit : visits)
+    fmt::format_to(std::back_inserter(svg), "{:.1f},{:.1f} ", x(visit.mark), y(visit.mark));
   svg += "\"/>\n";
   // As large as the nearest two marks leave room for.
   double nearest = 80.0;
@@ -97,16 +98,17 @@ std::string drawing_of(const Sheet& sheet, const model::Bed& bed) {
     }
   }
   const double radius = std::clamp(0.45 * nearest, 3.0, 16.0);
-  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+  for (const SheetVisit& visit : visits) {
+    if (visit.again != 0) continue;
     fmt::format_to(std::back_inserter(svg),
                    "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2:.1f}\" fill=\"#fff\" "
                    "stroke=\"#111\" stroke-width=\"1.5\"/><text x=\"{0:.1f}\" y=\"{3:.1f}\" "
                    "text-anchor=\"middle\" font-size=\"{2:.1f}\">{4}</text>\n",
-                   x(sheet.marks[i]),
-                   y(sheet.marks[i]),
+                   x(visit.mark),
+                   y(visit.mark),
                    radius,
-                   y(sheet.marks[i]) + 0.35 * radius,
-                   i + 1);
+                   y(visit.mark) + 0.35 * radius,
+                   visit.number);
   }
   return svg + "</svg>";
 }
@@ -132,12 +134,13 @@ std::string sheet_page(const Sheet& sheet, const model::Machine& machine, const 
       places ? "sent to " : "",
       places ? "measured x, mm" : "left chain, mm",
       places ? "measured y, mm" : "right chain, mm");
-  for (std::size_t i = 0; i < sheet.marks.size(); ++i) {
+  const std::vector<SheetVisit> visits = visits_of(sheet);
+  for (const SheetVisit& visit : visits) {
     fmt::format_to(std::back_inserter(table),
                    "<tr><td>{}</td><td>{:.0f}</td><td>{:.0f}</td>{}</tr>\n",
-                   i + 1,
-                   sheet.marks[i].x_mm + 0.0,
-                   sheet.marks[i].y_mm + 0.0,
+                   visit.name(),
+                   visit.mark.x_mm + 0.0,
+                   visit.mark.y_mm + 0.0,
                    blank_cells(2));
   }
   table += "</tbody></table>";
@@ -155,8 +158,19 @@ std::string sheet_page(const Sheet& sheet, const model::Machine& machine, const 
                    "Bring the bit over each mark in the order of their numbers; measure where it "
                    "stands if it is beside, and write down the lengths of both chains from the "
                    "pin at 12 o'clock to their ends at the ring."};
+  const std::size_t second = visits.size() - sheet.marks.size();
+  if (second > 0) {
+    steps.push_back(fmt::format(
+        "{} marks come a second time. Mark and measure where the tool stands then, as if the mark "
+        "were a new one: the two readings show whether the machine changed in between.",
+        second));
+  }
   steps.push_back(typed_into(list));
-  return page_of(fmt::format("{} marks for {}", sheet.marks.size(), machine.name),
+  return page_of(second == 0 ? fmt::format("{} marks for {}", sheet.marks.size(), machine.name)
+                             : fmt::format("{} marks, {} of them twice, for {}",
+                                           sheet.marks.size(),
+                                           second,
+                                           machine.name),
                  drawing_of(sheet, machine.bed),
                  steps,
                  table);

@@ -3,6 +3,7 @@
 /// chaintrue start: a folder with the machine, what to do next, and the sheets to print.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "grid/files/whole_file.hpp"
 #include "grid/planning/holes_plan.hpp"
 #include "grid/planning/measurement_plan.hpp"
+#include "grid/planning/second_visits.hpp"
 #include "tools/cli/holes_words.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
@@ -58,7 +60,12 @@ tl::expected<Plans, grid::PlanFailure> plans_for(const model::Machine& machine) 
 }
 
 std::vector<FolderFile> sheets_of(const model::Machine& machine, const Plans& plans) {
-  const Sheet sheet{plans.marks.marks, SheetOf::places};
+  const Sheet sheet{
+      plans.marks.marks,
+      SheetOf::places,
+      grid::with_second_visits(
+          plans.marks.marks.size(),
+          std::min(grid::kUsualSecondVisits, plans.marks.marks.size() / 3))};
   std::vector<DrillPlace> holes;
   for (const grid::Hole& hole : plans.holes.set.holes)
     holes.push_back({"hole " + hole.name, hole.commanded});

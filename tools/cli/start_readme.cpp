@@ -51,7 +51,7 @@ std::string start_readme(const model::Machine& machine, const StartWays& ways) {
       R"({0}: what lies here, and what to do with it.
 
   machine.json   the machine as its settings describe it
-  marks.html     28 marks on a page to print, with lines to write on
+  marks.html     28 marks on a page to print, four of them twice, with lines to write on
   marks.csv      the list that the readings are typed into
   marks.nc       a program that drives to the marks and drills them
   holes.html, holes.csv, holes.nc
@@ -60,8 +60,9 @@ std::string start_readme(const model::Machine& machine, const StartWays& ways) {
 1. Choose a way to measure.
 
    Marks, for whoever has an evening and a square: the tool is sent to 28 marks, and x and y of
-   each are measured from the sheet's middle lines. To half a millimetre each, the tool will then
-   be known to about {1:.1f} mm over the bed.
+   each are measured from the sheet's middle lines. Four of them come a second time: they cost ten
+   minutes and show whether the machine changed meanwhile (a chain that jumped a tooth, a zero that
+   moved). To half a millimetre each, the tool will then be known to about {1:.1f} mm over the bed.
    Holes, for whoever has an hour and a tape: nine holes and twenty distances, about {2:.1f} mm,
    the sheet laid as well as it can be.
    Chain lengths, for whoever can read them off the machine: chaintrue plan --machine machine.json

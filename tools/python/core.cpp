@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/diagnosis/causes_fit.hpp"
 #include "grid/diagnosis/diagnose.hpp"
 #include "grid/files/diagnosis_file.hpp"
 #include "grid/files/grid_file.hpp"
@@ -152,6 +153,14 @@ grid::MeasuredGrid grid_of(const Pairs& marks,
     grid.points.push_back(point);
   }
   return files::parse_grid(files::write_grid(grid), "arrays").grid;
+}
+
+/// On the causes that are found.
+grid::CompensationMap fit_on_causes(const grid::Measured& measured, bool accept_class) {
+  const py::gil_scoped_release others_may_work;
+  return value_or_throw(
+             grid::diagnosis::fit_with_causes(measured, {.accept_class = accept_class}))
+      .fit.map;
 }
 
 grid::CompensationMap fit_points(const grid::MeasuredGrid& grid, bool direct) {
@@ -297,6 +306,12 @@ void add_functions(py::module_& module) {
   module.def("grid_of", grid_of);
   module.def("fit_points", fit_points);
   module.def("fit_distances", fit_distances);
+  module.def("fit_points_on_causes", [](const grid::MeasuredGrid& grid, bool accept_class) {
+    return fit_on_causes(grid, accept_class);
+  });
+  module.def("fit_distances_on_causes", [](const grid::MeasuredHoles& holes, bool accept_class) {
+    return fit_on_causes(holes, accept_class);
+  });
   module.def("diagnose", diagnose);
 }
 

@@ -247,19 +247,30 @@ def read_diagnosis(path):
     return _told(_core.read_diagnosis(os.fspath(path)), Diagnosis)
 
 
-def fit(measured, surface="residual"):
+def fit(measured, surface="residual", causes=False, accept_class=False):
     """The Map of a Grid or of Holes.
 
     surface  residual: the machine, calibrated, and a smooth correction of what it leaves
              direct: splines through the lengths themselves, for points on full rows and columns; needs
              no machine
+    causes   look for causes as diagnose does, and build the map on those that make it better on points
+             left out; its notes say which
+    accept_class  with causes: where links and tape cannot be told apart, it is the links
     """
+    if accept_class and not causes:
+        raise ValueError("accept_class says which of two causes acts: give causes=True")
+    if causes and surface == "direct":
+        raise ValueError("a direct surface has no machine that could err")
     if surface not in ("residual", "direct"):
         raise ValueError(f'surface is residual or direct, not "{surface}"')
     if isinstance(measured, Holes):
         if surface == "direct":
             raise ValueError("holes have no lengths for a direct surface")
+        if causes:
+            return Map(_core.fit_distances_on_causes(measured._core, accept_class))
         return Map(_core.fit_distances(measured._core))
+    if causes:
+        return Map(_core.fit_points_on_causes(measured._core, accept_class))
     return Map(_core.fit_points(measured._core, surface == "direct"))
 
 

@@ -102,6 +102,16 @@ def test_holes_are_fitted_too():
     assert chaintrue.query(map, [[0.0, 0.0]]).lengths.shape == (1, 2)
 
 
+def test_a_map_is_built_on_the_causes_that_are_found():
+    grid = chaintrue.read_grid(FIXTURES / "grids" / "seven_by_four.json")
+    plain, own = chaintrue.fit(grid), chaintrue.fit(grid, causes=True)
+    assert len(own.notes) > len(plain.notes)
+    with pytest.raises(ValueError):
+        chaintrue.fit(grid, accept_class=True)
+    with pytest.raises(ValueError):
+        chaintrue.fit(grid, surface="direct", causes=True)
+
+
 def test_pages_are_the_commands(tmp_path, map, diagnosis):
     page = chaintrue.report(map, tmp_path / "map.html")
     assert (tmp_path / "map.html").read_text() == page

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/diagnosis/causes_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "grid/diagnosis/diagnose.hpp"
+#include "grid/diagnosis/findings.hpp"
+#include "grid/diagnosis/workshop_units.hpp"
+#include "grid/estimation/spatial_blocks.hpp"
+
+namespace chaintrue::grid::diagnosis {
+namespace {
+
+using model::effects::Station;
+
+/// Squared error of the tool at what one map left out, mm^2, and the block it was left out with.
+struct HeldOutSquare {
+  double plain_mm2 = 0.0;
+  double with_causes_mm2 = 0.0;
+  std::size_t block = 0;
+};
+
+double square_at_tool(const FittedPoint& point) {
+  return (point.mark_jacobian.inverse() * point.blocked_residual_mm).squaredNorm();
+}
+
+/// Points by what they are known by in both fits: the file's number and their own.
+using PointKey = std::pair<std::size_t, std::size_t>;
+
+/// Points that the map with causes keeps, and distances where there are no points. What it rejects is
+/// bad whatever acts; what the plain map alone rejects counts, since the causes explain it.
+std::vector<HeldOutSquare> held_out_squares(const JointFit& plain, const JointFit& with_causes) {
+  std::vector<HeldOutSquare> squares;
+  std::map<PointKey, const FittedPoint*> own;
+  std::map<std::size_t, std::vector<LengthPoint>> by_file;
+  for (const FittedPoint& point : with_causes.points) {
+    own[{point.file, point.point.index}] = &point;
+    by_file[point.file].push_back(point.point);
+  }
+  std::map<PointKey, std::size_t> block_of;
+  std::size_t blocks = 0;
+  for (const auto& [file, points] : by_file) {
+    for (const std::vector<std::size_t>& block : spatial_blocks(points)) {
+      for (const std::size_t k : block) block_of[{file, points[k].index}] = blocks;
+      ++blocks;
+    }
+  }
+  for (const FittedPoint& point : plain.points) {
+    const PointKey key{point.file, point.point.index};
+    const FittedPoint& other = *own.at(key);
+    if (!other.bad) squares.push_back({square_at_tool(point), square_at_tool(other), block_of[key]});
+  }
+  if (!squares.empty()) return squares;
+  for (std::size_t f = 0; f < plain.distances.size(); ++f) {
+    const auto& before = plain.distances[f].distances;
+    const auto& after = with_causes.distances[f].distances;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      if (after[k].rejected) continue;
+      squares.push_back({before[k].left_out_mm * before[k].left_out_mm,
+                         after[k].left_out_mm * after[k].left_out_mm,
+                         squares.size()});
+    }
+  }
+  return squares;
+}
+
+HeldOutBlocksError error_of(const std::vector<HeldOutSquare>& squares) {
+  HeldOutBlocksError sum;
+  for (const HeldOutSquare& one : squares) {
+    sum.plain_mm += one.plain_mm2;
+    sum.with_causes_mm += one.with_causes_mm2;
+  }
+  const auto count = static_cast<double>(std::max<std::size_t>(squares.size(), 1));
+  return {std::sqrt(sum.plain_mm / count), std::sqrt(sum.with_causes_mm / count)};
+}
+
+/// D of (1) exceeds its standard error.
+bool falls_beyond_its_error(const std::vector<HeldOutSquare>& squares) {
+  std::map<std::size_t, std::pair<double, double>> blocks;  // d_b and n_b
+  double total = 0.0;
+  for (const HeldOutSquare& one : squares) {
+    auto& [difference, count] = blocks[one.block];
+    difference += one.plain_mm2 - one.with_causes_mm2;
+    count += 1.0;
+    total += one.plain_mm2 - one.with_causes_mm2;
+  }
+  const auto b = static_cast<double>(blocks.size());
+  if (b < 2.0) return false;
+  const auto n = static_cast<double>(squares.size());
+  const double mean = total / n;
+  double sum = 0.0;
+  for (const auto& [block, of] : blocks) sum += std::pow(of.first - of.second * mean, 2);
+  return mean > std::sqrt(b / (b - 1.0) * sum) / n;
+}
+
+/// Each block's naming repeated without it, the map's own smooth correction in both.
+bool naming_holds(const Diagnosis& found) {
+  return found.gain &&
+         found.gain->extended_and_surface.rms_mm < found.gain->surface_only.rms_mm;
+}
+
+bool scale_was_read(const Measured& measured) {
+  const auto decides = [](const ExtraReading& reading) {
+    return reading.what == "link_pitch_mm" || reading.what == "tape_error_mm_per_m";
+  };
+  return std::any_of(measured.files().begin(), measured.files().end(), [&](const MeasuredFile& file) {
+    return std::visit(
+        [&](const auto& own) {
+          return std::any_of(own.readings.begin(), own.readings.end(), decides);
+        },
+        file.measured);
+  });
+}
+
+bool is_of_the_paper(const CauseId& cause) { return cause.effect->station == Station::paper; }
+
+/// Why a cause may not enter whatever it gains; empty where it may.
+std::optional<OfferedCause::Reason> refusal(const Cause& cause, bool decided) {
+  if (cause.probability < kSureOfCause) return OfferedCause::Reason::not_sure;
+  if (is_of_the_paper(cause.cause)) return OfferedCause::Reason::is_paper;
+  const bool may_be_paper =
+      std::any_of(cause.same_as.begin(), cause.same_as.end(), [](const SameCause& same) {
+        return is_of_the_paper(same.cause);
+      });
+  if (may_be_paper && !decided) return OfferedCause::Reason::may_be_paper;
+  return std::nullopt;
+}
+
+Measured with_effects(const Measured& measured, const std::vector<Cause>& causes) {
+  Measured changed;
+  for (MeasuredFile file : measured.files()) {
+    std::visit(
+        [&](auto& own) {
+          if (!own.machine) return;
+          for (const Cause& cause : causes) own.machine->effects.push_back(applied(cause));
+        },
+        file.measured);
+    changed.add(std::move(file));
+  }
+  return changed;
+}
+
+/// Beyond the measured part the larger of the two errors is stated: of all places there the largest
+/// ratio of the plain map's error to this one's, at least 1.
+double factor_beyond(const CompensationMap& plain, const CompensationMap& own) {
+  constexpr int kColumns = 25;
+  constexpr int kRows = 13;
+  const interp::Rectangle& domain = own.contents().domain;
+  double factor = 1.0;
+  for (int iy = 0; iy < kRows; ++iy) {
+    for (int ix = 0; ix < kColumns; ++ix) {
+      const model::MarkPoint mark{domain.x_min + domain.width() * ix / (kColumns - 1),
+                                  domain.y_min + domain.height() * iy / (kRows - 1)};
+      if (own.status(mark) != MapStatus::extrapolated) continue;
+      const auto before = plain.query(mark);
+      const auto after = own.query(mark);
+      if (before && after && after->tool_sigma_mm > 0.0)
+        factor = std::max(factor, before->tool_sigma_mm / after->tool_sigma_mm);
+    }
+  }
+  return factor;
+}
+
+/// Before is before: what the tool missed on the machine as its owner states it.
+CompensationMap with_errors_before(const CompensationMap& own, const CompensationMap& plain) {
+  MapContents contents = own.contents();
+  const std::vector<MapPoint>& before = plain.contents().points;
+  if (before.size() != contents.points.size()) return own;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    contents.points[k].as_stated_mm = before[k].as_stated_mm;
+    contents.points[k].sheet_placed_mm = before[k].sheet_placed_mm;
+  }
+  return CompensationMap(std::move(contents));
+}
+
+/// The sentences stand in the map's file as well.
+CausesFit noted(CausesFit fit) {
+  fit.fit.map = fit.fit.map.with_notes_first(in_words(fit));
+  return fit;
+}
+
+void offer(const std::vector<Cause>& causes, OfferedCause::Reason reason, CausesFit& result) {
+  for (const Cause& cause : causes) result.offered.push_back({cause, reason});
+}
+
+std::string why(OfferedCause::Reason reason) {
+  switch (reason) {
+    case OfferedCause::Reason::not_sure:
+      return "it is not sure enough: chaintrue diagnose says what to measure next";
+    case OfferedCause::Reason::may_be_paper:
+      return "the tape that set out the marks may be to blame in its place, and marks cannot decide "
+             "that. Measure a hundred links, or the tape, and give the reading; or say "
+             "--accept-class where you know that it is the chain";
+    case OfferedCause::Reason::is_paper:
+      return "the marks themselves are off: correct them, or set them out anew";
+    case OfferedCause::Reason::gains_nothing:
+      break;
+  }
+  return "the map is no better for it in parts of the bed that were left out";
+}
+
+}  // namespace
+
+model::AppliedEffect applied(const Cause& cause) {
+  model::AppliedEffect effect{std::string(cause.cause.effect->id),
+                              std::string(model::effects::name(cause.cause.side)),
+                              {}};
+  for (const ParameterEstimate& p : cause.parameters) effect.parameters[p.parameter] = p.value;
+  return effect;
+}
+
+tl::expected<CausesFit, FitFailure> fit_with_causes(const Measured& measured,
+                                                    const CausesFitOptions& options) {
+  auto plain = joint_fit(measured, options.fit);
+  if (!plain) return tl::unexpected(plain.error());
+  CausesFit result{*std::move(plain), {}, {}, std::nullopt, {}};
+  DiagnosisOptions weighed;
+  weighed.seed = options.seed;
+  weighed.accept_class = options.accept_class;
+  weighed.next_measurements = false;
+  weighed.progress = options.fit.progress;
+  const auto found = diagnose(measured, weighed);
+  if (!found) {
+    result.not_weighed = found.error().sentence;
+    return noted(std::move(result));
+  }
+  const bool decided = options.accept_class || scale_was_read(measured);
+  std::vector<Cause> sure;
+  for (const Cause& cause : found->causes) {
+    if (const auto reason = refusal(cause, decided))
+      result.offered.push_back({cause, *reason});
+    else
+      sure.push_back(cause);
+  }
+  if (sure.empty()) return noted(std::move(result));
+  auto with_causes = joint_fit(with_effects(measured, sure), options.fit);
+  if (!with_causes) {
+    offer(sure, OfferedCause::Reason::gains_nothing, result);
+    return noted(std::move(result));
+  }
+  const std::vector<HeldOutSquare> squares = held_out_squares(result.fit, *with_causes);
+  result.held_out = error_of(squares);
+  if (!naming_holds(*found) || !falls_beyond_its_error(squares)) {
+    offer(sure, OfferedCause::Reason::gains_nothing, result);
+    return noted(std::move(result));
+  }
+  with_causes->map = with_errors_before(with_causes->map, result.fit.map)
+                         .with_sigma_beyond(factor_beyond(result.fit.map, with_causes->map));
+  result.fit = *std::move(with_causes);
+  result.built_on = std::move(sure);
+  return noted(std::move(result));
+}
+
+std::vector<std::string> in_words(const CausesFit& fit) {
+  std::vector<std::string> sentences;
+  const auto sized = [](const Cause& cause) {
+    return fmt::format("{}{} ({}; {})",
+                       cause.cause.effect->cause,
+                       side_words(cause.cause),
+                       in_workshop_units(cause.cause, cause.parameters.front()),
+                       percent(cause.probability));
+  };
+  if (!fit.not_weighed.empty())
+    sentences.push_back("No cause was looked for: " + fit.not_weighed + ".");
+  if (!fit.built_on.empty()) {
+    std::vector<std::string> parts;
+    for (const Cause& cause : fit.built_on) parts.push_back(sized(cause));
+    sentences.push_back(fmt::format(
+        "Built on what was found: {}. In parts of the bed that were left out, readings come out within "
+        "{:.2f} mm rms; without {} it would be {:.2f} mm.",
+        joined(parts, "and"),
+        fit.held_out->with_causes_mm,
+        fit.built_on.size() == 1 ? "this cause" : "these causes",
+        fit.held_out->plain_mm));
+  }
+  if (sentences.empty() && fit.offered.empty())
+    sentences.emplace_back("Causes were weighed and none was found: the map is the plain one.");
+  for (const OfferedCause& offered : fit.offered) {
+    sentences.push_back(fmt::format("Found and not in the map: {}; {}.",
+                                    sized(offered.cause),
+                                    why(offered.reason)));
+  }
+  return sentences;
+}
+
+}  // namespace chaintrue::grid::diagnosis

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A map on the machine as it was found: the causes that a diagnosis names enter the machine of the
+/// fit where they make the map better, and the map is plain where they do not.
+///
+/// A wrong name must not make a map worse than it is without one. A cause enters where
+///   - its probability is kSureOfCause and more,
+///   - it cannot as well lie on the paper (a tape whose error the marks share shows in no mark that is
+///     held out), unless somebody has read the links or the tape, or has said that it is the chain,
+///   - points in blocks of the bed that neither map was fitted to come out better with it, by more
+///     than the standard error of the difference, the surfaces of both maps included, and do so as
+///     well where each block's naming is repeated without it (gain.hpp).
+///
+///   d_b = sum over block b of (|e_plain|^2 - |e|^2),  n_b points,  B blocks,  D = sum d_b / sum n_b
+///   se^2 = B / (B - 1) sum (d_b - n_b D)^2 / (sum n_b)^2                                        (1)
+///
+/// (1) is the standard error of a ratio of two sums over clusters: W. Cochran, Sampling Techniques
+/// (1977), equation 6.13. Effects of the visit are taken out of the readings under the same rule.
+///
+/// \code
+///   const auto found = fit_with_causes(measured);
+///   if (found) use(found->fit.map, found->built_on);   // built_on is empty: the plain map
+/// \endcode
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "grid/diagnosis/diagnosis.hpp"
+#include "grid/map/joint_fit.hpp"
+
+namespace chaintrue::grid::diagnosis {
+
+/// Probability from which on a cause may enter a map.
+inline constexpr double kSureOfCause = 0.9;
+
+struct CausesFitOptions {
+  JointFitOptions fit;
+  /// Chain or paper, which no points tell apart: the owner has it that it is the chain.
+  bool accept_class = false;
+  std::uint64_t seed = 1;
+};
+
+/// A cause that was named and is not in the map.
+struct OfferedCause {
+  enum class Reason {
+    not_sure,       ///< below kSureOfCause
+    may_be_paper,   ///< a reading of the link's pitch or of the tape decides
+    is_paper,       ///< the marks themselves are off
+    gains_nothing,  ///< the map is no better for it on points that it was not fitted to
+  };
+  Cause cause;
+  Reason reason;
+};
+
+/// Error of the tool at points in blocks of the bed that were left out, rms, mm; their noise is in it.
+struct HeldOutBlocksError {
+  double plain_mm = 0.0;
+  double with_causes_mm = 0.0;
+};
+
+struct CausesFit {
+  JointFit fit;
+  std::vector<Cause> built_on;         ///< empty: the plain map
+  std::vector<OfferedCause> offered;
+  std::optional<HeldOutBlocksError> held_out;  ///< where causes were tried in a map
+  /// Why nothing could be weighed; empty where it was.
+  std::string not_weighed;
+};
+
+/// Fails where joint_fit() fails on the machine as stated.
+[[nodiscard]] tl::expected<CausesFit, FitFailure> fit_with_causes(
+    const Measured& measured, const CausesFitOptions& options = {});
+
+/// What the map was built on and what is offered, whole sentences for its owner.
+[[nodiscard]] std::vector<std::string> in_words(const CausesFit& fit);
+
+/// A cause as a machine file has it.
+[[nodiscard]] model::AppliedEffect applied(const Cause& cause);
+
+}  // namespace chaintrue::grid::diagnosis

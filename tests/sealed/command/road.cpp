@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// road: what the road from readings to a cut is worth, with the causes that are found in the map and
+/// without. On hidden machines it holds each map's true error against what the map states; on a real
+/// scan it draws marks and holds both maps against all the others. Not part of the test run; its
+/// tables stand in docs/start.md. Same options, same table.
+///
+///   road --sets 40 --points 28                  // each effect of the catalogue at its usual size
+///   road --scan scan.json --draws 200           // chaintrue import optical wrote scan.json
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "generator/hidden/random.hpp"
+#include "grid/diagnosis/causes_fit.hpp"
+#include "grid/files/grid_file.hpp"
+#include "grid/observation/length_points.hpp"
+#include "sealed/judge/map_errors.hpp"
+#include "sealed/judge/trial.hpp"
+
+namespace {
+
+using namespace chaintrue;
+using sealed::MapErrors;
+
+struct Arguments {
+  int sets = 40;
+  int points = 28;
+  std::uint64_t first_seed = 1;
+  std::string cause;
+  std::string scan;
+  int draws = 200;
+  int drawn_marks = 60;
+};
+
+/// Sums over machines of squares, mm^2, and of intervals that hold what is true.
+struct Tally {
+  int machines = 0;
+  int built = 0;
+  int failed = 0;
+  double plain_mm2 = 0.0;
+  double own_mm2 = 0.0;
+  double stated_mm2 = 0.0;
+  double plain_stated_mm2 = 0.0;
+  int covered = 0;
+  int intervals = 0;
+  std::vector<double> ratios;  ///< true error with causes over plain
+
+  void add(const MapErrors& plain, const MapErrors& own, bool is_built) {
+    ++machines;
+    built += is_built ? 1 : 0;
+    plain_mm2 += plain.true_rms_mm * plain.true_rms_mm;
+    own_mm2 += own.true_rms_mm * own.true_rms_mm;
+    stated_mm2 += own.stated_rms_mm * own.stated_rms_mm;
+    plain_stated_mm2 += plain.stated_rms_mm * plain.stated_rms_mm;
+    covered += own.covered;
+    intervals += 2 * own.places;
+    ratios.push_back(own.true_rms_mm / plain.true_rms_mm);
+  }
+  void add(const Tally& other) {
+    machines += other.machines;
+    built += other.built;
+    failed += other.failed;
+    plain_mm2 += other.plain_mm2;
+    own_mm2 += other.own_mm2;
+    stated_mm2 += other.stated_mm2;
+    plain_stated_mm2 += other.plain_stated_mm2;
+    covered += other.covered;
+    intervals += other.intervals;
+    ratios.insert(ratios.end(), other.ratios.begin(), other.ratios.end());
+  }
+  [[nodiscard]] std::string line(std::string_view what) const {
+    const double n = std::max(machines, 1);
+    return fmt::format(
+        "| {:24} | {:4} | {:4} | {:6.3f} | {:6.3f} | {:5.2f} | {:6.3f} | {:6.3f} | {:5.2f} | {:5.1f} % | {:5.2f} |\n",
+        what,
+        machines,
+        built,
+        std::sqrt(plain_mm2 / n),
+        std::sqrt(plain_stated_mm2 / n),
+        std::sqrt(plain_mm2 / plain_stated_mm2),
+        std::sqrt(own_mm2 / n),
+        std::sqrt(stated_mm2 / n),
+        std::sqrt(own_mm2 / stated_mm2),
+        100.0 * covered / std::max(intervals, 1),
+        ratios.empty() ? 0.0 : *std::max_element(ratios.begin(), ratios.end()));
+  }
+};
+
+/// One machine: both maps of its readings, against the machine.
+void try_machine(const generator::Recipe& recipe, std::uint64_t seed, Tally& tally) {
+  const generator::SealedSet set = generator::draw_set(recipe, seed);
+  const grid::Measured measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid);
+  const auto plain = grid::joint_fit(measured);
+  const auto own = grid::diagnosis::fit_with_causes(measured, {.accept_class = true});
+  const auto of_plain = plain ? sealed::map_errors(set, plain->map) : std::nullopt;
+  const auto of_own = own ? sealed::map_errors(set, own->fit.map) : std::nullopt;
+  if (of_plain && of_own) {
+    tally.add(*of_plain, *of_own, !own->built_on.empty());
+  } else {
+    ++tally.failed;
+  }
+}
+
+void print_machines(const Arguments& arguments) {
+  fmt::print(
+      "| hidden | sets | built on it | plain: true mm | stated | true / stated | with causes: true mm | "
+      "stated | true / stated | 95 % hold | worst ratio to plain |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n");
+  Tally all;
+  generator::Recipe recipe;
+  recipe.points = arguments.points;
+  const auto run = [&](std::string_view name) {
+    Tally tally;
+    for (int k = 0; k < arguments.sets; ++k)
+      try_machine(recipe, arguments.first_seed + static_cast<std::uint64_t>(k), tally);
+    fmt::print("{}", tally.line(name));
+    std::fflush(stdout);
+    if (tally.failed > 0) fmt::print(stderr, "{}: {} of them failed\n", name, tally.failed);
+    all.add(tally);
+  };
+  for (const generator::CauseCard& card : generator::cards()) {
+    if (!arguments.cause.empty() && card.id != arguments.cause) continue;
+    recipe.cause = card.cause;
+    run(card.id);
+  }
+  if (arguments.cause.empty()) {
+    recipe.cause.reset();
+    recipe.kind = generator::Mix::nothing;
+    run("nothing");
+    recipe.kind = generator::Mix::beside;
+    run("a cause and a pattern");
+  }
+  fmt::print("{}", all.line("all"));
+}
+
+/// Tool's rms at the marks that a map was not made of.
+double error_at(const grid::CompensationMap& map,
+                const std::vector<grid::LengthPoint>& points,
+                const std::vector<bool>& drawn) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (drawn[points[k].index]) continue;
+    const auto answer = map.query(points[k].mark);
+    if (!answer) continue;
+    const Eigen::Vector2d missing(points[k].lengths.left_mm - answer->lengths.left_mm,
+                                  points[k].lengths.right_mm - answer->lengths.right_mm);
+    sum += (answer->mark_jacobian.inverse() * missing).squaredNorm();
+    ++count;
+  }
+  return std::sqrt(sum / std::max(count, 1));
+}
+
+void print_scan(const Arguments& arguments) {
+  const grid::MeasuredGrid whole = grid::files::read_grid(arguments.scan).grid;
+  const auto points = grid::length_points(whole);
+  if (!points) throw std::runtime_error(points.error().sentence);
+  std::vector<double> ratios;
+  int built = 0;
+  for (int draw = 0; draw < arguments.draws; ++draw) {
+    generator::Dice dice(arguments.first_seed + static_cast<std::uint64_t>(draw), "marks of a scan");
+    std::vector<bool> drawn(whole.points.size(), false);
+    grid::MeasuredGrid few = whole;
+    few.points.clear();
+    while (static_cast<int>(few.points.size()) < arguments.drawn_marks) {
+      const std::size_t k = dice.below(drawn.size());
+      if (drawn[k]) continue;
+      drawn[k] = true;
+      few.points.push_back(whole.points[k]);
+    }
+    const auto plain = grid::joint_fit(few);
+    const auto own = grid::diagnosis::fit_with_causes(few);
+    if (!plain || !own) continue;
+    built += own->built_on.empty() ? 0 : 1;
+    ratios.push_back(error_at(own->fit.map, *points, drawn) / error_at(plain->map, *points, drawn));
+  }
+  std::sort(ratios.begin(), ratios.end());
+  fmt::print("{} draws of {} marks, {} built on causes; error at the other marks over the plain map's: "
+             "median {:.3f}, worst {:.3f}, best {:.3f}\n",
+             ratios.size(),
+             arguments.drawn_marks,
+             built,
+             ratios.empty() ? 0.0 : ratios[ratios.size() / 2],
+             ratios.empty() ? 0.0 : ratios.back(),
+             ratios.empty() ? 0.0 : ratios.front());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Holds maps against the machines that they were measured on.");
+  app.add_option("--sets", arguments.sets, "machines of each kind")->check(CLI::Range(1, 100000));
+  app.add_option("--points", arguments.points, "28, 60, 117")->check(CLI::IsMember({28, 60, 117}));
+  app.add_option("--first-seed", arguments.first_seed, "of a run of seeds");
+  app.add_option("--cause", arguments.cause, "this effect alone");
+  app.add_option("--scan", arguments.scan, "a chaintrue_grid of a real scan, in place of machines");
+  app.add_option("--draws", arguments.draws, "of its marks")->check(CLI::Range(1, 100000));
+  app.add_option("--drawn-marks", arguments.drawn_marks, "in each draw")->check(CLI::Range(12, 400));
+  CLI11_PARSE(app, argc, argv);
+  if (arguments.scan.empty()) {
+    print_machines(arguments);
+  } else {
+    print_scan(arguments);
+  }
+  return 0;
+}

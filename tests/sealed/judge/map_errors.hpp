@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// How wrong the tool is by a map over the area that the marks span, against the hidden machine
+/// itself, and what the map states of that. A map answers without drift, skips and hysteresis, so
+/// the hidden machine is asked without them.
+#pragma once
+
+#include <optional>
+
+#include "generator/hidden/draw.hpp"
+#include "grid/map/compensation_map.hpp"
+
+namespace chaintrue::sealed {
+
+struct MapErrors {
+  double true_rms_mm = 0.0;    ///< of the tool
+  double stated_rms_mm = 0.0;  ///< its expected error at the same places
+  int places = 0;
+  /// Places at which each chain's true length lies within 1.96 of the map's sigmas, two a place.
+  int covered = 0;
+};
+
+/// Nothing where the hidden machine or the map cannot answer at a place.
+[[nodiscard]] std::optional<MapErrors> map_errors(const generator::SealedSet& set,
+                                                  const grid::CompensationMap& map);
+
+}  // namespace chaintrue::sealed

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Maps on the causes that are found, against hidden machines (tests/generator): an excerpt of the
+// command road.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "grid/diagnosis/causes_fit.hpp"
+#include "grid/files/grid_file.hpp"
+#include "grid/files/map_file.hpp"
+#include "sealed/judge/map_errors.hpp"
+
+namespace chaintrue::sealed {
+namespace {
+
+using generator::Cause;
+using generator::Hidden;
+using generator::Where;
+using grid::diagnosis::CausesFit;
+using grid::diagnosis::OfferedCause;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+/// A hidden machine with both maps of its readings.
+struct Road {
+  generator::SealedSet set;
+  grid::JointFit plain;
+  CausesFit own;
+  [[nodiscard]] double plain_mm() const { return map_errors(set, plain.map)->true_rms_mm; }
+  [[nodiscard]] double own_mm() const { return map_errors(set, own.fit.map)->true_rms_mm; }
+};
+
+Road road_of(std::vector<Hidden> hidden, int points, std::uint64_t seed, bool accept_class = false) {
+  generator::Recipe recipe;
+  recipe.points = points;
+  recipe.kind = hidden.empty() ? generator::Mix::nothing : generator::Mix::single;
+  recipe.exactly = std::move(hidden);
+  recipe.order = generator::Order::random;
+  generator::SealedSet set = generator::draw_set(recipe, seed);
+  const grid::Measured measured(grid::files::parse_grid(set.grid_text, "sealed.json").grid);
+  auto plain = grid::joint_fit(measured);
+  auto own = grid::diagnosis::fit_with_causes(measured, {.accept_class = accept_class});
+  EXPECT_TRUE(plain.has_value()) << plain.error().sentence;
+  EXPECT_TRUE(own.has_value()) << own.error().sentence;
+  return {std::move(set), *std::move(plain), *std::move(own)};
+}
+
+TEST(Road, WornChainAndBendingBeamMakeATruerMapOnceTheyAreFound) {
+  double plain_mm2 = 0.0;
+  double own_mm2 = 0.0;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const Road road = road_of({{Cause::chain_pitch_error, Where::left, 0.0015},
+                               {Cause::beam_flex, Where::nowhere, 0.012}},
+                              60,
+                              seed);
+    fmt::print("seed {}: plain {:.3f} mm, with causes {:.3f} mm\n", seed, road.plain_mm(), road.own_mm());
+    EXPECT_THAT(road.own.built_on, Not(IsEmpty())) << "seed " << seed;
+    plain_mm2 += std::pow(road.plain_mm(), 2);
+    own_mm2 += std::pow(road.own_mm(), 2);
+  }
+  EXPECT_LT(own_mm2, plain_mm2);
+}
+
+TEST(Road, ASkippedToothIsTakenOutOfTheReadingsAndNotFitted) {
+  for (const std::uint64_t seed : {1, 2}) {
+    const Road road = road_of({{Cause::tooth_skip, Where::left, 1.0, 16.0}}, 28, seed);
+    fmt::print("seed {}: plain {:.3f} mm, with causes {:.3f} mm\n", seed, road.plain_mm(), road.own_mm());
+    ASSERT_THAT(road.own.built_on, SizeIs(1)) << "seed " << seed;
+    EXPECT_EQ(road.own.built_on.front().cause.effect->id, "tooth_skip");
+    // A map of 34 readings of 0.4 mm is good to some 0.25 mm; 0.5 is twice that.
+    EXPECT_LT(road.own_mm(), 0.5) << "seed " << seed;
+    EXPECT_GT(road.plain_mm(), 1.0) << "seed " << seed;
+  }
+}
+
+std::string without_notes(const grid::CompensationMap& map) {
+  grid::MapContents contents = map.contents();
+  contents.notes.clear();
+  return grid::files::write_map(grid::CompensationMap(std::move(contents)));
+}
+
+TEST(Road, WhereNothingIsHiddenTheMapIsThePlainOneToTheByte) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Road road = road_of({}, 28, seed);
+    EXPECT_THAT(road.own.built_on, IsEmpty()) << "seed " << seed;
+    EXPECT_EQ(without_notes(road.own.fit.map), without_notes(road.plain.map)) << "seed " << seed;
+    EXPECT_THAT(road.own.fit.map.contents().notes.size(),
+                road.plain.map.contents().notes.size() + 1)
+        << "what was weighed is said";
+  }
+}
+
+TEST(Road, WhatMayBeTheTapeIsOfferedUntilItsOwnerDecides) {
+  const std::vector<Hidden> both = {{Cause::chain_pitch_error, Where::both, 0.002}};
+  const Road asked = road_of(both, 60, 1);
+  EXPECT_THAT(asked.own.built_on, IsEmpty());
+  ASSERT_THAT(asked.own.offered, SizeIs(1));
+  EXPECT_EQ(asked.own.offered.front().reason, OfferedCause::Reason::may_be_paper);
+  EXPECT_THAT(grid::diagnosis::in_words(asked.own),
+              ::testing::ElementsAre(::testing::HasSubstr("--accept-class")));
+  // With the yes it is weighed by what it gains, like any other.
+  const Road accepted = road_of(both, 60, 1, true);
+  for (const OfferedCause& offered : accepted.own.offered)
+    EXPECT_EQ(offered.reason, OfferedCause::Reason::gains_nothing);
+}
+
+TEST(Road, ATapeThatIsOffAlongOneAxisChangesNoMap) {
+  const Road road = road_of({{Cause::tape_scale, Where::x, 0.0015}}, 60, 1);
+  EXPECT_THAT(road.own.built_on, IsEmpty());
+  ASSERT_THAT(road.own.offered, Not(IsEmpty()));
+  EXPECT_EQ(road.own.offered.front().reason, OfferedCause::Reason::is_paper);
+}
+
+TEST(Road, BeyondWhatWasMeasuredTheLargerOfTheTwoErrorsIsStated) {
+  const Road road = road_of({{Cause::chain_pitch_error, Where::left, 0.0015}}, 60, 1);
+  ASSERT_THAT(road.own.built_on, Not(IsEmpty()));
+  const interp::Rectangle& domain = road.own.fit.map.contents().domain;
+  int beyond = 0;
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const model::MarkPoint mark{domain.x_min + share * domain.width(), domain.y_max};
+    const auto plain = road.plain.map.query(mark);
+    const auto own = road.own.fit.map.query(mark);
+    if (!plain || !own || own->status != grid::MapStatus::extrapolated) continue;
+    ++beyond;
+    // The factor is of a raster of the domain, on which these places lie; rounding alone differs.
+    EXPECT_GE(own->tool_sigma_mm, plain->tool_sigma_mm * (1.0 - 1e-9)) << share;
+  }
+  EXPECT_GT(beyond, 0);
+  const std::string text = grid::files::write_map(road.own.fit.map);
+  EXPECT_EQ(grid::files::parse_map(text, "map.json").contents().sigma_factor_beyond,
+            road.own.fit.map.contents().sigma_factor_beyond);
+}
+
+}  // namespace
+}  // namespace chaintrue::sealed
