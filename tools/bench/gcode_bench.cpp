@@ -16,7 +16,7 @@
 
 #include "grid/files/grid_file.hpp"
 #include "grid/map/fit.hpp"
-#include "tools/gcode/compensation_target.hpp"
+#include "grid/map/map_in_frame.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/verifier.hpp"
 
@@ -29,7 +29,7 @@ struct Fitted {
       : map(grid::fit(grid::files::read_grid(CHAINTRUE_FIXTURES "/grids/seven_by_four.json").grid)
                 .value()),
         target(map),
-        machine(with_classic_controller(*stated_machine(map))),
+        machine(with_classic_controller(*grid::stated_machine(map))),
         kinematics(model::make_controller_kinematics(machine)),
         corrector(target, *kinematics, firmware(machine.controller.kind)) {}
 
@@ -39,7 +39,7 @@ struct Fitted {
   }
 
   grid::CompensationMap map;
-  CompensationTarget target;
+  grid::MapInFrame target;
   model::Machine machine;
   std::unique_ptr<const model::ControllerKinematics> kinematics;
   Corrector corrector;

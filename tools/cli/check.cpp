@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue check: a few new points tell whether a map still holds.
+/// chaintrue check: a few new points tell whether a map, or anchors, still hold.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "grid/belts/anchors_check.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/map_check.hpp"
-#include "tools/cli/check_anchors.hpp"
 #include "tools/cli/check_document.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
@@ -37,7 +37,7 @@ struct CheckCommand {
 
 /// A valid map says what it is good for; after re-zeroing, and where the points do not decide, a few
 /// more tell; a map that no longer holds is made anew.
-void say_next_of(const grid::MapCheck& check, const CheckCommand& command) {
+void say_next_of_map(const grid::Check& check, const CheckCommand& command) {
   if (check.is_valid_as_it_is()) {
     return say_next({"report", command.map, "--certificate", "-o", "certificate.html"});
   }
@@ -48,24 +48,46 @@ void say_next_of(const grid::MapCheck& check, const CheckCommand& command) {
   say_next({"plan", "--check", command.map, "-o", "check.csv"});
 }
 
-int check_the_map(const CheckCommand& command,
-                  const std::vector<InputFile>& files,
-                  const grid::CompensationMap& map) {
-  grid::Measured measured;
-  for (const InputFile& file : files)
-    measured.add(
-        load_measured(file, command.input, command.tape, MeasuredUse::check, map.machine()));
-  const auto check = grid::check_map(map, measured, shown_progress());
-  if (!check) {
-    fmt::print(stderr,
-               "{}: {}\n",
-               grid::files::name_in_messages(command.input.grid),
-               check.error().sentence);
-    return kBadInput;
+using CheckResult = tl::expected<grid::Check, grid::CheckFailure>;
+
+CheckResult check_of_map(const CheckCommand& command,
+                         const std::vector<InputFile>& files,
+                         const InputFile& map) {
+  return with_map(map, [&](const grid::CompensationMap& loaded) {
+    grid::Measured measured;
+    for (const InputFile& file : files)
+      measured.add(
+          load_measured(file, command.input, command.tape, MeasuredUse::check, loaded.machine()));
+    return grid::check_map(loaded, measured, shown_progress());
+  });
+}
+
+CheckResult check_of_anchors(const InputFile& belts, const InputFile& anchors) {
+  const grid::files::FittedAnchors loaded = load_anchors(anchors);
+  require_kind(belts,
+               {FileKind::belts},
+               "anchors are checked by what the machine has measured since; holes and belts "
+               "together are fitted (chaintrue fit BELTS --with HOLES)");
+  const grid::files::ReadBelts read = load_belts(belts, "a check");
+  return grid::check_anchors(loaded.fit, read.belts);
+}
+
+void write_check(const grid::Check& check, const CheckCommand& command, bool of_belts) {
+  if (command.json) {
+    write_output(command.output,
+                 of_belts ? grid::files::write_anchors_check(check)
+                          : grid::files::write_map_check(check));
+    return;
   }
-  write_output(command.output, command.json ? grid::files::write_check(*check) : report::render_text(check_document(*check)));
-  say_next_of(*check, command);
-  return check->is_valid_as_it_is() ? kDone : kCheckFailed;
+  write_output(command.output,
+               report::render_text(of_belts ? anchors_check_document(check)
+                                            : map_check_document(check)));
+}
+
+/// Anchors that hold have a report; those that do not are diagnosed.
+void say_next_of_anchors(const grid::Check& check, const CheckCommand& command) {
+  if (check.is_valid_as_it_is()) return say_next({"report", command.map, "-o", "anchors.html"});
+  say_next({"diagnose", command.input.grid, "-o", "diagnosis.json"});
 }
 
 int run_check(Verb verb, const CheckCommand& command) {
@@ -79,10 +101,19 @@ int run_check(Verb verb, const CheckCommand& command) {
     if (file.kind == FileKind::holes && !of_belts) facts |= facts::holes;
   }
   refuse_what_does_nothing(verb, facts);
-  if (of_belts) return check_the_anchors({map, files.front(), command.output, command.json});
-  return with_map(map, [&](const grid::CompensationMap& loaded) {
-    return check_the_map(command, files, loaded);
-  });
+  const CheckResult check =
+      of_belts ? check_of_anchors(files.front(), map) : check_of_map(command, files, map);
+  if (!check) {
+    fmt::print(stderr, "{}: {}\n", files.front().name, check.error().sentence);
+    return kBadInput;
+  }
+  write_check(*check, command, of_belts);
+  if (of_belts) {
+    say_next_of_anchors(*check, command);
+  } else {
+    say_next_of_map(*check, command);
+  }
+  return check->is_valid_as_it_is() ? kDone : kCheckFailed;
 }
 
 }  // namespace

@@ -25,7 +25,6 @@
 #include "tools/cli/square_program.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/gcode/compensation_target.hpp"
 
 namespace chaintrue::cli {
 namespace {
@@ -81,7 +80,7 @@ tl::expected<model::CutSquare, SquareRefusal> by_map(const SquareOptions& option
                                                      const model::SquareTask& task,
                                                      const grid::CompensationMap& map) {
   const auto believed = options.controller_machine.empty()
-                            ? gcode::stated_machine(map)
+                            ? grid::stated_machine(map)
                             : read_machine_input(options.controller_machine);
   if (!believed) {
     throw files::InputError({{options.map,

@@ -37,7 +37,7 @@ const grid::CompensationMap& measured_map(const std::string& fixtures) {
 
 Shop::Shop(const grid::CompensationMap& map, model::ControllerKind kind)
     : target_(map),
-      machine_(with_controller(*gcode::stated_machine(map), kind)),
+      machine_(with_controller(*grid::stated_machine(map), kind)),
       kinematics_(model::make_controller_kinematics(machine_)),
       corrector_(target_, *kinematics_, gcode::firmware(kind)),
       workshop_(workshop(map, *kinematics_, kind)) {}
