@@ -5,6 +5,50 @@
 
 namespace chaintrue::model {
 
+std::vector<MechanismChange> Mechanism::possible_changes() const {
+  std::vector<MechanismChange> changes;
+  MechanismChange all{"zero", "all", true, kChangePriors.both_zeros};
+  std::vector<MechanismChange> others;
+  for (std::size_t k = 0; k < parameters().size(); ++k) {
+    const MechanismParameter& parameter = parameters()[k];
+    MechanismChange one{parameter.set_by_zeroing ? "zero" : "parameter",
+                        std::string(parameter.name),
+                        parameter.set_by_zeroing};
+    one.quantities.push_back({.kind = ChangedQuantity::Kind::parameter,
+                              .parameter = k,
+                              .sigma = parameter.prior_sigma.value_or(kParameterShiftSigma)});
+    if (parameter.set_by_zeroing) all.quantities.push_back(one.quantities.front());
+    (parameter.set_by_zeroing ? changes : others).push_back(std::move(one));
+  }
+  for (MechanismChange& zero : changes) {
+    zero.prior =
+        (kChangePriors.one_zero + kChangePriors.tooth) / static_cast<double>(changes.size());
+  }
+  if (changes.size() > 1) changes.push_back(std::move(all));
+  for (MechanismChange& other : others) {
+    other.prior =
+        (kChangePriors.motors + kChangePriors.pitch) / static_cast<double>(others.size());
+    changes.push_back(std::move(other));
+  }
+  return changes;
+}
+
+tl::expected<ChainLengths, MechanismFailure> Mechanism::first_lengths(
+    const ToolPosition& position) const {
+  const auto at = predict(position, {}, Derivatives::by_position);
+  if (!at) return tl::unexpected(at.error());
+  return ChainLengths{at->lengths_mm[0], at->lengths_mm[1]};
+}
+
+tl::expected<ToolPosition, MechanismFailure> Mechanism::locate_by_first(
+    ChainLengths lengths) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(this->lengths().size()));
+  all.head<2>() << lengths.left_mm, lengths.right_mm;
+  std::vector<bool> counting(static_cast<std::size_t>(all.size()), false);
+  counting[0] = counting[1] = true;
+  return locate_by_newton(*this, all, {}, extent().centre(), counting);
+}
+
 tl::expected<LengthsPrediction, MechanismFailure> predict(const Mechanism& mechanism,
                                                           const ToolPosition& position,
                                                           const MechanismVisit& visit,

@@ -33,6 +33,7 @@
 
 #include "model/effects/effect.hpp"
 #include "model/machine.hpp"
+#include "model/mechanism_change.hpp"
 
 namespace chaintrue::model {
 
@@ -49,6 +50,8 @@ struct MechanismParameter {
   std::optional<double> stated;  ///< empty: nobody has stated it
   /// One sigma of what was stated; empty: nothing is known beforehand.
   std::optional<double> prior_sigma;
+  /// Setting the machine's zeros anew sets it.
+  bool set_by_zeroing = false;
 };
 
 /// How the tool came to a position. Vectors have an entry for each length, or none.
@@ -73,6 +76,7 @@ struct LengthsPrediction {
 struct MechanismFailure {
   std::string_view name;      ///< stable, for programs: "outside_verticals"
   std::string_view sentence;  ///< for a person
+  friend bool operator==(const MechanismFailure&, const MechanismFailure&) = default;
 };
 
 /// Positions that may be sampled: the bed, or the inside of a frame.
@@ -94,7 +98,8 @@ class Mechanism {
 
   /// One word for it: "chains", "belts".
   [[nodiscard]] virtual std::string_view kind() const = 0;
-  /// Words for its lengths, in the order of every vector of lengths: left, right.
+  /// Words for its lengths, in the order of every vector of lengths: left, right. The first two place
+  /// the tool: they are what a controller pays out for a command.
   [[nodiscard]] virtual std::span<const std::string_view> lengths() const = 0;
   [[nodiscard]] virtual std::span<const MechanismParameter> parameters() const = 0;
   /// theta, in the order of parameters(); 0 where nothing is stated yet.
@@ -126,11 +131,23 @@ class Mechanism {
   /// Of more than two lengths the position with the least sum of squares of what they miss.
   [[nodiscard]] virtual tl::expected<ToolPosition, MechanismFailure> locate(
       const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const = 0;
+  /// The first two lengths of predict(), of a machine at rest: without a visit.
+  [[nodiscard]] virtual tl::expected<ChainLengths, MechanismFailure> first_lengths(
+      const ToolPosition& position) const;
+  /// Where the tool is when these are the first two: the inverse of first_lengths(), 1e-9 mm.
+  [[nodiscard]] virtual tl::expected<ToolPosition, MechanismFailure> locate_by_first(
+      ChainLengths lengths) const;
   /// Where a mark truly is that bears these numbers: its effects of the paper taken out.
   [[nodiscard]] virtual ToolPosition place_of_mark(const ToolPosition& written) const {
     return written;
   }
+  /// What may have changed since it was calibrated. Where nothing is said: the zeros, all that
+  /// zeroing sets or one of it, or one of the other parameters.
+  [[nodiscard]] virtual std::vector<MechanismChange> possible_changes() const;
 };
+
+/// One sigma of how far a parameter has moved that nothing is known of beforehand, in its own unit.
+inline constexpr double kParameterShiftSigma = 5.0;
 
 /// (1) at other values of the parameters.
 [[nodiscard]] tl::expected<LengthsPrediction, MechanismFailure> predict(

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "grid/precondition.hpp"
+#include "model/belts/belt_mechanism.hpp"
+#include "model/calibration/sheet_placement.hpp"
 
 namespace chaintrue::grid {
 
@@ -91,6 +93,163 @@ model::SheetPlacement laid(const std::vector<MarkPoint>& from, const std::vector
   return sheet;
 }
 
+/// Places that the sheet is laid by.
+struct Reference {
+  BedPoint commanded;
+  double left_mm = 0.0;   ///< level span of the top left belt
+  double right_mm = 0.0;  ///< of the top right one
+};
+
+/// (1) of one set of unknowns, without the machine.
+class BeltSheet final : public SheetInFrame {
+ public:
+  double factor = 1.0;
+  FramePoint centre;
+  std::shared_ptr<const ToolDisplacement> displacement;  ///< may be null
+  model::SheetPlacement sheet;
+
+  [[nodiscard]] BedPoint on_sheet(model::ToolPosition place) const override {
+    MarkPoint raw{factor * (place.x_mm - centre.x_mm), factor * (place.y_mm - centre.y_mm)};
+    if (displacement) {
+      const Eigen::Vector2d moved = displacement->at(raw);
+      raw.x_mm += moved.x();
+      raw.y_mm += moved.y();
+    }
+    return sheet.to_bed(raw);
+  }
+
+  [[nodiscard]] model::ToolPosition in_frame(BedPoint on_sheet) const override {
+    // Each round takes the error down to the displacement's slope, a few thousandths of it.
+    constexpr int kMostRounds = 40;
+    constexpr double kConvergedMm = 1e-10;
+    const MarkPoint there = sheet.to_mark(on_sheet);
+    MarkPoint raw = there;
+    for (int round = 0; displacement && round < kMostRounds; ++round) {
+      const Eigen::Vector2d by = displacement->at(raw);
+      const MarkPoint next{there.x_mm - by.x(), there.y_mm - by.y()};
+      const double moved = std::hypot(next.x_mm - raw.x_mm, next.y_mm - raw.y_mm);
+      raw = next;
+      if (moved < kConvergedMm) break;
+    }
+    return {centre.x_mm + raw.x_mm / factor, centre.y_mm + raw.y_mm / factor};
+  }
+
+  [[nodiscard]] double own_variance_mm2(BedPoint on_sheet) const override {
+    return displacement ? displacement->own_variance_mm2(sheet.to_mark(on_sheet)) : 0.0;
+  }
+};
+
+/// What a fit says of where the tool is, for any values of its unknowns.
+class Placing {
+ public:
+  Placing(const BeltsFit& fit, const HolesBesideBelts* holes, model::BeltMachine in_force)
+      : in_force_(std::move(in_force)) {
+    if (holes != nullptr) {
+      displacement_ = holes->displacement;
+      by_edges_ = holes->sheet;
+      refer_to_holes(*holes);
+    } else {
+      refer_to_places(fit);
+    }
+  }
+
+  /// `lengths` is what the mechanism's lengths count.
+  [[nodiscard]] PlacedMechanism at(const Eigen::VectorXd& unknowns,
+                                   model::BeltLengths lengths) const {
+    model::BeltMachine machine = belts::with_anchors(in_force_, unknowns.head<kAnchorUnknowns>());
+    auto sheet = std::make_shared<BeltSheet>();
+    sheet->factor = std::exp(unknowns[kAnchorUnknowns]);
+    sheet->centre = model::centre_of(in_force_);
+    if (displacement_) {
+      DisplacementParts parts = *displacement_;
+      parts.at_mm = unknowns.tail(parts.at_mm.size());
+      sheet->displacement = std::make_shared<const ToolDisplacement>(std::move(parts));
+    }
+    lay(machine, *sheet);
+    machine.lengths = lengths;
+    return {model::make_belt_mechanism(machine), std::move(sheet)};
+  }
+
+  [[nodiscard]] std::vector<MarkPoint> measured() const {
+    std::vector<MarkPoint> points;
+    for (const Reference& reference : references_)
+      points.push_back(model::identity_placement(reference.commanded));
+    return points;
+  }
+
+ private:
+  void refer_to_holes(const HolesBesideBelts& holes) {
+    for (const BeltHole& hole : holes.holes) {
+      const FramePoint meant = model::to_frame(in_force_, hole.commanded);
+      references_.push_back({hole.commanded,
+                             span_mm(in_force_, Belt::tl, meant),
+                             span_mm(in_force_, Belt::tr, meant)});
+    }
+  }
+
+  void refer_to_places(const BeltsFit& fit) {
+    const FramePoint centre = model::centre_of(in_force_);
+    for (const FittedPlace& place : fit.places) {
+      const double left = span_mm(fit.machine, Belt::tl, place.at);
+      const double right = span_mm(fit.machine, Belt::tr, place.at);
+      // Where the controller took the tool to be.
+      const auto believed = end_of_spans(in_force_, left, right);
+      if (!believed) continue;
+      references_.push_back({{(believed->x_mm - centre.x_mm) / in_force_.scale_x,
+                              (believed->y_mm - centre.y_mm) / in_force_.scale_y},
+                             left,
+                             right});
+    }
+  }
+
+  void lay(const model::BeltMachine& machine, BeltSheet& placed) const {
+    if (by_edges_) {
+      placed.sheet = {by_edges_->x(), by_edges_->y(), by_edges_->z()};
+      return;
+    }
+    std::vector<MarkPoint> from;
+    std::vector<BedPoint> to;
+    for (const Reference& reference : references_) {
+      const auto place = end_of_spans(machine, reference.left_mm, reference.right_mm);
+      if (!place) continue;
+      from.push_back(model::identity_placement(placed.on_sheet({place->x_mm, place->y_mm})));
+      to.push_back(reference.commanded);
+    }
+    if (from.size() >= 2) placed.sheet = laid(from, to);
+  }
+
+  model::BeltMachine in_force_;
+  std::vector<Reference> references_;
+  std::optional<DisplacementParts> displacement_;
+  std::optional<Eigen::Vector3d> by_edges_;
+};
+
+MechanismMap map_of(const BeltsFit& fit,
+                    const HolesBesideBelts* holes,
+                    const model::BeltMachine& in_force) {
+  using model::BeltLengths;
+  const Placing placing(fit, holes, in_force);
+  const Eigen::VectorXd unknowns = unknowns_of(fit, holes);
+  // Level spans: how a belt slants is no news of an error.
+  MechanismSpread spread{placing.at(unknowns, BeltLengths::span), {}};
+  const Eigen::MatrixXd covariance = covariance_of(fit, holes);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+  for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
+    const double variance = eigen.eigenvalues()[i];
+    // Below this a direction adds less than rounding to what the others say.
+    if (!(variance > 1e-12 * eigen.eigenvalues().maxCoeff())) continue;
+    spread.others.push_back(placing.at(
+        unknowns + std::sqrt(variance) * eigen.eigenvectors().col(i), BeltLengths::span));
+  }
+  return {placing.at(unknowns, BeltLengths::belt),
+          std::move(spread),
+          MeasuredArea(placing.measured(), domain_of(in_force))};
+}
+
+model::BeltMachine commanded_by(const BeltsFit& fit, const HolesBesideBelts* holes) {
+  return paying_out(holes != nullptr ? holes->machine : machine_in_force(fit));
+}
+
 }  // namespace
 
 model::BeltMachine machine_in_force(const BeltsFit& fit) {
@@ -108,148 +267,15 @@ model::BeltMachine paying_out(model::BeltMachine machine) {
   return machine;
 }
 
-BedPoint BeltMap::Placing::on_sheet(FramePoint place) const {
-  MarkPoint raw{factor * (place.x_mm - centre.x_mm), factor * (place.y_mm - centre.y_mm)};
-  if (displacement) {
-    const Eigen::Vector2d beside = displacement->at(raw);
-    raw.x_mm += beside.x();
-    raw.y_mm += beside.y();
-  }
-  return sheet.to_bed(raw);
-}
-
-FramePoint BeltMap::Placing::in_frame(BedPoint on_sheet) const {
-  // Each round takes the error down to the displacement's slope, a few thousandths of it.
-  constexpr int kMostRounds = 40;
-  constexpr double kConvergedMm = 1e-10;
-  const MarkPoint there = sheet.to_mark(on_sheet);
-  MarkPoint raw = there;
-  for (int round = 0; displacement && round < kMostRounds; ++round) {
-    const Eigen::Vector2d beside = displacement->at(raw);
-    const MarkPoint next{there.x_mm - beside.x(), there.y_mm - beside.y()};
-    const double moved = std::hypot(next.x_mm - raw.x_mm, next.y_mm - raw.y_mm);
-    raw = next;
-    if (moved < kConvergedMm) break;
-  }
-  return {centre.x_mm + raw.x_mm / factor, centre.y_mm + raw.y_mm / factor};
-}
-
-BeltMap::Placing BeltMap::placing(const Eigen::VectorXd& unknowns) const {
-  Placing result;
-  result.machine = belts::with_anchors(in_force_, unknowns.head<kAnchorUnknowns>());
-  result.factor = std::exp(unknowns[kAnchorUnknowns]);
-  result.centre = model::centre_of(in_force_);
-  if (displacement_) {
-    DisplacementParts parts = *displacement_;
-    parts.at_mm = unknowns.tail(parts.at_mm.size());
-    result.displacement = std::make_shared<const ToolDisplacement>(std::move(parts));
-  }
-  lay(result);
-  return result;
-}
-
-void BeltMap::lay(Placing& placing) const {
-  if (by_edges_) {
-    placing.sheet = {by_edges_->x(), by_edges_->y(), by_edges_->z()};
-    return;
-  }
-  placing.sheet = {};
-  std::vector<MarkPoint> from;
-  std::vector<BedPoint> to;
-  for (const Reference& reference : references_) {
-    const auto place = end_of_spans(placing.machine, reference.left_mm, reference.right_mm);
-    if (!place) continue;
-    from.push_back(model::identity_placement(placing.on_sheet(*place)));
-    to.push_back(reference.commanded);
-  }
-  if (from.size() >= 2) placing.sheet = laid(from, to);
-}
-
 BeltMap::BeltMap(const BeltsFit& fit, const HolesBesideBelts* holes)
-    : in_force_(paying_out(holes != nullptr ? holes->machine : machine_in_force(fit))) {
-  const FramePoint centre = model::centre_of(in_force_);
-  if (holes != nullptr) {
-    displacement_ = holes->displacement;
-    by_edges_ = holes->sheet;
-    for (const BeltHole& hole : holes->holes) {
-      const FramePoint meant = model::to_frame(in_force_, hole.commanded);
-      references_.push_back({hole.commanded,
-                             span_mm(in_force_, Belt::tl, meant),
-                             span_mm(in_force_, Belt::tr, meant)});
-    }
-  } else {
-    for (const FittedPlace& place : fit.places) {
-      const double left = span_mm(fit.machine, Belt::tl, place.at);
-      const double right = span_mm(fit.machine, Belt::tr, place.at);
-      // Where the controller took the tool to be.
-      const auto believed = end_of_spans(in_force_, left, right);
-      if (!believed) continue;
-      references_.push_back({{(believed->x_mm - centre.x_mm) / in_force_.scale_x,
-                              (believed->y_mm - centre.y_mm) / in_force_.scale_y},
-                             left,
-                             right});
-    }
-  }
-  const Eigen::VectorXd unknowns = unknowns_of(fit, holes);
-  best_ = placing(unknowns);
-  const Eigen::MatrixXd covariance = covariance_of(fit, holes);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-  for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
-    const double variance = eigen.eigenvalues()[i];
-    // Below this a direction adds less than rounding to what the others say.
-    if (!(variance > 1e-12 * eigen.eigenvalues().maxCoeff())) continue;
-    others_.push_back(placing(unknowns + std::sqrt(variance) * eigen.eigenvectors().col(i)));
-  }
-  std::vector<MarkPoint> measured;
-  for (const Reference& reference : references_)
-    measured.push_back(model::identity_placement(reference.commanded));
-  area_ = std::make_shared<const MeasuredArea>(measured, domain_of(in_force_));
-}
+    : MechanismMap(map_of(fit, holes, commanded_by(fit, holes))),
+      in_force_(commanded_by(fit, holes)),
+      knows_scale_(fit.scale.has_value()) {}
 
-tl::expected<model::ChainLengths, BeltFailure> BeltMap::lengths(BedPoint sheet) const {
-  const FramePoint place = best_.in_frame(sheet);
-  const auto left = model::reading_at(best_.machine, Belt::tl, place);
-  if (!left) return tl::unexpected(left.error());
-  const auto right = model::reading_at(best_.machine, Belt::tr, place);
-  if (!right) return tl::unexpected(right.error());
-  return model::ChainLengths{left->length_mm, right->length_mm};
-}
-
-tl::expected<BedPoint, BeltFailure> BeltMap::tool(model::ChainLengths lengths) const {
-  const auto place = model::place_of_upper(best_.machine, lengths.left_mm, lengths.right_mm);
-  if (!place) return tl::unexpected(place.error());
-  return best_.on_sheet(*place);
-}
-
-model::ChainLengths BeltMap::sigma(BedPoint sheet) const {
-  const FramePoint place = best_.in_frame(sheet);
-  model::ChainLengths variance;
-  for (const Placing& other : others_) {
-    const FramePoint there = other.in_frame(sheet);
-    variance.left_mm += std::pow(
-        span_mm(other.machine, Belt::tl, there) - span_mm(best_.machine, Belt::tl, place), 2);
-    variance.right_mm += std::pow(
-        span_mm(other.machine, Belt::tr, there) - span_mm(best_.machine, Belt::tr, place), 2);
-  }
-  const double own =
-      best_.displacement ? best_.displacement->own_variance_mm2(best_.sheet.to_mark(sheet)) : 0.0;
-  return {std::sqrt(variance.left_mm + own), std::sqrt(variance.right_mm + own)};
-}
-
-double BeltMap::tool_sigma_mm(BedPoint sheet) const {
-  const FramePoint place = best_.in_frame(sheet);
-  const double left = span_mm(best_.machine, Belt::tl, place);
-  const double right = span_mm(best_.machine, Belt::tr, place);
-  double variance = 0.0;
-  for (const Placing& other : others_) {
-    const auto there = end_of_spans(other.machine, left, right);
-    if (!there) continue;
-    const BedPoint tool = other.on_sheet(*there);
-    variance += std::pow(tool.x_mm - sheet.x_mm, 2) + std::pow(tool.y_mm - sheet.y_mm, 2);
-  }
-  const double own =
-      best_.displacement ? best_.displacement->own_variance_mm2(best_.sheet.to_mark(sheet)) : 0.0;
-  return std::sqrt(variance + 2.0 * own);
+tl::expected<LengthsAnswer, MapFailure> BeltMap::query(BedPoint point) const {
+  auto answer = MechanismMap::query(point);
+  if (answer && !knows_scale_) answer->tool_sigma_mm.reset();
+  return answer;
 }
 
 }  // namespace chaintrue::grid

@@ -7,7 +7,6 @@ namespace chaintrue::grid::files {
 namespace {
 
 /// What a check of a map and one of anchors both say.
-template <class Check>
 Json verdict_of(const Check& check) {
   Json json = headed(kCheckFormat);
   json["verdict"] = std::string(name(check.verdict));
@@ -22,9 +21,9 @@ Json verdict_of(const Check& check) {
   return json;
 }
 
-Json per_side(const model::PerSide<double>& value, const model::PerSide<double>& sigma) {
-  return Json{{"left", {{"value", value.left}, {"sigma", sigma.left}}},
-              {"right", {{"value", value.right}, {"sigma", sigma.right}}}};
+Json per_side(const QuantityFound& left, const QuantityFound& right) {
+  return Json{{"left", {{"value", left.value}, {"sigma", left.sigma}}},
+              {"right", {{"value", right.value}, {"sigma", right.sigma}}}};
 }
 
 Json hypothesis_of(const CheckHypothesis& hypothesis) {
@@ -35,24 +34,29 @@ Json hypothesis_of(const CheckHypothesis& hypothesis) {
   json["probability"] = hypothesis.probability;
   if (hypothesis.what == "tooth") json["teeth"] = hypothesis.count;
   if (hypothesis.what == "bad_point") json["point"] = hypothesis.count;
+  return json;
+}
+
+Json hypothesis_of_map(const CheckHypothesis& hypothesis) {
+  Json json = hypothesis_of(hypothesis);
   if (hypothesis.what == "zero" || hypothesis.what == "tooth" ||
       hypothesis.what == "zeros_and_pitch")
-    json["zero_shift_mm"] = per_side(hypothesis.zero_mm, hypothesis.zero_sigma_mm);
+    json["zero_shift_mm"] = per_side(hypothesis.added(0), hypothesis.added(1));
   if (hypothesis.what == "pitch" || hypothesis.what == "zeros_and_pitch")
-    json["elongation"] = per_side(hypothesis.elongation, hypothesis.elongation_sigma);
+    json["elongation"] = per_side(hypothesis.elongation(0), hypothesis.elongation(1));
   return json;
 }
 
 }  // namespace
 
-std::string write_check(const MapCheck& check) {
+std::string write_map_check(const Check& check) {
   Json json = verdict_of(check);
   if (check.settings_have_changed) json["settings_have_changed"] = true;
   if (!check.notes.empty()) json["notes"] = check.notes;
-  json["new_zero"] = {{"left_mm", check.new_zero.left_mm}, {"right_mm", check.new_zero.right_mm}};
+  json["new_zero"] = {{"left_mm", check.new_zero_mm.at(0)}, {"right_mm", check.new_zero_mm.at(1)}};
   json["hypotheses"] = Json::array();
   for (const CheckHypothesis& hypothesis : check.hypotheses)
-    json["hypotheses"].push_back(hypothesis_of(hypothesis));
+    json["hypotheses"].push_back(hypothesis_of_map(hypothesis));
   json["residuals"] = Json::array();
   for (const CheckResidual& residual : check.residuals) {
     json["residuals"].push_back({{"what", residual.what},
@@ -62,22 +66,20 @@ std::string write_check(const MapCheck& check) {
   return print_json(json);
 }
 
-std::string write_check(const AnchorsCheck& check) {
+std::string write_anchors_check(const Check& check) {
   Json json = verdict_of(check);
   json["hypotheses"] = Json::array();
-  for (const AnchorsHypothesis& h : check.hypotheses) {
-    Json one;
-    one["what"] = h.what;
-    one["side"] = h.belt ? Json(std::string(model::name(*h.belt))) : Json(nullptr);
-    one["verdict"] = std::string(name(h.verdict));
-    one["probability"] = h.probability;
-    if (h.what == "bad_point") one["point"] = h.point;
-    if (h.what == "zero" || h.what == "anchor") one["size_mm"] = h.size_mm;
+  for (const CheckHypothesis& hypothesis : check.hypotheses) {
+    Json one = hypothesis_of(hypothesis);
+    if (hypothesis.what == "zero" || hypothesis.what == "anchor")
+      one["size_mm"] = hypothesis.size();
     json["hypotheses"].push_back(std::move(one));
   }
   json["places"] = Json::array();
-  for (const CheckedPlace& place : check.places)
-    json["places"].push_back({{"rms_mm", place.rms_mm}, {"sigma_mm", place.sigma_mm}});
+  for (const CheckUnit& place : check.units) {
+    json["places"].push_back({{"rms_mm", place.rms_mm(check.residuals)},
+                              {"sigma_mm", place.sigma_mm(check.residuals)}});
+  }
   return print_json(json);
 }
 

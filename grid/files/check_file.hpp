@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// What a check of a map found, as JSON, for scripts. Written only. Same check, same bytes.
+/// What a check found, as JSON, for scripts. Written only. Same check, same bytes.
 #pragma once
 
 #include <string>
 
-#include "grid/belts/anchors_check.hpp"
-#include "grid/map/map_check.hpp"
+#include "grid/map/check.hpp"
 
 namespace chaintrue::grid::files {
 
-[[nodiscard]] std::string write_check(const AnchorsCheck& check);
-[[nodiscard]] std::string write_check(const MapCheck& check);
+/// Of a compensation map: zeros and elongations by chain, a residual each.
+[[nodiscard]] std::string write_map_check(const Check& check);
+/// Of anchors: the size of what has changed, a place each.
+[[nodiscard]] std::string write_anchors_check(const Check& check);
 
 }  // namespace chaintrue::grid::files

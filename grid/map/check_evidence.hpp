@@ -1,16 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How probable each change is that a check knows, by map_check.hpp (1). Private to grid/map.
+/// The evidence of new readings for each hypothesis of what has changed, whatever hangs and however
+/// it was read. Private to grid.
+///
+/// Each hypothesis predicts the residuals r (measured less what was calibrated) with a covariance
+///
+///   K + X P X',   K = N + S S' + F F' of reading_covariance.hpp                              (1)
+///
+/// X is what the changed quantities do to r, P their covariance beforehand. F F' is what the
+/// calibration does not know of itself. Where the size of the noise is known
+///
+///   log p = -1/2 log|V| - 1/2 r' V^-1 r,                V = K + X P X'                        (2)
+///
+/// and where it was found from nu checks, K being known up to its factor,
+///
+///   log p = -1/2 log|V| - (n + nu)/2 log(1 + r' V^-1 r / nu)                                  (3)
+///
+/// Probabilities follow by Bayes' theorem from those stated beforehand. Of a quantity that only grows
+/// half of its Gaussian counts (2 Phi(mean / sigma) of its posterior).
+///
+/// Sources: D. MacKay, Information Theory, Inference, and Learning Algorithms (2003), chapter 28, for
+/// evidences; A. O'Hagan and J. Forster, Bayesian Inference (2004), section 11.3, for (3).
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <limits>
+#include <string>
 #include <vector>
 
-#include "grid/map/check_readings.hpp"
+#include "grid/map/check.hpp"
+#include "grid/map/reading_covariance.hpp"
 
 namespace chaintrue::grid {
 
-/// Every hypothesis that the readings allow for, with its probability; these sum to one. The order
-/// does not depend on the residuals.
+/// Of N places with m lengths each.
+struct CheckReadings {
+  Eigen::VectorXd residual_mm;   ///< n
+  ReadingCovariance covariance;  ///< K
+  /// nu; infinite: the noise is known.
+  double noise_dof = std::numeric_limits<double>::infinity();
+  /// n x m N: by a change of the readings of each length at each place.
+  Eigen::SparseMatrix<double> by_length;
+  std::size_t lengths = 2;       ///< m
+  Eigen::VectorXd lengths_mm;    ///< m N
+  std::vector<double> zero_mm;   ///< as calibrated, m; empty where zeros are no numbers
+  Eigen::MatrixXd by_parameter;  ///< n x p; no columns where nothing is known of parameters
+  std::vector<model::MechanismChange> changes;
+  std::vector<CheckUnit> units;    ///< in the order of the rows, as `covariance` has them
+  std::vector<std::string> names;  ///< of the rows
+  std::vector<std::string> notes;  ///< what was taken out of the readings, and what could not be
+};
+
+/// In the order nothing, the mechanism's changes, unknown, each unit bad by itself.
 [[nodiscard]] std::vector<CheckHypothesis> weighed_hypotheses(const CheckReadings& readings);
 
 }  // namespace chaintrue::grid

@@ -11,14 +11,14 @@ namespace chaintrue::grid {
 namespace {
 
 /// (1)
-double chi_squared(const MapCheck& check) {
+double chi_squared(const Check& check) {
   double sum = 0.0;
   for (const CheckResidual& one : check.residuals)
     sum += std::pow(one.residual_mm / one.sigma_mm, 2);
   return sum;
 }
 
-double rms_mm(const MapCheck& check) {
+double rms_mm(const Check& check) {
   double sum = 0.0;
   for (const CheckResidual& one : check.residuals) sum += one.residual_mm * one.residual_mm;
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(check.residuals.size(), 1)));
@@ -29,7 +29,7 @@ double rms_mm(const MapCheck& check) {
 std::optional<ChangedSettings> changed_settings(const CompensationMap& map,
                                                 const Measured& measured,
                                                 const model::Controller& others,
-                                                const MapCheck& found) {
+                                                const Check& found) {
   if (found.is_valid_as_it_is() || map.machine() == nullptr) return std::nullopt;
   auto check = check_map(map_for_settings(map, others, ""), commanded_with(measured, others));
   if (!check || !check->is_valid_as_it_is() ||

@@ -22,7 +22,7 @@ namespace chaintrue::grid {
 inline constexpr double kFarBetter = 18.4;
 
 struct ChangedSettings {
-  MapCheck check;           ///< of the map for the other settings, against the points
+  Check check;           ///< of the map for the other settings, against the points
   double as_it_is_mm = 0.0;  ///< rms of the residuals, settings of the map
   double with_these_mm = 0.0;
 };
@@ -32,6 +32,6 @@ struct ChangedSettings {
 [[nodiscard]] std::optional<ChangedSettings> changed_settings(const CompensationMap& map,
                                                               const Measured& measured,
                                                               const model::Controller& others,
-                                                              const MapCheck& found);
+                                                              const Check& found);
 
 }  // namespace chaintrue::grid

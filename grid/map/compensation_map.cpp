@@ -10,6 +10,8 @@
 #include <stdexcept>
 
 #include "grid/map/map_field.hpp"
+#include "model/calibration/setting.hpp"
+#include "model/chains/chain_mechanism.hpp"
 
 namespace chaintrue::grid {
 
@@ -17,14 +19,16 @@ using model::BedPoint;
 using model::ChainLengths;
 using model::MarkPoint;
 
+MapFailure::MapFailure(model::PoseFailure why) : MapFailure(model::mechanism_failure(why)) {}
+
 std::string explain(const MapFailure& failure) {
   switch (failure.reason) {
     case MapFailure::outside_map:
       return "the point is off the bed that was measured";
     case MapFailure::unreachable:
       return fmt::format("the chains cannot hold the sled there{}{}",
-                         failure.pose ? ": " : "",
-                         failure.pose ? model::explain(*failure.pose) : "");
+                         failure.cause ? ": " : "",
+                         failure.cause ? failure.cause->sentence : "");
     case MapFailure::not_converged:
       break;
   }
@@ -191,6 +195,16 @@ tl::expected<MarkPoint, MapFailure> CompensationMap::inverse(ChainLengths wanted
     }
   }
   return tl::unexpected(MapFailure::not_converged);
+}
+
+std::optional<model::Machine> stated_machine(const CompensationMap& map) {
+  if (map.machine() == nullptr) return std::nullopt;
+  model::Machine machine = *map.machine();
+  for (const SettingResult& result : map.contents().settings) {
+    if (!model::is_of_sheet(result.setting))
+      machine = model::with_setting(std::move(machine), result.setting, result.stated);
+  }
+  return machine;
 }
 
 }  // namespace chaintrue::grid

@@ -25,6 +25,7 @@
 
 #include "grid/estimation/residual_surface.hpp"
 #include "grid/map/lattice_residual.hpp"
+#include "grid/map/length_map.hpp"
 #include "grid/map/measured_area.hpp"
 #include "grid/observation/measured_grid.hpp"
 #include "interp/tensor_spline.hpp"
@@ -202,23 +203,6 @@ struct MapLengths {
 
 class MapField;
 
-/// Why there is no answer.
-struct MapFailure {
-  enum class Reason {
-    outside_map,    ///< off the domain, or refused
-    unreachable,    ///< no pose of the machine there
-    not_converged,  ///< the inverse did not settle
-  };
-  using enum Reason;
-  MapFailure(Reason why) : reason(why) {}  // NOLINT: most reasons are the whole answer
-  explicit MapFailure(model::PoseFailure why) : reason(unreachable), pose(why) {}
-
-  Reason reason;
-  std::optional<model::PoseFailure> pose;  ///< of `unreachable`
-  friend bool operator==(const MapFailure&, const MapFailure&) = default;
-};
-[[nodiscard]] std::string explain(const MapFailure& failure);
-
 /// Immutable, thread safe.
 class CompensationMap {
  public:
@@ -257,5 +241,10 @@ class CompensationMap {
   MeasuredArea area_;
   std::shared_ptr<const MapField> field_;
 };
+
+/// The machine that the controller believes in where a file does not say otherwise: the map's, with
+/// the settings as they were stated, not as they were calibrated. Empty for a map without a
+/// machine.
+[[nodiscard]] std::optional<model::Machine> stated_machine(const CompensationMap& map);
 
 }  // namespace chaintrue::grid

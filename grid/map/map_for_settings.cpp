@@ -21,19 +21,6 @@ void tell_of(const model::ControllerKinematics& controller, MapPoint& point) {
 
 }  // namespace
 
-std::optional<model::Machine> stated_machine(const CompensationMap& map) {
-  if (map.machine() == nullptr) return std::nullopt;
-  model::Machine machine = *map.machine();
-  for (const SettingResult& result : map.contents().settings) {
-    bool of_machine = false;
-    for (const model::Setting setting : model::kMachineSettings)
-      of_machine = of_machine || setting == result.setting;
-    if (of_machine)
-      machine = model::with_setting(std::move(machine), result.setting, result.stated);
-  }
-  return machine;
-}
-
 CompensationMap map_for_settings(const CompensationMap& map,
                                  const model::Controller& now,
                                  const std::string& note) {

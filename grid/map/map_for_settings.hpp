@@ -21,11 +21,6 @@
 
 namespace chaintrue::grid {
 
-/// The machine that the controller believes in where a file does not say otherwise: the map's, with
-/// the settings as they were stated, not as they were calibrated. Empty for a map without a
-/// machine.
-[[nodiscard]] std::optional<model::Machine> stated_machine(const CompensationMap& map);
-
 /// How far the tool was beyond its points with the settings as stated is told of `now`. `note` is
 /// added to the map's notes, unless it is empty. \throws std::invalid_argument for a map without a
 /// machine.

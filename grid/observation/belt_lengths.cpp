@@ -105,19 +105,27 @@ tl::expected<BeltLengthReadings::UnitLine, Unreachable> BeltLengthReadings::line
   const Eigen::MatrixXd by_position = at->by_position(rows, Eigen::all);
   const Eigen::MatrixXd by_parameter = at->by_parameter(rows, Eigen::all);
   const double variance = noise_.length_mm * noise_.length_mm;
+  Eigen::MatrixXd by_length =
+      Eigen::MatrixXd::Zero(with_parameters ? count : 0, at->lengths_mm.size());
+  for (Eigen::Index i = 0; i < by_length.rows(); ++i)
+    by_length(i, rows[static_cast<std::size_t>(i)]) = 1.0;
   if (own.known) {
     return UnitLine{
         at->lengths_mm(rows),
         by_parameter,
         variance * Eigen::MatrixXd::Identity(count, count) +
-            noise_.position_mm * noise_.position_mm * by_position * by_position.transpose()};
+            noise_.position_mm * noise_.position_mm * by_position * by_position.transpose(),
+        by_length,
+        at->lengths_mm};
   }
   const Eigen::MatrixXd q = by_position.householderQr().householderQ();
   const Eigen::MatrixXd checks = q.rightCols(count - 2).transpose();  // Q'
   const Eigen::VectorXd missing = own.lengths_mm(rows) - at->lengths_mm(rows);
   return UnitLine{-checks * missing,
                   checks * by_parameter,
-                  variance * Eigen::MatrixXd::Identity(count - 2, count - 2)};
+                  variance * Eigen::MatrixXd::Identity(count - 2, count - 2),
+                  with_parameters ? Eigen::MatrixXd(checks * by_length) : by_length,
+                  at->lengths_mm};
 }
 
 tl::expected<Eigen::VectorXd, Unreachable> BeltLengthReadings::predicted(const View& view) const {

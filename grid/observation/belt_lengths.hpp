@@ -81,18 +81,20 @@ class BeltLengthReadings final : public Observation {
   [[nodiscard]] const std::vector<LengthsAtPlace>& readings() const { return readings_; }
   /// The unit's place.
   [[nodiscard]] std::size_t place_of(std::size_t unit) const { return place_of_unit_.at(unit); }
-
- private:
-  /// A unit about a view: y - predicted, A and C of its rows.
+  /// A unit about a view: its part of predicted(), A and C, and what a mm more of each length at its
+  /// place does to its rows.
   struct UnitLine {
     Eigen::VectorXd predicted;
     Eigen::MatrixXd by_parameter;
     Eigen::MatrixXd covariance;
+    Eigen::MatrixXd by_length;   ///< rows x lengths; no rows without `with_parameters`
+    Eigen::VectorXd lengths_mm;  ///< f at the place, all lengths
   };
   [[nodiscard]] tl::expected<UnitLine, Unreachable> line_of(const View& view,
                                                             std::size_t unit,
                                                             bool with_parameters) const;
 
+ private:
   std::vector<LengthsAtPlace> readings_;
   std::vector<std::size_t> place_of_unit_;
   bool ordered_;

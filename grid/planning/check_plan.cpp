@@ -13,6 +13,7 @@
 
 #include "grid/map/check_readings.hpp"
 #include "grid/precondition.hpp"
+#include "model/chains/chain_mechanism.hpp"
 
 namespace chaintrue::grid {
 namespace {
@@ -57,10 +58,13 @@ class Separation {
     Eigen::MatrixXd k = covariance_(rows, rows);
     for (Eigen::Index i = 0; i < count; ++i) {
       for (Eigen::Index j = i % 2; j < count; j += 2)
-        k(i, j) += kZeroShiftSigmaMm * kZeroShiftSigmaMm;
+        k(i, j) += model::kZeroShiftSigmaMm * model::kZeroShiftSigmaMm;
     }
     const Eigen::LLT<Eigen::MatrixXd> factor(k);
-    const Eigen::MatrixXd grown = kPitchGrowthSigma * readings_.lengths_mm(rows, Eigen::all);
+    Eigen::MatrixXd grown = Eigen::MatrixXd::Zero(count, 2);
+    for (Eigen::Index i = 0; i < count; ++i)
+      grown(i, i % 2) =
+          model::kPitchGrowthSigma * readings_.lengths_mm[rows[static_cast<std::size_t>(i)]];
     const Eigen::MatrixXd white = factor.matrixL().solve(grown);
     return {white.col(0).squaredNorm(), white.col(1).squaredNorm()};
   }

@@ -186,4 +186,53 @@ tl::expected<ToolPosition, MechanismFailure> BeltMechanism::locate(
   return locate_by_newton(*this, lengths_mm, visit, {start->x_mm, start->y_mm});
 }
 
+tl::expected<ChainLengths, MechanismFailure> BeltMechanism::first_lengths(
+    const ToolPosition& position) const {
+  if (!machine_.anchors_known || !applied_.empty()) return Mechanism::first_lengths(position);
+  const auto left = reading_at(machine_, Belt::tl, {position.x_mm, position.y_mm});
+  if (!left) return tl::unexpected(mechanism_failure(left.error()));
+  const auto right = reading_at(machine_, Belt::tr, {position.x_mm, position.y_mm});
+  if (!right) return tl::unexpected(mechanism_failure(right.error()));
+  return ChainLengths{left->length_mm, right->length_mm};
+}
+
+tl::expected<ToolPosition, MechanismFailure> BeltMechanism::locate_by_first(
+    ChainLengths lengths) const {
+  if (!machine_.anchors_known || !applied_.empty()) return Mechanism::locate_by_first(lengths);
+  const auto place = place_of_upper(machine_, lengths.left_mm, lengths.right_mm);
+  if (!place) return tl::unexpected(mechanism_failure(place.error()));
+  return ToolPosition{place->x_mm, place->y_mm};
+}
+
+std::vector<MechanismChange> BeltMechanism::possible_changes() const {
+  const ChangePriors& prior = kChangePriors;
+  std::vector<MechanismChange> changes;
+  ChangedQuantity of_all{.lengths = {}, .sigma = kBeltZeroShiftMm};
+  for (const Belt belt : kBelts) {
+    const auto at = static_cast<std::size_t>(belt);
+    MechanismChange zero{"zero",
+                         std::string(kLengths[at]),
+                         true,
+                         (prior.one_zero + prior.tooth) / static_cast<double>(kBelts.size())};
+    zero.quantities.push_back({.lengths = {at}, .sigma = kBeltZeroShiftMm});
+    of_all.lengths.push_back(at);
+    changes.push_back(std::move(zero));
+  }
+  changes.push_back({"zero", "", true, prior.both_zeros, {of_all}});
+  for (const Belt belt : {Belt::tl, Belt::tr, Belt::br}) {
+    MechanismChange moved{"anchor",
+                          std::string(kLengths[static_cast<std::size_t>(belt)]),
+                          false,
+                          (prior.motors + prior.pitch) / 3.0};
+    for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
+      if (kCoordinates[i].belt != belt) continue;
+      moved.quantities.push_back({.kind = ChangedQuantity::Kind::parameter,
+                                  .parameter = i,
+                                  .sigma = kAnchorShiftMm});
+    }
+    changes.push_back(std::move(moved));
+  }
+  return changes;
+}
+
 }  // namespace chaintrue::model

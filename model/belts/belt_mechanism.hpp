@@ -47,6 +47,13 @@ class BeltMechanism final : public Mechanism {
       Derivatives wanted = Derivatives::by_position_and_parameter) const override;
   [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate(
       const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const override;
+  [[nodiscard]] tl::expected<ChainLengths, MechanismFailure> first_lengths(
+      const ToolPosition& position) const override;
+  [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate_by_first(
+      ChainLengths lengths) const override;
+  /// A belt, or all, counts from elsewhere; an anchor has moved. What the frame fixes of an anchor
+  /// cannot move: it shows as the others moving.
+  [[nodiscard]] std::vector<MechanismChange> possible_changes() const override;
 
   /// The machine with its values.
   [[nodiscard]] const BeltMachine& machine() const { return machine_; }
@@ -65,6 +72,11 @@ class BeltMechanism final : public Mechanism {
   std::vector<AppliedEffect> applied_;
   std::vector<belts::ResolvedBeltEffect> resolved_;
 };
+
+/// One sigma of what a belt's zero is off by after it jumped: a turn of the encoder is 44 mm, a tooth 2.
+inline constexpr double kBeltZeroShiftMm = 5.0;
+/// One sigma of how far an anchor that came loose has moved, in x and in y.
+inline constexpr double kAnchorShiftMm = 5.0;
 
 [[nodiscard]] std::shared_ptr<const BeltMechanism> make_belt_mechanism(
     const BeltMachine& machine, std::optional<double> anchor_sigma_mm = std::nullopt);

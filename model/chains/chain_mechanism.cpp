@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "model/calibration/setting.hpp"
@@ -17,10 +18,38 @@ constexpr std::array<std::string_view, 2> kLengths = {"left", "right"};
 std::vector<MechanismParameter> stated_parameters(const Machine& machine) {
   std::vector<MechanismParameter> parameters;
   for (const Setting setting : kMachineSettings) {
-    parameters.push_back(
-        {name(setting), "mm", stated_value(machine, setting), stated_sigma(machine, setting)});
+    parameters.push_back({name(setting),
+                          "mm",
+                          stated_value(machine, setting),
+                          stated_sigma(machine, setting),
+                          setting == Setting::chain_zero_left_mm ||
+                              setting == Setting::chain_zero_right_mm});
   }
   return parameters;
+}
+
+/// The chains that a word of `side` means.
+std::vector<std::size_t> chains_of(std::string_view side) {
+  if (side == "left") return {0};
+  if (side == "right") return {1};
+  return {0, 1};
+}
+
+/// Zeros shift independently of each other.
+void add_zeros(std::string_view side, MechanismChange& change) {
+  for (const std::size_t chain : chains_of(side)) {
+    change.quantities.push_back({.kind = ChangedQuantity::Kind::added,
+                                 .lengths = {chain},
+                                 .sigma = kZeroShiftSigmaMm});
+  }
+}
+
+/// Both chains wear equally.
+void add_pitch(std::string_view side, MechanismChange& change) {
+  change.quantities.push_back({.kind = ChangedQuantity::Kind::elongation,
+                               .lengths = chains_of(side),
+                               .sigma = kPitchGrowthSigma,
+                               .only_grows = true});
 }
 
 PerSide<double> directions_of(const MechanismVisit& visit) {
@@ -120,6 +149,47 @@ tl::expected<ToolPosition, MechanismFailure> ChainMechanism::locate(
                                     BedPoint{0.0, 0.0});
   if (!found) return tl::unexpected(mechanism_failure(found.error()));
   return ToolPosition{found->pose.position.x_mm, found->pose.position.y_mm};
+}
+
+std::vector<MechanismChange> changes_of_chains(double pitch_mm) {
+  const ChangePriors& p = kChangePriors;
+  std::vector<MechanismChange> changes;
+  for (const char* side : {"left", "right", "both"}) {
+    const bool one = chains_of(side).size() == 1;
+    MechanismChange zero{"zero", side, true, one ? 0.5 * p.one_zero : p.both_zeros};
+    add_zeros(side, zero);
+    changes.push_back(std::move(zero));
+    MechanismChange pitch{"pitch", side, false, p.pitch / 3.0};
+    add_pitch(side, pitch);
+    changes.push_back(std::move(pitch));
+    MechanismChange both{"zeros_and_pitch", side, false, p.zeros_and_pitch / 3.0};
+    add_zeros("both", both);
+    add_pitch(side, both);
+    changes.push_back(std::move(both));
+  }
+  for (const int teeth : {-2, -1, 1, 2}) {
+    // A second tooth is four times as rare as the first.
+    const double share = p.tooth * (std::abs(teeth) == 1 ? 0.2 : 0.05);
+    for (const char* side : {"left", "right"}) {
+      MechanismChange tooth{"tooth", side, true, share, {}, teeth};
+      tooth.quantities.push_back({.lengths = chains_of(side), .mean = teeth * pitch_mm});
+      changes.push_back(std::move(tooth));
+    }
+  }
+  return changes;
+}
+
+std::vector<MechanismChange> ChainMechanism::possible_changes() const {
+  std::vector<MechanismChange> changes = changes_of_chains(machine().sprocket.pitch_mm);
+  MechanismChange motors{"motors", "", false, kChangePriors.motors};
+  for (std::size_t i = 0; i < kMachineSettings.size(); ++i) {
+    if (parameters_[i].set_by_zeroing) continue;
+    motors.quantities.push_back({.kind = ChangedQuantity::Kind::parameter,
+                                 .parameter = i,
+                                 .sigma = kMotorShiftSigmaMm});
+  }
+  changes.push_back(std::move(motors));
+  return changes;
 }
 
 ToolPosition ChainMechanism::place_of_mark(const ToolPosition& written) const {

@@ -41,6 +41,7 @@ class ChainMechanism final : public Mechanism {
   [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate(
       const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const override;
   [[nodiscard]] ToolPosition place_of_mark(const ToolPosition& written) const override;
+  [[nodiscard]] std::vector<MechanismChange> possible_changes() const override;
 
   /// The machine with its values and effects.
   [[nodiscard]] const Machine& machine() const { return readings_.machine(); }
@@ -56,6 +57,15 @@ class ChainMechanism final : public Mechanism {
 };
 
 [[nodiscard]] std::shared_ptr<const ChainMechanism> make_chain_mechanism(const Machine& machine);
+
+/// One sigma of a shift of a zero: up to 3 mm is what re-hanging a chain does.
+inline constexpr double kZeroShiftSigmaMm = 2.0;
+/// Of a pitch that grew: 0.05 % is a year's wear.
+inline constexpr double kPitchGrowthSigma = 5e-4;
+inline constexpr double kMotorShiftSigmaMm = 5.0;
+
+/// Of two chains of which only the links are known: zeros, teeth skipped, links that grew.
+[[nodiscard]] std::vector<MechanismChange> changes_of_chains(double pitch_mm);
 
 /// Named as a pose's failure is.
 [[nodiscard]] MechanismFailure mechanism_failure(PoseFailure failure);

@@ -31,9 +31,9 @@ MeasuredBelts measured(const model::BeltMachine& truth, int columns, int rows, s
 }
 
 /// Checks of six new places, for frames 1 to kFrames, that something has happened to.
-std::vector<AnchorsCheck> checks(const std::function<void(model::BeltMachine&)>& to_frame,
+std::vector<Check> checks(const std::function<void(model::BeltMachine&)>& to_frame,
                                  const std::function<void(MeasuredBelts&)>& to_readings) {
-  std::vector<AnchorsCheck> result;
+  std::vector<Check> result;
   for (std::uint64_t seed = 1; seed <= kFrames; ++seed) {
     const auto fit = fit_belts(measured(testing_support::truth(), 6, 6, seed));
     model::BeltMachine now = testing_support::truth();
@@ -49,7 +49,7 @@ const auto kNothing = [](auto&) {};
 
 TEST(AnchorsCheck, AFrameThatIsAsItWasIsStillValid) {
   int valid = 0;
-  for (const AnchorsCheck& check : checks(kNothing, kNothing)) {
+  for (const Check& check : checks(kNothing, kNothing)) {
     valid += check.is_valid_as_it_is();
     // Whatever is said of one, the rest of the probability is said too.
     EXPECT_NEAR(check.probability[0] + check.probability[1] + check.probability[2], 1.0, 1e-9);
@@ -63,13 +63,13 @@ TEST(AnchorsCheck, ABeltThatCountsFromElsewhereIsNamedWithItsSize) {
     for (BeltPoint& point : belts.points) point.lengths_mm.br += 6.0;
   };
   int named = 0;
-  for (const AnchorsCheck& check : checks(kNothing, shifted)) {
-    const AnchorsHypothesis& first = check.hypotheses.front();
+  for (const Check& check : checks(kNothing, shifted)) {
+    const CheckHypothesis& first = check.hypotheses.front();
     EXPECT_FALSE(check.is_valid_as_it_is());
-    if (first.what != "zero" || first.belt != Belt::br) continue;
+    if (first.what != "zero" || first.side != "br") continue;
     ++named;
     // Six places of which each leaves br some half of its noise, and the anchors' own doubt.
-    EXPECT_NEAR(first.size_mm, 6.0, 4.0 * kNoiseMm);
+    EXPECT_NEAR(first.size(), 6.0, 4.0 * kNoiseMm);
     EXPECT_THAT(check.sentence, HasSubstr("drawn in and let out anew"));
   }
   EXPECT_GE(named, kFrames - 3) << "frames 1 to " << kFrames;
@@ -78,7 +78,7 @@ TEST(AnchorsCheck, ABeltThatCountsFromElsewhereIsNamedWithItsSize) {
 TEST(AnchorsCheck, AnAnchorThatMovedIsNotCalledValid) {
   int again = 0;
   const auto moved = [](model::BeltMachine& machine) { machine.anchors.tr.x_mm += 12.0; };
-  for (const AnchorsCheck& check : checks(moved, kNothing)) {
+  for (const Check& check : checks(moved, kNothing)) {
     EXPECT_FALSE(check.is_valid_as_it_is()) << check.sentence;
     again += check.verdict == CheckVerdict::measure_again;
   }
@@ -88,9 +88,9 @@ TEST(AnchorsCheck, AnAnchorThatMovedIsNotCalledValid) {
 
 TEST(AnchorsCheck, OneBadReadingIsNamedByItsPointAndSaysNothingOfTheAnchors) {
   const auto spoilt = [](MeasuredBelts& belts) { belts.points[4].lengths_mm.tl += 20.0; };
-  for (const AnchorsCheck& check : checks(kNothing, spoilt)) {
+  for (const Check& check : checks(kNothing, spoilt)) {
     EXPECT_EQ(check.hypotheses.front().what, "bad_point") << check.sentence;
-    EXPECT_EQ(check.hypotheses.front().point, 4U);
+    EXPECT_EQ(check.hypotheses.front().count, 4);
     EXPECT_THAT(check.sentence, HasSubstr("Measure point 5 again"));
   }
 }
@@ -103,10 +103,10 @@ TEST(AnchorsCheck, WhatCannotBeCheckedHasASentence) {
   }
   const auto nowhere = check_anchors(*fit, inches);
   ASSERT_FALSE(nowhere);
-  EXPECT_EQ(nowhere.error().reason, AnchorsCheckFailure::Reason::nowhere);
+  EXPECT_EQ(nowhere.error().reason, CheckFailure::Reason::nowhere);
   BeltsFit of_holes = *fit;
   of_holes.checks = 0;
-  EXPECT_EQ(check_anchors(of_holes, inches).error().reason, AnchorsCheckFailure::Reason::no_noise);
+  EXPECT_EQ(check_anchors(of_holes, inches).error().reason, CheckFailure::Reason::no_noise);
 }
 
 }  // namespace

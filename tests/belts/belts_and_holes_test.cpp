@@ -9,6 +9,7 @@
 
 #include "grid/belts/belt_map.hpp"
 #include "grid/statistics.hpp"
+#include "model/belts/belt_kinematics.hpp"
 #include "tests/belts/holes_simulation.hpp"
 
 namespace chaintrue::grid {

@@ -90,7 +90,7 @@ std::vector<Tested> every_mechanism() {
                  [] { return std::make_shared<const ToyMechanism>(-1000.0, 1200.0); },
                  [] { return std::make_shared<const ToyMechanism>(-1200.0, 1000.0); },
                  0.0,
-                 {1, 0}});
+                 {1, 0, 2}});
   return all;
 }
 

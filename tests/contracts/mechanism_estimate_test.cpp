@@ -84,10 +84,10 @@ TEST(MechanismEstimate, AToyIsCalibratedFromLengthsAtKnownPositions) {
   const model::ToyMechanism truth(-1000.0, 1200.0);
   const auto start = std::make_shared<const model::ToyMechanism>(-1000.0, 1230.0);
   const Calibrations found = calibrate(truth, start, true, kSets);
-  // Two parameters over 46 degrees of freedom; four sigmas of the mean, and of that of a variance.
-  EXPECT_NEAR(found.parameters, 2.0, 4.0 * std::sqrt(4.0 / kSets) + 2.0 * 2.0 / 44.0)
+  // Three parameters over 69 degrees of freedom; four sigmas of the mean, and of that of a variance.
+  EXPECT_NEAR(found.parameters, 3.0, 4.0 * std::sqrt(6.0 / kSets) + 2.0 * 3.0 / 67.0)
       << "seeds 1 to " << kSets;
-  EXPECT_NEAR(found.noise / (kNoiseMm * kNoiseMm), 1.0, 4.0 * std::sqrt(2.0 / (46.0 * kSets)));
+  EXPECT_NEAR(found.noise / (kNoiseMm * kNoiseMm), 1.0, 4.0 * std::sqrt(2.0 / (69.0 * kSets)));
 }
 
 TEST(MechanismEstimate, FourBeltsAreCalibratedFromLengthsAtPositionsThatNobodyMeasured) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A third mechanism that no product code knows: two strings from two nails on the x axis to a point
-/// below it, as long as the straight way. One effect, a knot that shortens both.
+/// A third mechanism that no product code knows: three strings from nails on the x axis to a point
+/// below it, as long as the straight way; the middle nail is at 0. All count from one zero. One effect,
+/// a knot that shortens all.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,15 +17,17 @@ namespace chaintrue::model {
 
 class ToyMechanism final : public Mechanism {
  public:
-  /// Of the nails the left one is stated to 5 mm; nothing is known of the right one.
-  ToyMechanism(double left_x_mm, double right_x_mm)
-      : values_(Eigen::Vector2d(left_x_mm, right_x_mm)),
+  /// Of the nails the left one is stated to 5 mm; nothing is known of the right one. The zero is
+  /// stated to 2 mm.
+  ToyMechanism(double left_x_mm, double right_x_mm, double zero_mm = 0.0)
+      : values_(Eigen::Vector3d(left_x_mm, right_x_mm, zero_mm)),
         parameters_{{{"left_nail_x_mm", "mm", left_x_mm, 5.0},
-                     {"right_nail_x_mm", "mm", right_x_mm, std::nullopt}}} {}
+                     {"right_nail_x_mm", "mm", right_x_mm, std::nullopt},
+                     {"zero_mm", "mm", zero_mm, 2.0, true}}} {}
 
   [[nodiscard]] std::string_view kind() const override { return "toy"; }
   [[nodiscard]] std::span<const std::string_view> lengths() const override {
-    static constexpr std::array<std::string_view, 2> kLengths = {"west", "east"};
+    static constexpr std::array<std::string_view, 3> kLengths = {"west", "east", "middle"};
     return kLengths;
   }
   [[nodiscard]] std::span<const MechanismParameter> parameters() const override {
@@ -34,7 +37,7 @@ class ToyMechanism final : public Mechanism {
   [[nodiscard]] MechanismExtent extent() const override { return {-600.0, 600.0, -1500.0, -500.0}; }
   [[nodiscard]] std::shared_ptr<const Mechanism> with_values(
       const Eigen::VectorXd& values) const override {
-    if (values.size() != 2) throw std::invalid_argument("two nails");
+    if (values.size() != 3) throw std::invalid_argument("two nails and a zero");
     auto changed = std::make_shared<ToyMechanism>(*this);
     changed->values_ = values;
     return changed;
@@ -66,21 +69,26 @@ class ToyMechanism final : public Mechanism {
     if (!(position.y_mm < 0.0))
       return tl::unexpected(MechanismFailure{"above_the_nails", "the point is above the nails"});
     LengthsPrediction result;
-    result.lengths_mm.resize(2);
-    result.by_position.resize(2, 2);
-    for (const Eigen::Index i : {0, 1}) {
-      const Eigen::RowVector2d way(position.x_mm - values_[i], position.y_mm);
-      result.lengths_mm[i] = way.norm() - shorter_mm_;
+    result.lengths_mm.resize(3);
+    result.by_position.resize(3, 2);
+    for (const Eigen::Index i : {0, 1, 2}) {
+      const double nail_x_mm = i < 2 ? values_[i] : 0.0;
+      const Eigen::RowVector2d way(position.x_mm - nail_x_mm, position.y_mm);
+      result.lengths_mm[i] = way.norm() + values_[2] - shorter_mm_;
       result.by_position.row(i) = way / way.norm();
     }
     const bool all = wanted == Derivatives::by_position_and_parameter;
-    result.by_parameter = Eigen::MatrixXd::Zero(2, all ? 2 : 0);
-    if (all) result.by_parameter.diagonal() = -result.by_position.col(0);
+    result.by_parameter = Eigen::MatrixXd::Zero(3, all ? 3 : 0);
+    if (all) {
+      result.by_parameter(0, 0) = -result.by_position(0, 0);
+      result.by_parameter(1, 1) = -result.by_position(1, 0);
+      result.by_parameter.col(2).setOnes();
+    }
     return result;
   }
   [[nodiscard]] tl::expected<ToolPosition, MechanismFailure> locate(
       const Eigen::VectorXd& lengths_mm, const MechanismVisit& visit) const override {
-    if (lengths_mm.size() != 2) throw std::invalid_argument("two strings");
+    if (lengths_mm.size() != 3) throw std::invalid_argument("three strings");
     return locate_by_newton(*this, lengths_mm, visit, extent().centre());
   }
 
@@ -97,8 +105,8 @@ class ToyMechanism final : public Mechanism {
                                             .station = effects::Station::chain,
                                             .sides = kNoSide,
                                             .parameters = kKnotSize,
-                                            .cause = "both strings were knotted",
-                                            .signature = "both lengths are short everywhere",
+                                            .cause = "all strings were knotted",
+                                            .signature = "all lengths are short everywhere",
                                             .equation = "- k",
                                             .source = "a toy",
                                             .not_modelled = "nothing",
@@ -106,7 +114,7 @@ class ToyMechanism final : public Mechanism {
                                             .remedy = "untie the knots"};
 
   Eigen::VectorXd values_;
-  std::array<MechanismParameter, 2> parameters_;
+  std::array<MechanismParameter, 3> parameters_;
   double shorter_mm_ = 0.0;
 };
 

@@ -21,11 +21,11 @@ double difference(const tl::expected<model::BedPoint, CorrectionFailure>& a,
 }
 
 /// The largest difference over random places, the tables made; counts agreement in failures.
-double worst_difference(const Corrector& corrector, BedRectangle area, unsigned seed) {
+double worst_difference(const Corrector& corrector, interp::Rectangle area, unsigned seed) {
   CommandField field(corrector, kBoundMm);
   std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> x(area.left_mm, area.right_mm);
-  std::uniform_real_distribution<double> y(area.bottom_mm, area.top_mm);
+  std::uniform_real_distribution<double> x(area.x_min, area.x_max);
+  std::uniform_real_distribution<double> y(area.y_min, area.y_max);
   double worst = 0.0;
   // More places than the tables of this area cost, so that most are interpolated.
   for (int i = 0; i < 60000; ++i) {
@@ -63,11 +63,11 @@ TEST(CommandField, SaysWhatTheMapSaysBeyondItsBounds) {
   const FormulaMap map([](model::BedPoint p) { return model::BedPoint{0.001 * p.x_mm, 2.0}; });
   const PlainKinematics kinematics;
   const Corrector corrector(map, kinematics, firmware(model::ControllerKind::ideal));
-  const BedRectangle area = map.bounds();
+  const interp::Rectangle area = map.domain();
   // Along the upper edge, on both sides of it.
   EXPECT_LE(worst_difference(
                 corrector,
-                {area.left_mm - 5.0, area.left_mm + 300.0, area.top_mm - 200.0, area.top_mm + 5.0},
+                {area.x_min - 5.0, area.x_min + 300.0, area.y_max - 200.0, area.y_max + 5.0},
                 7U),
             1.3 * kBoundMm);
 }

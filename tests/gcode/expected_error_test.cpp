@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <string_view>
 
 #include "tests/gcode/formula_target.hpp"
 
@@ -13,24 +16,32 @@ namespace chaintrue::gcode {
 namespace {
 
 /// 0.1 mm on the left half, 0.3 on the right; nothing was measured above 500 mm.
-class HalvesMap final : public TargetMap {
+class HalvesMap final : public grid::LengthMap {
  public:
-  [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> lengths(
+  [[nodiscard]] std::span<const std::string_view> length_names() const override {
+    static constexpr std::array<std::string_view, 2> kNames = {"left", "right"};
+    return kNames;
+  }
+  [[nodiscard]] tl::expected<model::ChainLengths, grid::MapFailure> lengths(
       model::BedPoint p) const override {
     return model::ChainLengths{p.x_mm, p.y_mm};
   }
-  [[nodiscard]] tl::expected<TargetAnswer, CorrectionFailure> query(
+  [[nodiscard]] tl::expected<grid::LengthsAnswer, grid::MapFailure> query(
       model::BedPoint p) const override {
-    return TargetAnswer{{p.x_mm, p.y_mm}, {}, status(p), p.x_mm < 0.0 ? 0.1 : 0.3};
+    return grid::LengthsAnswer{
+        Eigen::Vector2d(p.x_mm, p.y_mm), {}, p.x_mm < 0.0 ? 0.1 : 0.3, status(p)};
   }
-  [[nodiscard]] TargetStatus status(model::BedPoint p) const override {
-    return p.y_mm > 500.0 ? TargetStatus::extrapolated : TargetStatus::inside;
+  [[nodiscard]] grid::MapStatus status(model::BedPoint p) const override {
+    return p.y_mm > 500.0 ? grid::MapStatus::extrapolated : grid::MapStatus::inside;
   }
-  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(
+  [[nodiscard]] tl::expected<model::BedPoint, grid::MapFailure> tool(
       model::ChainLengths l) const override {
     return model::BedPoint{l.left_mm, l.right_mm};
   }
-  [[nodiscard]] BedRectangle bounds() const override { return {-1e4, 1e4, -1e4, 1e4}; }
+  [[nodiscard]] const interp::Rectangle& domain() const override { return domain_; }
+
+ private:
+  interp::Rectangle domain_{-1e4, 1e4, -1e4, 1e4};
 };
 
 Move feed(Point from, Point to, std::size_t line) {

@@ -24,26 +24,30 @@ constexpr PoseFailure kPoseFailures[] = {PoseFailure::outside_verticals,
                                          PoseFailure::not_converged};
 
 /// A machine that can hold the tool nowhere.
-class NoPose final : public TargetMap {
+class NoPose final : public grid::LengthMap {
  public:
-  explicit NoPose(PoseFailure why) : failure_(CorrectionFailure::unreachable, why) {}
-  [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> lengths(
+  explicit NoPose(PoseFailure why) : failure_(why) {}
+  [[nodiscard]] tl::expected<model::ChainLengths, grid::MapFailure> lengths(
       model::BedPoint) const override {
     return tl::unexpected(failure_);
   }
-  [[nodiscard]] tl::expected<TargetAnswer, CorrectionFailure> query(
+  [[nodiscard]] tl::expected<grid::LengthsAnswer, grid::MapFailure> query(
       model::BedPoint) const override {
     return tl::unexpected(failure_);
   }
-  [[nodiscard]] TargetStatus status(model::BedPoint) const override { return TargetStatus::inside; }
-  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(
+  [[nodiscard]] grid::MapStatus status(model::BedPoint) const override {
+    return grid::MapStatus::inside;
+  }
+  [[nodiscard]] tl::expected<model::BedPoint, grid::MapFailure> tool(
       model::ChainLengths) const override {
     return tl::unexpected(failure_);
   }
-  [[nodiscard]] BedRectangle bounds() const override { return {-1000.0, 1000.0, -500.0, 500.0}; }
+  [[nodiscard]] std::span<const std::string_view> length_names() const override { return {}; }
+  [[nodiscard]] const interp::Rectangle& domain() const override { return domain_; }
 
  private:
-  CorrectionFailure failure_;
+  interp::Rectangle domain_{-1000.0, 1000.0, -500.0, 500.0};
+  grid::MapFailure failure_;
 };
 
 /// A controller that pays out nothing.

@@ -30,27 +30,30 @@ class PlainKinematics final : public model::ControllerKinematics {
 };
 
 /// lengths(p) = p + displacement(p).
-class FormulaMap final : public TargetMap {
+class FormulaMap final : public grid::LengthMap {
  public:
   using Displacement = std::function<model::BedPoint(model::BedPoint)>;
   explicit FormulaMap(Displacement displacement) : displacement_(std::move(displacement)) {}
 
-  [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> lengths(
+  [[nodiscard]] tl::expected<model::ChainLengths, grid::MapFailure> lengths(
       model::BedPoint p) const override {
     if (std::fabs(p.x_mm) > 1400.0 || std::fabs(p.y_mm) > 800.0)
-      return tl::unexpected(CorrectionFailure::outside_map);
+      return tl::unexpected(grid::MapFailure::outside_map);
     const model::BedPoint d = displacement_(p);
     return model::ChainLengths{p.x_mm + d.x_mm, p.y_mm + d.y_mm};
   }
-  [[nodiscard]] tl::expected<TargetAnswer, CorrectionFailure> query(
+  [[nodiscard]] tl::expected<grid::LengthsAnswer, grid::MapFailure> query(
       model::BedPoint p) const override {
     const auto found = lengths(p);
     if (!found) return tl::unexpected(found.error());
-    return TargetAnswer{*found, {0.1, 0.1}, status(p)};
+    return grid::LengthsAnswer{
+        Eigen::Vector2d(found->left_mm, found->right_mm), {0.1, 0.1}, std::nullopt, status(p)};
   }
-  [[nodiscard]] TargetStatus status(model::BedPoint) const override { return TargetStatus::inside; }
+  [[nodiscard]] grid::MapStatus status(model::BedPoint) const override {
+    return grid::MapStatus::inside;
+  }
   /// Fixed point: the displacement's gradient is a few percent, so 30 steps reach rounding.
-  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(
+  [[nodiscard]] tl::expected<model::BedPoint, grid::MapFailure> tool(
       model::ChainLengths lengths) const override {
     model::BedPoint p{lengths.left_mm, lengths.right_mm};
     for (int i = 0; i < 30; ++i) {
@@ -62,9 +65,11 @@ class FormulaMap final : public TargetMap {
     }
     return p;
   }
-  [[nodiscard]] BedRectangle bounds() const override { return {-1400.0, 1400.0, -800.0, 800.0}; }
+  [[nodiscard]] std::span<const std::string_view> length_names() const override { return {}; }
+  [[nodiscard]] const interp::Rectangle& domain() const override { return domain_; }
 
  private:
+  interp::Rectangle domain_{-1400.0, 1400.0, -800.0, 800.0};
   Displacement displacement_;
 };
 

@@ -299,23 +299,25 @@ std::vector<Bump> bumps(const std::vector<Command>& commands, double tolerance_m
 
 std::string random_program(std::mt19937_64& random) { return Writer(random).run(); }
 
-tl::expected<model::ChainLengths, CorrectionFailure> TrueMachine::lengths(
+tl::expected<model::ChainLengths, grid::MapFailure> TrueMachine::lengths(
     model::BedPoint point) const {
   const auto found = kinematics_->lengths(point);
-  if (!found) return tl::unexpected(CorrectionFailure::unreachable);
+  if (!found) return tl::unexpected(grid::MapFailure::unreachable);
   return *found;
 }
 
-tl::expected<TargetAnswer, CorrectionFailure> TrueMachine::query(model::BedPoint point) const {
+tl::expected<grid::LengthsAnswer, grid::MapFailure> TrueMachine::query(
+    model::BedPoint point) const {
   const auto found = lengths(point);
   if (!found) return tl::unexpected(found.error());
-  return TargetAnswer{*found, {}, TargetStatus::inside};
+  return grid::LengthsAnswer{
+      Eigen::Vector2d(found->left_mm, found->right_mm), {}, std::nullopt, grid::MapStatus::inside};
 }
 
-tl::expected<model::BedPoint, CorrectionFailure> TrueMachine::tool(
+tl::expected<model::BedPoint, grid::MapFailure> TrueMachine::tool(
     model::ChainLengths lengths) const {
   const auto found = kinematics_->command(lengths);
-  if (!found) return tl::unexpected(CorrectionFailure::unreachable);
+  if (!found) return tl::unexpected(grid::MapFailure::unreachable);
   return *found;
 }
 

@@ -19,20 +19,24 @@ namespace chaintrue::gcode::testing_support {
 [[nodiscard]] std::string random_program(std::mt19937_64& random);
 
 /// The machine as it is, as the target of G-code.
-class TrueMachine final : public TargetMap {
+class TrueMachine final : public grid::LengthMap {
  public:
   explicit TrueMachine(const model::Machine& machine)
       : kinematics_(model::make_controller_kinematics(machine)) {}
-  [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> lengths(
+  [[nodiscard]] tl::expected<model::ChainLengths, grid::MapFailure> lengths(
       model::BedPoint point) const override;
-  [[nodiscard]] tl::expected<TargetAnswer, CorrectionFailure> query(
+  [[nodiscard]] tl::expected<grid::LengthsAnswer, grid::MapFailure> query(
       model::BedPoint point) const override;
-  [[nodiscard]] TargetStatus status(model::BedPoint) const override { return TargetStatus::inside; }
-  [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(
+  [[nodiscard]] grid::MapStatus status(model::BedPoint) const override {
+    return grid::MapStatus::inside;
+  }
+  [[nodiscard]] tl::expected<model::BedPoint, grid::MapFailure> tool(
       model::ChainLengths lengths) const override;
-  [[nodiscard]] BedRectangle bounds() const override { return {-1219.2, 1219.2, -609.6, 609.6}; }
+  [[nodiscard]] std::span<const std::string_view> length_names() const override { return {}; }
+  [[nodiscard]] const interp::Rectangle& domain() const override { return domain_; }
 
  private:
+  interp::Rectangle domain_{-1219.2, 1219.2, -609.6, 609.6};
   std::unique_ptr<const model::ControllerKinematics> kinematics_;
 };
 

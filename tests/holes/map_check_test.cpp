@@ -18,6 +18,7 @@
 #include "grid/map/map_check.hpp"
 #include "grid/planning/check_plan.hpp"
 #include "grid/synthetic/random.hpp"
+#include "model/chains/chain_mechanism.hpp"
 #include "tests/holes/hole_sets.hpp"
 #include "tests/map/synthetic_grid.hpp"
 
@@ -139,7 +140,7 @@ TEST_P(AfterSomething, IsRightInNineteenOfTwentyCasesAtThePlannedPoints) {
       named += check->hypotheses.front().what == GetParam().what;
       if (check->verdict != CheckVerdict::valid_after_rezeroing) continue;
       ++mended;
-      new_zero2 += std::pow(check->new_zero.left_mm - one.map.machine()->chain_zero.left_mm -
+      new_zero2 += std::pow(check->new_zero_mm[0] - one.map.machine()->chain_zero.left_mm -
                                 (machine.chain_zero.left_mm - one.truth.chain_zero.left_mm),
                             2);
     }
@@ -216,7 +217,7 @@ TEST(CheckPlan, WithPoorReadingsGrowthIsAllOfTheLengthsOverTheNoise) {
   }
   for (const model::Side side : model::kSides) {
     // Zeros of 2 mm take 5 * 2^2 / 200^2 of it at most.
-    EXPECT_NEAR(told->operator[](side) / (kPitchGrowthSigma * std::sqrt(squares[side]) / kPoorMm),
+    EXPECT_NEAR(told->operator[](side) / (model::kPitchGrowthSigma * std::sqrt(squares[side]) / kPoorMm),
                 1.0,
                 1e-3);
   }
@@ -268,7 +269,7 @@ TEST(MapCheck, APointThatIsWrongByItselfIsNamed) {
   const auto check = check_map(machines()[1].map, grid);
   EXPECT_EQ(check->hypotheses.front().what, "bad_point");
   EXPECT_THAT(check->sentence, HasSubstr("Measure point 4 again"));
-  EXPECT_THAT(files::write_check(*check), HasSubstr("\"point\": 3"));
+  EXPECT_THAT(files::write_map_check(*check), HasSubstr("\"point\": 3"));
 }
 
 TEST(MapCheck, HolesTellAToothAndAGrownPitch) {

@@ -17,7 +17,7 @@
 #include "grid/files/grid_file.hpp"
 #include "grid/map/fit.hpp"
 #include "grid/map/map_for_settings.hpp"
-#include "tools/gcode/compensation_target.hpp"
+#include "grid/map/map_in_frame.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/verifier.hpp"
 
@@ -40,7 +40,7 @@ struct Fitted {
   }
 
   grid::CompensationMap map;
-  CompensationTarget target;
+  grid::MapInFrame target;
   model::Machine machine;
   std::unique_ptr<const model::ControllerKinematics> kinematics;
   Corrector corrector;

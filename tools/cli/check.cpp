@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// chaintrue check: a few new points tell whether a map still holds.
+/// chaintrue check: a few new points tell whether a map, or anchors, still hold.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/belts/anchors_check.hpp"
 #include "grid/files/check_file.hpp"
 #include "grid/files/controller_settings.hpp"
 #include "grid/files/whole_file.hpp"
@@ -17,7 +18,6 @@
 #include "grid/map/map_check.hpp"
 #include "grid/map/map_for_settings.hpp"
 #include "grid/map/settings_to_type.hpp"
-#include "tools/cli/check_anchors.hpp"
 #include "tools/cli/check_document.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/grid_input.hpp"
@@ -46,7 +46,7 @@ struct CheckCommand {
 
 /// A valid map says what it is good for; after re-zeroing, and where the points do not decide, a few
 /// more tell; a map that no longer holds is made anew.
-void say_next_of(const grid::MapCheck& check, const CheckCommand& command) {
+void say_next_of_map(const grid::Check& check, const CheckCommand& command) {
   if (check.settings_have_changed) {
     return say_next({"export",
                      "groundcontrol",
@@ -67,9 +67,9 @@ void say_next_of(const grid::MapCheck& check, const CheckCommand& command) {
 }
 
 /// The settings of export groundcontrol, where they explain points that the map's own do not.
-std::optional<grid::MapCheck> with_typed_settings(const grid::CompensationMap& map,
-                                                  const grid::Measured& measured,
-                                                  const grid::MapCheck& found) {
+std::optional<grid::Check> with_typed_settings(const grid::CompensationMap& map,
+                                               const grid::Measured& measured,
+                                               const grid::Check& found) {
   if (found.is_valid_as_it_is()) return std::nullopt;
   const auto typed = grid::settings_to_type(map);
   if (!typed || !typed->worth_typing) return std::nullopt;
@@ -115,26 +115,50 @@ grid::CompensationMap take_settings(const CheckCommand& command,
   return grid::map_for_settings(map, now, "");
 }
 
-int check_the_map(const CheckCommand& command,
-                  const std::vector<InputFile>& files,
-                  const grid::CompensationMap& as_measured) {
-  grid::Measured measured;
-  for (const InputFile& file : files)
-    measured.add(load_measured(
-        file, command.input, command.tape, MeasuredUse::check, as_measured.machine()));
-  const grid::CompensationMap map = take_settings(command, as_measured, measured);
-  auto check = grid::check_map(map, measured, shown_progress());
-  if (!check) {
-    fmt::print(stderr,
-               "{}: {}\n",
-               grid::files::name_in_messages(command.input.grid),
-               check.error().sentence);
-    return kBadInput;
+using CheckResult = tl::expected<grid::Check, grid::CheckFailure>;
+
+CheckResult check_of_map(const CheckCommand& command,
+                         const std::vector<InputFile>& files,
+                         const InputFile& map) {
+  return with_map(map, [&](const grid::CompensationMap& as_measured) {
+    grid::Measured measured;
+    for (const InputFile& file : files)
+      measured.add(load_measured(
+          file, command.input, command.tape, MeasuredUse::check, as_measured.machine()));
+    const grid::CompensationMap in_force = take_settings(command, as_measured, measured);
+    CheckResult check = grid::check_map(in_force, measured, shown_progress());
+    if (!check) return check;
+    if (auto changed = with_typed_settings(in_force, measured, *check)) check = *std::move(changed);
+    return check;
+  });
+}
+
+CheckResult check_of_anchors(const InputFile& belts, const InputFile& anchors) {
+  const grid::files::FittedAnchors loaded = load_anchors(anchors);
+  require_kind(belts,
+               {FileKind::belts},
+               "anchors are checked by what the machine has measured since; holes and belts "
+               "together are fitted (chaintrue fit BELTS --with HOLES)");
+  const grid::files::ReadBelts read = load_belts(belts, "a check");
+  return grid::check_anchors(loaded.fit, read.belts);
+}
+
+void write_check(const grid::Check& check, const CheckCommand& command, bool of_belts) {
+  if (command.json) {
+    write_output(command.output,
+                 of_belts ? grid::files::write_anchors_check(check)
+                          : grid::files::write_map_check(check));
+    return;
   }
-  if (auto changed = with_typed_settings(map, measured, *check)) check = *std::move(changed);
-  write_output(command.output, command.json ? grid::files::write_check(*check) : report::render_text(check_document(*check)));
-  say_next_of(*check, command);
-  return check->is_valid_as_it_is() ? kDone : kCheckFailed;
+  write_output(command.output,
+               report::render_text(of_belts ? anchors_check_document(check)
+                                            : map_check_document(check)));
+}
+
+/// Anchors that hold have a report; those that do not are diagnosed.
+void say_next_of_anchors(const grid::Check& check, const CheckCommand& command) {
+  if (check.is_valid_as_it_is()) return say_next({"report", command.map, "-o", "anchors.html"});
+  say_next({"diagnose", command.input.grid, "-o", "diagnosis.json"});
 }
 
 int run_check(Verb verb, const CheckCommand& command) {
@@ -148,10 +172,19 @@ int run_check(Verb verb, const CheckCommand& command) {
     if (file.kind == FileKind::holes && !of_belts) facts |= facts::holes;
   }
   refuse_what_does_nothing(verb, facts);
-  if (of_belts) return check_the_anchors({map, files.front(), command.output, command.json});
-  return with_map(map, [&](const grid::CompensationMap& loaded) {
-    return check_the_map(command, files, loaded);
-  });
+  const CheckResult check =
+      of_belts ? check_of_anchors(files.front(), map) : check_of_map(command, files, map);
+  if (!check) {
+    fmt::print(stderr, "{}: {}\n", files.front().name, check.error().sentence);
+    return kBadInput;
+  }
+  write_check(*check, command, of_belts);
+  if (of_belts) {
+    say_next_of_anchors(*check, command);
+  } else {
+    say_next_of_map(*check, command);
+  }
+  return check->is_valid_as_it_is() ? kDone : kCheckFailed;
 }
 
 }  // namespace

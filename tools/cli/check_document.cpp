@@ -17,8 +17,7 @@ Table table_of(std::string what, bool has_sign) {
           .is_headed = true};
 }
 
-template <class Check>
-report::Document document_of(const Check& check, Table table) {
+report::Document document_of(const grid::Check& check, Table table) {
   report::Document document;
   document.title = "Check";
   document.verdict = {check.sentence};
@@ -39,7 +38,7 @@ report::Document document_of(const Check& check, Table table) {
 
 }  // namespace
 
-report::Document check_document(const grid::MapCheck& check) {
+report::Document map_check_document(const grid::Check& check) {
   Table table = table_of("Measured less map", true);
   for (const grid::CheckResidual& one : check.residuals)
     table.rows.push_back({{one.what, one.residual_mm, one.sigma_mm}});
@@ -48,11 +47,11 @@ report::Document check_document(const grid::MapCheck& check) {
   return document;
 }
 
-report::Document check_document(const grid::AnchorsCheck& check) {
+report::Document anchors_check_document(const grid::Check& check) {
   Table table = table_of("One belt is off by", false);
-  for (std::size_t k = 0; k < check.places.size(); ++k) {
+  for (const grid::CheckUnit& place : check.units) {
     table.rows.push_back(
-        {{fmt::format("point {}", k + 1), check.places[k].rms_mm, check.places[k].sigma_mm}});
+        {{place.name, place.rms_mm(check.residuals), place.sigma_mm(check.residuals)}});
   }
   return document_of(check, std::move(table));
 }

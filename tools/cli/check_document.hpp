@@ -3,13 +3,14 @@
 /// What a check of a map or of anchors found, as a document.
 #pragma once
 
-#include "grid/belts/anchors_check.hpp"
-#include "grid/map/map_check.hpp"
+#include "grid/map/check.hpp"
 #include "tools/report/document.hpp"
 
 namespace chaintrue::cli {
 
-[[nodiscard]] report::Document check_document(const grid::MapCheck& check);
-[[nodiscard]] report::Document check_document(const grid::AnchorsCheck& check);
+/// Each residual by itself.
+[[nodiscard]] report::Document map_check_document(const grid::Check& check);
+/// Each place with the root mean square of what its belts miss.
+[[nodiscard]] report::Document anchors_check_document(const grid::Check& check);
 
 }  // namespace chaintrue::cli

@@ -79,7 +79,7 @@ double rows_of_lengths(const GcodeOptions& options, const GcodeText& text) {
   auto source = text.open({"the length of the path", 1, 2});
   Findings ignored;
   const auto survey =
-      gcode::survey(source, options.dialect(), options.home_mm(), gcode::BedRectangle{}, ignored);
+      gcode::survey(source, options.dialect(), options.home_mm(), interp::Rectangle{}, ignored);
   if (!survey) return 0.0;
   const double rows = survey->path_mm / options.every_mm;
   if (rows <= kMostRows) return rows;
@@ -112,7 +112,7 @@ int check_program(const GcodeMachine* machine, const GcodeOptions& options) {
   const int steps = 1 + (firmware != nullptr ? 1 : 0) + (options.map.empty() ? 0 : 1);
   auto source = text.open({"the program", 1, steps});
   Findings findings;
-  const gcode::BedRectangle sheet =
+  const interp::Rectangle sheet =
       machine == nullptr ? sheet_of(options) : machine->controller().sheet;
   const auto survey =
       gcode::survey(source, options.dialect(), options.home_mm(), sheet, findings);
@@ -168,7 +168,8 @@ int write_lengths(const GcodeTarget& target, const GcodeOptions& options) {
   const auto write = [&](const gcode::PathLengths& place) {
     progress_is(std::min(++written, rows), rows);
     row.clear();
-    const auto& [left, right] = place.answer.lengths;
+    const double left = place.answer.lengths_mm[0];
+    const double right = place.answer.lengths_mm[1];
     const auto& [left_sigma, right_sigma] = place.answer.sigma;
     if (options.json) {
       fmt::format_to(std::back_inserter(row),

@@ -122,7 +122,7 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
       summary->largest_correction_line);
   std::string page;
   if (!options.report.empty()) {
-    const gcode::BedRectangle& sheet = machine.controller().sheet;
+    const interp::Rectangle& sheet = machine.controller().sheet;
     picture.name = options.program == "-"
                        ? "A program"
                        : std::filesystem::path(options.program).filename().string();
@@ -132,7 +132,7 @@ int compensate_for(const GcodeMachine& machine, const GcodeOptions& options) {
       std::replace(expected.begin(), expected.end(), '\n', ' ');
       picture.verdict += " " + expected;
     }
-    picture.sheet = {sheet.left_mm, sheet.right_mm, sheet.bottom_mm, sheet.top_mm};
+    picture.sheet = {sheet.x_min, sheet.x_max, sheet.y_min, sheet.y_max};
     picture.figures = {
         {fmt::format("{:.2f} mm", summary->largest_correction_mm), "largest correction"},
         {fmt::format("{:g} mm", options.tolerance_mm), "tolerance of the path"},

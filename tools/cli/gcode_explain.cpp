@@ -54,9 +54,9 @@ void explain_move(const gcode::Move& move, model::BedPoint home, const GcodeMach
     return;
   }
   fmt::print("    chains: left {:.4f} mm (sigma {:.3f}), right {:.4f} mm (sigma {:.3f})\n",
-             answer->lengths.left_mm,
+             answer->lengths_mm[0],
              answer->sigma.left_mm,
-             answer->lengths.right_mm,
+             answer->lengths_mm[1],
              answer->sigma.right_mm);
   fmt::print("    command for {}: X{:.4f} Y{:.4f}, corrected by X{:+.4f} Y{:+.4f} mm\n",
              machine->corrector().firmware().name,

@@ -14,16 +14,17 @@
 #include <fstream>
 #include <system_error>
 
+#include "grid/belts/belt_map.hpp"
 #include "grid/files/anchors_file.hpp"
 #include "grid/files/file_identity.hpp"
 #include "grid/files/input_error.hpp"
 #include "grid/files/parse_double.hpp"
 #include "grid/files/whole_file.hpp"
 #include "grid/map/map_for_settings.hpp"
+#include "grid/map/map_in_frame.hpp"
 #include "model/belts/belt_controller.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/settings_file.hpp"
-#include "tools/gcode/belt_target.hpp"
 #include "tools/gcode/file_hash.hpp"
 
 namespace chaintrue::cli {
@@ -93,12 +94,12 @@ std::optional<model::ControllerKind> controller_kind(std::string_view name) {
 
 namespace {
 
-gcode::BedRectangle rectangle_of(const model::Bed& bed) {
+interp::Rectangle rectangle_of(const model::Bed& bed) {
   return {-0.5 * bed.width_mm, 0.5 * bed.width_mm, -0.5 * bed.height_mm, 0.5 * bed.height_mm};
 }
 
 /// That of the anchors, where commands count from at 0, 0.
-gcode::BedRectangle rectangle_of(const model::BeltMachine& machine) {
+interp::Rectangle rectangle_of(const model::BeltMachine& machine) {
   const auto& anchors = machine.anchors;
   const model::FramePoint centre = model::centre_of(machine);
   return {std::min(anchors.tl.x_mm, anchors.bl.x_mm) - centre.x_mm,
@@ -215,15 +216,15 @@ GcodeTarget::Parts GcodeTarget::of_belts(const GcodeOptions& options) {
                  "follows from them (import maslow4 --settings maslow.yaml)");
     problems.throw_if_any();
   }
-  grid::BeltMap map(found.fit, holes);
+  auto map = std::make_unique<const grid::BeltMap>(found.fit, holes);
   if (!found.fit.scale) {
     fmt::print(stderr,
                "The scale is not known: parts come out as true as a turn of the encoder is {:g} mm "
                "of belt. One long taped distance, or holes, tells it.\n",
                found.fit.machine.belt_turn_mm);
   }
-  const model::BeltMachine in_force = map.in_force();
-  return {in_force, std::make_unique<const gcode::BeltTarget>(std::move(map), found.fit.scale.has_value()), ""};
+  const model::BeltMachine in_force = map->in_force();
+  return {in_force, std::move(map), ""};
 }
 
 GcodeTarget::Parts GcodeTarget::of_map(const GcodeOptions& options) {
@@ -236,8 +237,8 @@ GcodeTarget::Parts GcodeTarget::of_map(const GcodeOptions& options) {
   }
   LoadedMap loaded = load_map(*options.map_file);
   auto map = std::make_unique<const grid::CompensationMap>(std::move(loaded.map));
-  auto target = std::make_unique<const gcode::CompensationTarget>(
-      *map, options.frame == "bed" ? gcode::ProgramFrame::bed : gcode::ProgramFrame::marks);
+  auto target = std::make_unique<const grid::MapInFrame>(
+      *map, options.frame == "bed" ? grid::MapFrame::bed : grid::MapFrame::marks);
   return {std::move(map), std::move(target), std::move(loaded.on_trust)};
 }
 
@@ -246,7 +247,7 @@ GcodeMachine::GcodeMachine(const GcodeOptions& options)
       controller_(controller_of(options, target_)),
       corrector_(target_.target(), *controller_.kinematics, *controller_.firmware) {}
 
-gcode::BedRectangle sheet_of(const GcodeOptions& options) {
+interp::Rectangle sheet_of(const GcodeOptions& options) {
   if (options.machine.empty()) return rectangle_of(model::Bed{});
   const FileKind kind = open_input(options.machine).kind;
   const bool of_belts = kind == FileKind::belts || kind == FileKind::anchors;

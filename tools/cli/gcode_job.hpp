@@ -18,7 +18,6 @@
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/gcode/compensation_target.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/verifier.hpp"
 
@@ -66,7 +65,7 @@ class GcodeTarget {
  public:
   /// Of --map. \throws InputError for a bad file.
   explicit GcodeTarget(const GcodeOptions& options);
-  [[nodiscard]] const gcode::TargetMap& target() const { return *target_; }
+  [[nodiscard]] const grid::LengthMap& target() const { return *target_; }
   /// Null of four belts.
   [[nodiscard]] const grid::CompensationMap* map() const;
   /// The machine that was in force when they were measured; null of chains.
@@ -79,7 +78,7 @@ class GcodeTarget {
   using Source = std::variant<std::unique_ptr<const grid::CompensationMap>, model::BeltMachine>;
   struct Parts {
     Source source;
-    std::unique_ptr<const gcode::TargetMap> target;
+    std::unique_ptr<const grid::LengthMap> target;
     std::string on_trust;
   };
   explicit GcodeTarget(Parts parts, const InputFile& file);
@@ -87,7 +86,7 @@ class GcodeTarget {
   static Parts of_belts(const GcodeOptions& options);
 
   Source source_;
-  std::unique_ptr<const gcode::TargetMap> target_;
+  std::unique_ptr<const grid::LengthMap> target_;
   std::string map_hash_;
   std::string on_trust_;
 };
@@ -99,7 +98,7 @@ struct GcodeController {
   /// Empty where it does not clamp.
   std::optional<gcode::ClampBox> clamp_box;
   /// Where programs may go: the bed, or the frame of the anchors of four belts.
-  gcode::BedRectangle sheet;
+  interp::Rectangle sheet;
   /// Of the machine that the map was extended with; none of belts.
   model::ChainLengths half_play_mm;
   /// What it believes, for the header of what is compensated.
@@ -112,7 +111,7 @@ class GcodeMachine {
   /// \throws InputError for bad files, or where neither map nor --machine says what the controller
   /// believes.
   explicit GcodeMachine(const GcodeOptions& options);
-  [[nodiscard]] const gcode::TargetMap& target() const { return target_.target(); }
+  [[nodiscard]] const grid::LengthMap& target() const { return target_.target(); }
   [[nodiscard]] const gcode::Corrector& corrector() const { return corrector_; }
   [[nodiscard]] const GcodeController& controller() const { return controller_; }
   [[nodiscard]] const std::string& map_hash() const { return target_.map_hash(); }
@@ -125,7 +124,7 @@ class GcodeMachine {
 };
 
 /// Where programs of --machine may go; without it the usual bed. \throws InputError.
-[[nodiscard]] gcode::BedRectangle sheet_of(const GcodeOptions& options);
+[[nodiscard]] interp::Rectangle sheet_of(const GcodeOptions& options);
 
 /// That the tolerance leaves room for rounding.
 void check_limits(const GcodeOptions& options, OptionProblems& problems);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grid/files/whole_file.hpp"
-#include "grid/map/map_check.hpp"
+#include "model/chains/chain_mechanism.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/plan_drawing.hpp"
@@ -65,7 +65,7 @@ int plan_the_check(const grid::CompensationMap& map,
       "there, beyond what a shifted zero can imitate, by {:.1f} sigmas (left chain) and "
       "{:.1f} (right).\n",
       plan->marks.size(),
-      100.0 * grid::kPitchGrowthSigma,
+      100.0 * model::kPitchGrowthSigma,
       plan->told_sigmas.left,
       plan->told_sigmas.right);
   say_next({"check", options.map, wanted.list});

@@ -11,8 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "grid/belts/belt_map.hpp"
 #include "grid/files/points_file.hpp"
 #include "grid/files/whole_file.hpp"
+#include "grid/map/map_in_frame.hpp"
 #include "tools/cli/effect_argument.hpp"
 #include "tools/cli/input_file.hpp"
 #include "tools/cli/numbers.hpp"
@@ -20,7 +22,7 @@
 #include "tools/cli/outside_option.hpp"
 #include "tools/cli/places.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/query_anchors.hpp"
+#include "tools/cli/query_text.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -40,104 +42,79 @@ struct QueryCommand {
   bool json = false;
 };
 
-/// One line of the answer: numbers that are not there are empty cells, or null.
-struct AnswerLine {
-  model::MarkPoint point;
-  tl::expected<grid::MapAnswer, grid::MapFailure> answer;
-};
-
-grid::MapStatus status_of(const AnswerLine& line) {
-  return line.answer ? line.answer->status : grid::MapStatus::outside;
-}
-
-std::string as_csv(const std::vector<AnswerLine>& lines) {
-  std::string text = "x_mm,y_mm,left_mm,right_mm,left_sigma_mm,right_sigma_mm,status\n";
-  for (const AnswerLine& line : lines) {
-    fmt::format_to(std::back_inserter(text), "{},{},", line.point.x_mm, line.point.y_mm);
-    if (line.answer) {
-      fmt::format_to(std::back_inserter(text),
-                     "{:.6f},{:.6f},{:.4f},{:.4f},",
-                     line.answer->lengths.left_mm,
-                     line.answer->lengths.right_mm,
-                     line.answer->sigma.left_mm,
-                     line.answer->sigma.right_mm);
-    } else {
-      text += ",,,,";
-    }
-    text += fmt::format("{}\n", grid::name(status_of(line)));
-  }
-  return text;
-}
-
-std::string as_json(const std::vector<AnswerLine>& lines) {
-  std::string text = "[";
-  const char* separator = "\n";
-  for (const AnswerLine& line : lines) {
-    fmt::format_to(std::back_inserter(text),
-                   "{}  {{\"x_mm\": {}, \"y_mm\": {}, ",
-                   separator,
-                   line.point.x_mm,
-                   line.point.y_mm);
-    if (line.answer) {
-      fmt::format_to(std::back_inserter(text),
-                     "\"left_mm\": {:.6f}, \"right_mm\": {:.6f}, \"left_sigma_mm\": {:.4f}, "
-                     "\"right_sigma_mm\": {:.4f}, "
-                     "\"tool_sigma_mm\": {:.4f}, ",
-                     line.answer->lengths.left_mm,
-                     line.answer->lengths.right_mm,
-                     line.answer->sigma.left_mm,
-                     line.answer->sigma.right_mm,
-                     line.answer->tool_sigma_mm);
-    }
-    fmt::format_to(std::back_inserter(text), "\"status\": \"{}\"}}", grid::name(status_of(line)));
-    separator = ",\n";
-  }
-  return text + "\n]\n";
-}
-
 /// In the frame of --frame.
-std::vector<model::MarkPoint> points_asked(const QueryCommand& command) {
-  if (!command.points.empty()) return files::read_points(command.points);
-  std::vector<model::MarkPoint> points;
+std::vector<model::BedPoint> points_asked(const QueryCommand& command) {
+  std::vector<model::BedPoint> points;
+  if (!command.points.empty()) {
+    for (const model::MarkPoint& point : files::read_points(command.points))
+      points.push_back(model::identity_placement(point));
+    return points;
+  }
   for (std::size_t i = 0; i + 1 < command.coordinates.size(); i += 2) {
     points.push_back({command.coordinates[i], command.coordinates[i + 1]});
   }
   return points;
 }
 
-model::MarkPoint mark_of(model::MarkPoint asked,
-                         const grid::CompensationMap& map,
-                         const QueryCommand& command) {
-  return command.frame == "bed" ? map.to_mark(model::identity_placement(asked)) : asked;
-}
-
-int run_inverse(const grid::CompensationMap& map, const QueryCommand& command) {
-  const auto mark = map.inverse({command.inverse[0], command.inverse[1]});
-  if (!mark) {
+int answer_inverse(const AskedMap& asked, const QueryCommand& command) {
+  const auto tool = asked.map.tool({command.inverse[0], command.inverse[1]});
+  if (!tool) {
+    const bool has_own_words = !asked.no_answer.empty() && tool.error().cause;
     fmt::print(stderr,
-               "left {} mm, right {} mm: {}\n",
+               "{} {} mm, {} {} mm: {}\n",
+               asked.first,
                command.inverse[0],
+               asked.second,
                command.inverse[1],
-               grid::explain(mark.error()));
+               has_own_words ? std::string(tool.error().cause->sentence)
+                             : grid::explain(tool.error()));
     return kNotSupportedOrOutside;
   }
-  const model::MarkPoint point =
-      command.frame == "bed" ? model::identity_placement(map.to_bed(*mark)) : *mark;
-  write_output(command.output,
-               command.json
-                   ? fmt::format("{{\"x_mm\": {:.6f}, \"y_mm\": {:.6f}, \"status\": \"{}\"}}\n",
-                                 point.x_mm,
-                                 point.y_mm,
-                                 grid::name(map.status(*mark)))
-                   : fmt::format("x_mm,y_mm,status\n{:.6f},{:.6f},{}\n",
-                                 point.x_mm,
-                                 point.y_mm,
-                                 grid::name(map.status(*mark))));
+  const auto status = grid::name(asked.map.status(*tool));
+  write_output(
+      command.output,
+      command.json
+          ? fmt::format("{{\"x_mm\": {:.6f}, \"y_mm\": {:.6f}, \"status\": \"{}\"}}\n",
+                        tool->x_mm,
+                        tool->y_mm,
+                        status)
+          : fmt::format("x_mm,y_mm,status\n{:.6f},{:.6f},{}\n", tool->x_mm, tool->y_mm, status));
   return kDone;
 }
 
-std::string page_of(const std::string& map) {
-  return std::filesystem::path(map).replace_extension(".html").string();
+int answer_points(const AskedMap& asked, const QueryCommand& command) {
+  std::vector<AnswerLine> lines;
+  std::string outside;
+  const std::vector<model::BedPoint> points = points_asked(command);
+  for (const model::BedPoint& point : points) {
+    progress_is(static_cast<double>(lines.size()), static_cast<double>(points.size()));
+    lines.push_back({point, asked.map.query(point)});
+    if (lines.back().answer) continue;
+    fmt::format_to(
+        std::back_inserter(outside),
+        "({}, {}): {}\n",
+        point.x_mm,
+        point.y_mm,
+        asked.no_answer.empty() ? grid::explain(lines.back().answer.error()) : asked.no_answer);
+  }
+  if (!outside.empty()) {
+    end_progress();
+    fmt::print(stderr, "{}", outside);
+  }
+  write_output(command.output, command.json ? as_json(asked, lines) : as_csv(asked, lines));
+  return outside.empty() ? kDone : kNotSupportedOrOutside;
+}
+
+int answer(const AskedMap& asked, const QueryCommand& command) {
+  const int code =
+      command.inverse.empty() ? answer_points(asked, command) : answer_inverse(asked, command);
+  if (code == kDone) {
+    say_next({"report",
+              command.map,
+              "-o",
+              std::filesystem::path(command.map).replace_extension(".html").string()});
+  }
+  return code;
 }
 
 int query_map(const QueryCommand& command, const grid::CompensationMap& stored) {
@@ -154,32 +131,29 @@ int query_map(const QueryCommand& command, const grid::CompensationMap& stored) 
         stderr, "{}: a map without a machine knows only the frame of its marks\n", command.map);
     return kNotSupportedOrOutside;
   }
-  const std::vector<std::string> next = {"report", command.map, "-o", page_of(command.map)};
-  if (!command.inverse.empty()) {
-    const int code = run_inverse(map, command);
-    if (code == kDone) say_next(next);
-    return code;
+  const grid::MapInFrame in_frame(
+      map, command.frame == "bed" ? grid::MapFrame::bed : grid::MapFrame::marks);
+  return answer({in_frame}, command);
+}
+
+/// A program for belts knows one frame.
+int query_anchors(const QueryCommand& command, const InputFile& file) {
+  const files::FittedAnchors anchors = load_anchors(file);
+  if (!anchors.holes && !anchors.fit.coordinates.front().stated_mm) {
+    throw files::InputError(
+        {{file.name,
+          "/fit/coordinates",
+          "no stated_mm",
+          "anchors fitted to a file that states those in force: where commands count from follows "
+          "from them (import maslow4 --settings maslow.yaml)"}});
   }
-  std::vector<AnswerLine> lines;
-  std::string outside;
-  const std::vector<model::MarkPoint> points = points_asked(command);
-  for (const model::MarkPoint& point : points) {
-    progress_is(static_cast<double>(lines.size()), static_cast<double>(points.size()));
-    lines.push_back({point, map.query(mark_of(point, map, command))});
-    if (lines.back().answer) continue;
-    fmt::format_to(std::back_inserter(outside),
-                   "({}, {}): {}\n",
-                   point.x_mm,
-                   point.y_mm,
-                   grid::explain(lines.back().answer.error()));
-  }
-  if (!outside.empty()) {
-    end_progress();
-    fmt::print(stderr, "{}", outside);
-  }
-  write_output(command.output, command.json ? as_json(lines) : as_csv(lines));
-  if (outside.empty()) say_next(next);
-  return outside.empty() ? kDone : kNotSupportedOrOutside;
+  const grid::BeltMap map(anchors.fit, anchors.holes ? &*anchors.holes : nullptr);
+  return answer({map,
+                 4,
+                 "top left",
+                 "top right",
+                 "outside the frame of these anchors, or nearer to one than its arm is long"},
+                command);
 }
 
 int run_query(Verb verb, const QueryCommand& command) {
@@ -188,17 +162,9 @@ int run_query(Verb verb, const QueryCommand& command) {
   refuse_what_does_nothing(verb,
                            (file.kind == FileKind::map ? facts::map : facts::anchors) |
                                (command.outside.way == "fade" ? facts::fade : 0U));
-  if (file.kind == FileKind::map) {
-    return with_map(
-        file, [&](const grid::CompensationMap& stored) { return query_map(command, stored); });
-  }
-  // A program for belts knows one frame.
-  std::vector<model::BedPoint> points;
-  if (command.inverse.empty()) {
-    for (const model::MarkPoint& point : points_asked(command))
-      points.push_back(model::identity_placement(point));
-  }
-  return query_anchors({file, std::move(points), command.inverse, command.output, command.json});
+  if (file.kind == FileKind::anchors) return query_anchors(command, file);
+  return with_map(
+      file, [&](const grid::CompensationMap& stored) { return query_map(command, stored); });
 }
 
 /// What CLI11 cannot say of the options together.

@@ -26,7 +26,6 @@
 #include "tools/cli/square_program.hpp"
 #include "tools/cli/talk.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/gcode/compensation_target.hpp"
 
 namespace chaintrue::cli {
 namespace {

@@ -26,14 +26,14 @@ int tiles(double length_mm) {
 CommandField::CommandField(const Corrector& corrector, double bound_mm)
     : corrector_(corrector),
       bound_mm_(bound_mm),
-      bounds_(corrector.map().bounds()),
-      columns_(tiles(bounds_.right_mm - bounds_.left_mm)),
-      rows_(tiles(bounds_.top_mm - bounds_.bottom_mm)),
+      bounds_(corrector.map().domain()),
+      columns_(tiles(bounds_.x_max - bounds_.x_min)),
+      rows_(tiles(bounds_.y_max - bounds_.y_min)),
       tiles_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
 
 CommandField::Tile* CommandField::tile(model::BedPoint target) {
-  const double u = (target.x_mm - bounds_.left_mm) / (bounds_.right_mm - bounds_.left_mm);
-  const double v = (target.y_mm - bounds_.bottom_mm) / (bounds_.top_mm - bounds_.bottom_mm);
+  const double u = (target.x_mm - bounds_.x_min) / (bounds_.x_max - bounds_.x_min);
+  const double v = (target.y_mm - bounds_.y_min) / (bounds_.y_max - bounds_.y_min);
   if (!(u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0)) return nullptr;
   const int column = std::min(static_cast<int>(u * columns_), columns_ - 1);
   const int row = std::min(static_cast<int>(v * rows_), rows_ - 1);
@@ -47,15 +47,15 @@ void CommandField::tabulate(Tile& tile) {
   };
   const int column = index % columns_;
   const int row = index / columns_;
-  const interp::Rectangle area{share(bounds_.left_mm, bounds_.right_mm, column, columns_),
-                               share(bounds_.left_mm, bounds_.right_mm, column + 1, columns_),
-                               share(bounds_.bottom_mm, bounds_.top_mm, row, rows_),
-                               share(bounds_.bottom_mm, bounds_.top_mm, row + 1, rows_)};
+  const interp::Rectangle area{share(bounds_.x_min, bounds_.x_max, column, columns_),
+                               share(bounds_.x_min, bounds_.x_max, column + 1, columns_),
+                               share(bounds_.y_min, bounds_.y_max, row, rows_),
+                               share(bounds_.y_min, bounds_.y_max, row + 1, rows_)};
   bool everywhere = true;
   auto table = interp::CompiledPair::compile(area, tile.cells, tile.cells, [&](double x, double y) {
     // A tile's last node may miss the bounds by a rounding.
-    const model::BedPoint place{std::clamp(x, bounds_.left_mm, bounds_.right_mm),
-                                std::clamp(y, bounds_.bottom_mm, bounds_.top_mm)};
+    const model::BedPoint place{std::clamp(x, bounds_.x_min, bounds_.x_max),
+                                std::clamp(y, bounds_.y_min, bounds_.y_max)};
     const auto command = corrector_.command(place);
     everywhere = everywhere && command.has_value();
     return command ? std::array{command->x_mm - place.x_mm, command->y_mm - place.y_mm}
@@ -73,7 +73,7 @@ void CommandField::tabulate(Tile& tile) {
 tl::expected<model::BedPoint, CorrectionFailure> CommandField::command(model::BedPoint target) {
   Tile* const here = tile(target);
   // Beyond the measured points a map may refuse, place by place.
-  if (here == nullptr || corrector_.map().status(target) == TargetStatus::extrapolated) {
+  if (here == nullptr || corrector_.map().status(target) >= grid::MapStatus::extrapolated) {
     return corrector_.command(target);
   }
   if (!here->table && here->cells <= kMostCells && ++here->computed > cost(here->cells)) {

@@ -41,7 +41,7 @@ class CommandField {
 
   const Corrector& corrector_;
   double bound_mm_;
-  BedRectangle bounds_;
+  interp::Rectangle bounds_;
   int columns_;
   int rows_;
   std::vector<Tile> tiles_;

@@ -99,8 +99,8 @@ void Compensator::examine(const Move& move, const PathSample& sample) {
       }
     }
   }
-  if (corrector_.map().status({sample.target.x_mm, sample.target.y_mm}) ==
-      TargetStatus::extrapolated) {
+  if (corrector_.map().status({sample.target.x_mm, sample.target.y_mm}) >=
+      grid::MapStatus::extrapolated) {
     findings_.add(Note{move.line,
                        "extrapolated",
                        fmt::format("X{:.3f} Y{:.3f} lies outside the measured points: the "

@@ -18,19 +18,16 @@ bool finite(model::BedPoint point) {
 
 }  // namespace
 
-std::string explain(const CorrectionFailure& failure) {
-  const std::string cause = failure.pose ? fmt::format(": {}", model::explain(*failure.pose)) : "";
-  switch (failure.reason) {
-    case CorrectionFailure::outside_map:
-      return "lies outside the map";
-    case CorrectionFailure::unreachable:
-      return "cannot be reached by the machine" + cause;
-    case CorrectionFailure::not_converged:
-      return "has no answer in the map: the iteration did not settle";
-    case CorrectionFailure::controller:
-      break;
+model::ChainLengths half_play_mm(const model::Machine& machine) {
+  model::ChainLengths half;
+  for (const model::AppliedEffect& effect : machine.effects) {
+    if (effect.effect != "direction_hysteresis") continue;
+    const auto width = effect.parameters.find("half_width_mm");
+    if (width == effect.parameters.end()) continue;
+    if (effect.side != "right") half.left_mm += width->second;
+    if (effect.side != "left") half.right_mm += width->second;
   }
-  return "cannot be reached by the controller's own kinematics" + cause;
+  return half;
 }
 
 tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(model::BedPoint target) const {
@@ -40,7 +37,7 @@ tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(model::BedPo
 tl::expected<model::BedPoint, CorrectionFailure> Corrector::command(
     model::BedPoint target, model::ChainLengths half_play_mm, ChainDirections directions) const {
   auto lengths = map_.lengths(target);
-  if (!lengths) return tl::unexpected(lengths.error());
+  if (!lengths) return tl::unexpected(CorrectionFailure(lengths.error()));
   lengths->left_mm += directions.left * half_play_mm.left_mm;
   lengths->right_mm += directions.right * half_play_mm.right_mm;
   const auto result = kinematics_.command(*lengths);
@@ -64,7 +61,7 @@ tl::expected<model::BedPoint, CorrectionFailure> Corrector::tool(model::BedPoint
   const auto lengths = paid_out(command);
   if (!lengths) return tl::unexpected(lengths.error());
   const auto point = map_.tool(*lengths);
-  if (!point) return tl::unexpected(point.error());
+  if (!point) return tl::unexpected(CorrectionFailure(point.error()));
   if (!finite(*point)) return tl::unexpected(CorrectionFailure::not_converged);
   return *point;
 }
@@ -72,17 +69,17 @@ tl::expected<model::BedPoint, CorrectionFailure> Corrector::tool(model::BedPoint
 double Corrector::sampled_curvature_per_mm() const {
   constexpr int kColumns = 24;
   constexpr int kRows = 12;
-  const BedRectangle area = map_.bounds();
-  const double width = area.right_mm - area.left_mm;
-  const double height = area.top_mm - area.bottom_mm;
+  const interp::Rectangle& area = map_.domain();
+  const double width = area.width();
+  const double height = area.height();
   const double step = std::min(width, height) / (4.0 * kRows);
   constexpr double kHalf = 0.5 * std::numbers::sqrt2;
   constexpr double kDirections[][2] = {{1.0, 0.0}, {0.0, 1.0}, {kHalf, kHalf}, {kHalf, -kHalf}};
   double worst = 0.0;
   for (int i = 0; i < kColumns; ++i) {
     for (int k = 0; k < kRows; ++k) {
-      const model::BedPoint middle{area.left_mm + width * (i + 0.5) / kColumns,
-                                   area.bottom_mm + height * (k + 0.5) / kRows};
+      const model::BedPoint middle{area.x_min + width * (i + 0.5) / kColumns,
+                                   area.y_min + height * (k + 0.5) / kRows};
       const auto at_middle = command(middle);
       for (const auto& direction : kDirections) {
         const auto ahead =

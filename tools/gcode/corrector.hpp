@@ -12,8 +12,8 @@
 #include <tl/expected.hpp>
 
 #include "model/controllers/payout.hpp"
+#include "tools/gcode/correction_failure.hpp"
 #include "tools/gcode/firmware.hpp"
-#include "tools/gcode/target_map.hpp"
 
 namespace chaintrue::gcode {
 
@@ -24,10 +24,13 @@ struct ChainDirections {
   friend bool operator==(const ChainDirections&, const ChainDirections&) = default;
 };
 
+/// Half the width of the machine's direction_hysteresis, per chain; zero where it has none.
+[[nodiscard]] model::ChainLengths half_play_mm(const model::Machine& machine);
+
 class Corrector {
  public:
   /// Keeps references.
-  Corrector(const TargetMap& map,
+  Corrector(const grid::LengthMap& map,
             const model::ControllerKinematics& kinematics,
             const Firmware& firmware)
       : map_(map), kinematics_(kinematics), firmware_(firmware) {}
@@ -42,7 +45,7 @@ class Corrector {
   [[nodiscard]] tl::expected<model::ChainLengths, CorrectionFailure> paid_out(
       model::BedPoint command) const;
 
-  [[nodiscard]] const TargetMap& map() const { return map_; }
+  [[nodiscard]] const grid::LengthMap& map() const { return map_; }
   [[nodiscard]] const model::ControllerKinematics& kinematics() const { return kinematics_; }
   [[nodiscard]] const Firmware& firmware() const { return firmware_; }
 
@@ -51,7 +54,7 @@ class Corrector {
   [[nodiscard]] double sampled_curvature_per_mm() const;
 
  private:
-  const TargetMap& map_;
+  const grid::LengthMap& map_;
   const model::ControllerKinematics& kinematics_;
   const Firmware& firmware_;
 };

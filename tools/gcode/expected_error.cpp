@@ -61,7 +61,7 @@ void CutPlaces::add(const Move& move) {
   }
 }
 
-std::optional<ExpectedError> CutPlaces::expected(const TargetMap& map) const {
+std::optional<ExpectedError> CutPlaces::expected(const grid::LengthMap& map) const {
   ExpectedError error;
   for (const auto& [at, square] : squares_) {
     const auto answer =
@@ -69,7 +69,7 @@ std::optional<ExpectedError> CutPlaces::expected(const TargetMap& map) const {
     // A square's middle may lie off the map where the cut does not.
     if (!answer) continue;
     if (!answer->tool_sigma_mm) return std::nullopt;
-    take(answer->status == TargetStatus::extrapolated ? error.outside : error.measured,
+    take(answer->status == grid::MapStatus::extrapolated ? error.outside : error.measured,
          square.length_mm,
          *answer->tool_sigma_mm,
          square.line);

@@ -19,8 +19,8 @@
 #include <optional>
 #include <utility>
 
+#include "grid/map/length_map.hpp"
 #include "tools/gcode/events.hpp"
-#include "tools/gcode/target_map.hpp"
 
 namespace chaintrue::gcode {
 
@@ -48,7 +48,7 @@ class CutPlaces {
   /// A whole move of any kind, on the sheet.
   void add(const Move& move);
   /// Empty where the map does not know its error.
-  [[nodiscard]] std::optional<ExpectedError> expected(const TargetMap& map) const;
+  [[nodiscard]] std::optional<ExpectedError> expected(const grid::LengthMap& map) const;
 
  private:
   struct Square {

@@ -20,7 +20,7 @@ constexpr double kRowsPerTurn = 8.0;
 
 class Sampler final : public Sink {
  public:
-  Sampler(const TargetMap& map,
+  Sampler(const grid::LengthMap& map,
           model::BedPoint home,
           double every_mm,
           const std::function<void(const PathLengths&)>& write,
@@ -49,7 +49,7 @@ class Sampler final : public Sink {
       findings_.add(Problem{
           ProblemName::outside_map,
           {move.line, 0},
-          fmt::format("X{:.3f} Y{:.3f} {}", place.x_mm, place.y_mm, explain(answer.error()))});
+          fmt::format("X{:.3f} Y{:.3f} {}", place.x_mm, place.y_mm, explain(CorrectionFailure(answer.error())))});
       return {};
     }
     return {};
@@ -57,7 +57,7 @@ class Sampler final : public Sink {
   void note(const Note& note) override { findings_.add(note); }
 
  private:
-  const TargetMap& map_;
+  const grid::LengthMap& map_;
   model::BedPoint home_;
   double every_mm_;
   const std::function<void(const PathLengths&)>& write_;
@@ -69,7 +69,7 @@ class Sampler final : public Sink {
 
 Result<ProgramSummary> path_lengths(LineSource& source,
                                     const Dialect& dialect,
-                                    const TargetMap& map,
+                                    const grid::LengthMap& map,
                                     model::BedPoint home,
                                     double every_mm,
                                     const std::function<void(const PathLengths&)>& write,

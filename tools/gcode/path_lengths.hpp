@@ -14,7 +14,7 @@ struct PathLengths {
   std::size_t line = 0;
   MoveKind kind = MoveKind::rapid;
   Point place;  ///< on the sheet, mm
-  TargetAnswer answer;
+  grid::LengthsAnswer answer;  ///< the first two are paid out
   double feed_mm_per_min = 0.0;  ///< 0 for rapids
 };
 
@@ -23,7 +23,7 @@ struct PathLengths {
 [[nodiscard]] Result<ProgramSummary> path_lengths(
     LineSource& source,
     const Dialect& dialect,
-    const TargetMap& map,
+    const grid::LengthMap& map,
     model::BedPoint home,
     double every_mm,
     const std::function<void(const PathLengths&)>& write,

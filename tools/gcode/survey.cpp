@@ -18,7 +18,7 @@ constexpr double kLookRad = std::numbers::pi / 64.0;
 
 class Surveyor final : public Sink {
  public:
-  Surveyor(model::BedPoint home, const BedRectangle& sheet, Findings& findings)
+  Surveyor(model::BedPoint home, const interp::Rectangle& sheet, Findings& findings)
       : home_(home), sheet_(sheet), findings_(findings) {}
 
   Result<void> move(const Move& move) override {
@@ -68,10 +68,10 @@ class Surveyor final : public Sink {
     box.most.x_mm = std::max(box.most.x_mm, place.x_mm);
     box.most.y_mm = std::max(box.most.y_mm, place.y_mm);
     height(place.z_mm);
-    const double beyond = std::max({sheet_.left_mm - place.x_mm,
-                                    place.x_mm - sheet_.right_mm,
-                                    sheet_.bottom_mm - place.y_mm,
-                                    place.y_mm - sheet_.top_mm});
+    const double beyond = std::max({sheet_.x_min - place.x_mm,
+                                    place.x_mm - sheet_.x_max,
+                                    sheet_.y_min - place.y_mm,
+                                    place.y_mm - sheet_.y_max});
     if (beyond <= 1e-9 || objected_line_ == line) return;
     objected_line_ = line;
     findings_.add(Problem{
@@ -82,7 +82,7 @@ class Surveyor final : public Sink {
   }
 
   model::BedPoint home_;
-  BedRectangle sheet_;
+  interp::Rectangle sheet_;
   Findings& findings_;
   std::size_t objected_line_ = 0;
 };
@@ -92,7 +92,7 @@ class Surveyor final : public Sink {
 Result<Survey> survey(LineSource& source,
                       const Dialect& dialect,
                       model::BedPoint home,
-                      const BedRectangle& sheet,
+                      const interp::Rectangle& sheet,
                       Findings& findings) {
   Surveyor surveyor(home, sheet, findings);
   const auto program = run_program(source, dialect, surveyor);

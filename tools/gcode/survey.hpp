@@ -31,7 +31,7 @@ struct Survey {
 [[nodiscard]] Result<Survey> survey(LineSource& source,
                                     const Dialect& dialect,
                                     model::BedPoint home,
-                                    const BedRectangle& sheet,
+                                    const interp::Rectangle& sheet,
                                     Findings& findings);
 
 }  // namespace chaintrue::gcode

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "grid/map/map_in_frame.hpp"
 #include "tests/gcode_witness/follower/tool_path.hpp"
-#include "tools/gcode/compensation_target.hpp"
 #include "tools/gcode/compensator.hpp"
 #include "tools/gcode/verifier.hpp"
 
@@ -43,7 +43,7 @@ class Shop {
   [[nodiscard]] const char* name() const { return corrector_.firmware().name; }
 
  private:
-  gcode::CompensationTarget target_;
+  grid::MapInFrame target_;
   model::Machine machine_;
   std::unique_ptr<const model::ControllerKinematics> kinematics_;
   gcode::Corrector corrector_;

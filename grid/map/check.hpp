@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a check by new readings finds, whatever hangs: is what was calibrated still valid, does
+/// re-zeroing mend it, or must it be measured again.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/mechanism_change.hpp"
+
+namespace chaintrue::grid {
+
+enum class CheckVerdict { valid, valid_after_rezeroing, measure_again };
+[[nodiscard]] std::string_view name(CheckVerdict verdict);
+
+/// Of a smooth change that none of the hypotheses is, and of a reading that is simply wrong.
+inline constexpr double kUnknownSigmaMm = 3.0;
+inline constexpr double kOutlierSigmaMm = 20.0;
+/// A verdict with less needs more readings.
+inline constexpr double kDecided = 0.8;
+
+/// How far a quantity has changed.
+struct QuantityFound {
+  model::ChangedQuantity of;
+  double value = 0.0;
+  double sigma = 0.0;  ///< 0 where `of` states the value
+};
+
+/// What may have changed: nothing, a change of the mechanism's (mechanism_change.hpp), unknown,
+/// bad_point.
+struct CheckHypothesis {
+  std::string what;
+  std::string side;  ///< of what, in words of files; empty: of the whole
+  CheckVerdict verdict = CheckVerdict::valid;
+  double probability = 0.0;
+  /// Teeth skipped, positive where too much is read; of a bad point its number, from 0.
+  int count = 0;
+  std::string name = {};  ///< of a bad point: "point 3"
+  std::vector<QuantityFound> found = {};
+
+  /// What is read too much of a length, with its sigma, and by what share it has grown; 0 where the
+  /// hypothesis has none.
+  [[nodiscard]] QuantityFound added(std::size_t length) const;
+  [[nodiscard]] QuantityFound elongation(std::size_t length) const;
+  /// Of the only quantity, or the root of the sum of squares.
+  [[nodiscard]] double size() const;
+};
+
+/// How far one new reading is from what was calibrated, in its own numbers.
+struct CheckResidual {
+  std::string what;  ///< "point 3, left chain", "A-B"
+  double residual_mm = 0.0;
+  double sigma_mm = 0.0;  ///< of noise and calibration together
+};
+
+/// Residuals that are good or bad together.
+struct CheckUnit {
+  std::string name;          ///< "point 3"
+  std::size_t index = 0;     ///< into the file's points or distances
+  std::size_t first_row = 0;  ///< into the residuals
+  std::size_t rows = 1;
+  [[nodiscard]] double rms_mm(const std::vector<CheckResidual>& residuals) const;
+  [[nodiscard]] double sigma_mm(const std::vector<CheckResidual>& residuals) const;
+};
+
+struct Check {
+  CheckVerdict verdict = CheckVerdict::valid;
+  std::array<double, 3> probability{};  ///< by verdict
+  /// False: the verdict has less than kDecided, more readings are needed.
+  bool decided = true;
+  std::vector<CheckHypothesis> hypotheses;  ///< most probable first
+  /// The zeros as calibrated with the most probable re-zeroing put in, a length each; of a map
+  /// without a machine they count from nothing. Empty where zeros are no numbers that are set.
+  std::vector<double> new_zero_mm;
+  std::vector<CheckResidual> residuals;
+  std::vector<CheckUnit> units;  ///< in the order of the file
+  std::string sentence;
+  /// What these readings cannot tell apart; empty where all is clear.
+  std::string not_told_apart;
+  /// What was taken out of the readings, and what could not be; whole sentences.
+  std::vector<std::string> notes;
+  /// All of it is of the map for other settings than its own (check_settings.hpp).
+  bool settings_have_changed = false;
+  [[nodiscard]] bool is_valid_as_it_is() const {
+    return decided && verdict == CheckVerdict::valid && !settings_have_changed;
+  }
+};
+
+struct CheckFailure {
+  enum class Reason {
+    too_many_readings,
+    no_machine,   ///< commands without a controller
+    no_lengths,   ///< a command that its controller cannot reach, or points without lengths
+    unreachable,  ///< a place off the map, or where its machine cannot hold the tool
+    no_noise,     ///< nothing says how well new readings should agree
+    nowhere,      ///< lengths that end nowhere together
+  } reason;
+  std::string sentence;
+};
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/check_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "grid/estimation/placement_fit.hpp"
+#include "grid/map/corrected_data.hpp"
+#include "grid/observation/chain_lengths.hpp"
+
+namespace chaintrue::grid {
+namespace {
+
+using model::MarkPoint;
+
+using Reason = CheckFailure::Reason;
+
+tl::unexpected<CheckFailure> check_fails(Reason reason, std::string sentence) {
+  return tl::unexpected(CheckFailure{reason, std::move(sentence)});
+}
+
+/// A sheet that is said to lie exactly is held by these: an inverse of nothing has no value.
+constexpr double kLeastShiftMm = 1e-6;
+constexpr double kLeastTurnRad = 1e-9;
+
+std::vector<Repeated> merged(const std::vector<LengthPoint>& points) {
+  std::map<std::pair<double, double>, std::size_t> at;
+  std::vector<Repeated> result;
+  for (const LengthPoint& point : points) {
+    const auto [place, is_new] =
+        at.emplace(std::pair(point.mark.x_mm, point.mark.y_mm), result.size());
+    if (is_new) result.push_back({point, 0.0});
+    Repeated& one = result[place->second];
+    one.count += 1.0;
+    one.point.lengths.left_mm += (point.lengths.left_mm - one.point.lengths.left_mm) / one.count;
+    one.point.lengths.right_mm += (point.lengths.right_mm - one.point.lengths.right_mm) / one.count;
+  }
+  return result;
+}
+
+/// Readings of one distance: their mean, weighted by what each is worth.
+MeasuredHoles merged(const MeasuredHoles& set) {
+  std::map<std::tuple<std::size_t, std::size_t, std::optional<SheetEdge>>, std::size_t> at;
+  MeasuredHoles result = set;
+  result.distances.clear();
+  std::vector<double> precision;
+  for (const HoleDistance& distance : set.distances) {
+    const std::size_t to = distance.edge ? distance.from : distance.to;
+    const auto [place, is_new] = at.emplace(
+        std::tuple(std::min(distance.from, to), std::max(distance.from, to), distance.edge),
+        result.distances.size());
+    if (is_new) {
+      result.distances.push_back(distance);
+      precision.push_back(0.0);
+    }
+    HoleDistance& one = result.distances[place->second];
+    double& sum = precision[place->second];
+    const double own = 1.0 / std::pow(sigma_of(set, distance), 2);
+    sum += own;
+    one.distance_mm += own / sum * (distance.distance_mm - one.distance_mm);
+    if (sum > own) one.sigma_mm = 1.0 / std::sqrt(sum);
+  }
+  return result;
+}
+
+tl::unexpected<CheckFailure> too_many(std::size_t found, std::size_t most, const char* what) {
+  return check_fails(
+      Reason::too_many_readings,
+      fmt::format(
+          "{} {} are more than a check takes ({}); three to five that lie far from each other tell "
+          "as much, and a map of all of them is made by chaintrue fit",
+          found,
+          what,
+          most));
+}
+
+/// Lays the sheet where the readings put it, as far as its prior lets them, and the marks with it.
+void lay(const CompensationMap& map, CheckedPart& part) {
+  const auto on_map = [](const model::SheetPlacement& sheet, MarkPoint mark) {
+    const model::BedPoint place = sheet.to_bed(mark);
+    return MarkPoint{place.x_mm, place.y_mm};
+  };
+  const observation::PointNoise noise{part.noise.length_mm, part.noise.position_mm};
+  part.placement = estimation::fit_placement(
+      [&](const model::SheetPlacement& sheet, estimation::PlacementNormal& sum) {
+        for (const Repeated& one : part.points) {
+          const MarkPoint& mark = one.point.mark;
+          const auto here = map.lengths(on_map(sheet, mark));
+          if (!here) return false;
+          Eigen::Matrix2d covariance =
+              observation::covariance_of(noise, here->mark_jacobian) / one.count;
+          covariance.diagonal().array() += kLeastVarianceMm2;
+          sum.add({one.point.lengths.left_mm - here->lengths.left_mm,
+                   one.point.lengths.right_mm - here->lengths.right_mm},
+                  here->mark_jacobian * sheet.sensitivity(mark),
+                  covariance.inverse());
+        }
+        return true;
+      },
+      part.sheet);
+  for (std::size_t i = 0; i < part.marks.size(); ++i)
+    part.marks[i] = on_map(part.placement, part.points[i].point.mark);
+}
+
+}  // namespace
+
+tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
+                                                     const MeasuredGrid& grid) {
+  MeasuredGrid with_machine = grid;
+  if (!with_machine.machine && map.machine() != nullptr) with_machine.machine = *map.machine();
+  // A map is free of what belongs to the paper and to the visit: so must be what is held against it.
+  const auto corrected = corrected_data(with_machine);
+  if (!corrected) {
+    return check_fails(corrected.error().reason == FitFailure::Reason::no_lengths ? Reason::no_lengths
+                                                                           : Reason::unreachable,
+                corrected.error().sentence);
+  }
+  const auto points = length_points(corrected->grid);
+  if (!points) return check_fails(Reason::no_lengths, points.error().sentence);
+  CheckedPart part;
+  part.notes = corrected->notes;
+  part.points = merged(*points);
+  if (part.points.size() > kMostCheckedPoints)
+    return too_many(part.points.size(), kMostCheckedPoints, "points");
+  part.noise = grid.noise.value_or(StatedNoise{});
+  for (const Repeated& one : part.points) part.marks.push_back(one.point.mark);
+  if (grid.sheet) {
+    part.sheet = observation::SheetPrior{std::max(grid.sheet->shift_mm, kLeastShiftMm),
+                                         std::max(1e-3 * grid.sheet->rotation_mrad, kLeastTurnRad)};
+    lay(map, part);
+  }
+  return part;
+}
+
+tl::expected<CheckedPart, CheckFailure> checked_part(const CompensationMap& map,
+                                                     const MeasuredHoles& set) {
+  if (!set.machine) {
+    return check_fails(
+        Reason::no_machine,
+        "the holes name no machine; what was commanded becomes chain lengths by its controller");
+  }
+  MeasuredHoles once = merged(with_true_tape(set));
+  if (once.distances.size() > kMostCheckedDistances)
+    return too_many(once.distances.size(), kMostCheckedDistances, "distances");
+  if (once.holes.size() > kMostCheckedHoles)
+    return too_many(once.holes.size(), kMostCheckedHoles, "holes");
+  auto distances = observation::TapeDistances::in_given_order(std::move(once));
+  if (!distances) return check_fails(Reason::no_lengths, distances.error().sentence);
+  CheckedPart part;
+  for (const observation::Place& place : distances->places()) {
+    const auto mark = map.inverse(place.lengths);
+    if (!mark) {
+      return check_fails(Reason::unreachable,
+                  fmt::format("hole {}: {}", place.name, explain(mark.error())));
+    }
+    part.marks.push_back(*mark);
+  }
+  part.distances = *std::move(distances);
+  // Edges are those of a sheet of its own; distances between holes do not move with it.
+  if (std::any_of(set.distances.begin(), set.distances.end(), [](const HoleDistance& distance) {
+        return distance.edge.has_value();
+      })) {
+    part.sheet = observation::SheetPrior{observation::kSheetShiftMm, observation::kSheetTurnRad};
+  }
+  return part;
+}
+
+}  // namespace chaintrue::grid

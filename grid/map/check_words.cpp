@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/check_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace chaintrue::grid {
+namespace {
+
+using Quantity = model::ChangedQuantity;
+
+/// Probabilities of the verdicts, the likeliest of these, and the hypotheses likeliest first.
+void decide(Check& check) {
+  for (const CheckHypothesis& h : check.hypotheses)
+    check.probability[static_cast<std::size_t>(h.verdict)] += h.probability;
+  std::stable_sort(check.hypotheses.begin(),
+                   check.hypotheses.end(),
+                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  const auto best = std::max_element(check.probability.begin(), check.probability.end());
+  check.verdict = static_cast<CheckVerdict>(best - check.probability.begin());
+  check.decided = *best >= kDecided;
+  // What is reported first is what speaks most for the verdict.
+  const auto first = std::find_if(check.hypotheses.begin(),
+                                  check.hypotheses.end(),
+                                  [&](const auto& h) { return h.verdict == check.verdict; });
+  std::rotate(check.hypotheses.begin(), first, first + 1);
+}
+
+std::string clause_of(const CheckHypothesis& h, const CheckWords& words) {
+  if (h.what == "nothing") return "nothing has changed";
+  if (h.what == "bad_point") return fmt::format("{} is wrong by itself", h.name);
+  if (h.what == "unknown") return "something has changed that follows no known pattern";
+  return words.change(h);
+}
+
+std::string sentence_of(const Check& check, const CheckWords& words) {
+  const CheckHypothesis& first = check.hypotheses.front();
+  const double percent = 100.0 * check.probability[static_cast<std::size_t>(check.verdict)];
+  if (first.what == "bad_point") {
+    return fmt::format("Measure {} again ({:.0f} %): it is wrong by itself, and says nothing of {}.",
+                       first.name,
+                       percent,
+                       words.subject);
+  }
+  const bool rezero = check.verdict == CheckVerdict::valid_after_rezeroing;
+  const std::string& head = check.verdict == CheckVerdict::valid ? words.valid
+                            : rezero                             ? words.rezero
+                                                                 : words.again;
+  std::string sentence = fmt::format("{} ({:.0f} %): {}.", head, percent, clause_of(first, words));
+  if (rezero && words.what_to_set) sentence += " " + words.what_to_set(check);
+  return sentence;
+}
+
+std::string not_told_apart_of(const Check& check, const CheckWords& words) {
+  if (check.hypotheses.front().probability >= kDecided) return {};
+  constexpr double kWorthNaming = 0.05;
+  std::vector<std::string> others;
+  for (const CheckHypothesis& h : check.hypotheses) {
+    if (h.probability >= kWorthNaming)
+      others.push_back(fmt::format("{} ({:.0f} %)", clause_of(h, words), 100.0 * h.probability));
+  }
+  std::string text = fmt::format(
+      "These {} cannot tell apart: {}.", words.readings, fmt::join(others, "; "));
+  if (!check.decided) {
+    text += fmt::format(" Measure more {}, far from each other, before you rely on either.",
+                        words.readings);
+  }
+  return text;
+}
+
+/// "left_nail_x_mm has changed by +3.00 mm".
+std::string clause_of(const QuantityFound& one, const model::Mechanism& mechanism) {
+  if (one.of.kind == Quantity::Kind::parameter) {
+    const model::MechanismParameter& parameter = mechanism.parameters()[one.of.parameter];
+    return fmt::format("{} has changed by {:+.2f}{}{}",
+                       parameter.name,
+                       one.value,
+                       parameter.unit.empty() ? "" : " ",
+                       parameter.unit);
+  }
+  std::vector<std::string_view> names;
+  for (const std::size_t length : one.of.lengths) names.push_back(mechanism.lengths()[length]);
+  if (one.of.kind == Quantity::Kind::elongation)
+    return fmt::format("{} has grown by {:.3f} %", fmt::join(names, ", "), 100.0 * one.value);
+  return fmt::format("{} reads {:+.2f} mm from where it did", fmt::join(names, ", "), one.value);
+}
+
+}  // namespace
+
+std::string_view name(CheckVerdict verdict) {
+  switch (verdict) {
+    case CheckVerdict::valid:
+      return "valid";
+    case CheckVerdict::valid_after_rezeroing:
+      return "valid_after_rezeroing";
+    case CheckVerdict::measure_again:
+      break;
+  }
+  return "measure_again";
+}
+
+QuantityFound CheckHypothesis::added(std::size_t length) const {
+  for (const QuantityFound& one : found) {
+    const auto& of = one.of.lengths;
+    if (one.of.kind == Quantity::Kind::added && std::find(of.begin(), of.end(), length) != of.end())
+      return one;
+  }
+  return {};
+}
+
+QuantityFound CheckHypothesis::elongation(std::size_t length) const {
+  for (const QuantityFound& one : found) {
+    const auto& of = one.of.lengths;
+    if (one.of.kind == Quantity::Kind::elongation &&
+        std::find(of.begin(), of.end(), length) != of.end())
+      return one;
+  }
+  return {};
+}
+
+double CheckHypothesis::size() const {
+  if (found.size() == 1) return found.front().value;
+  double square = 0.0;
+  for (const QuantityFound& one : found) square += one.value * one.value;
+  return std::sqrt(square);
+}
+
+double CheckUnit::rms_mm(const std::vector<CheckResidual>& residuals) const {
+  double square = 0.0;
+  for (std::size_t k = first_row; k < first_row + rows; ++k)
+    square += residuals[k].residual_mm * residuals[k].residual_mm;
+  return std::sqrt(square / static_cast<double>(rows));
+}
+
+double CheckUnit::sigma_mm(const std::vector<CheckResidual>& residuals) const {
+  double variance = 0.0;
+  for (std::size_t k = first_row; k < first_row + rows; ++k)
+    variance += residuals[k].sigma_mm * residuals[k].sigma_mm;
+  return std::sqrt(variance / static_cast<double>(rows));
+}
+
+CheckWords words_of(const model::Mechanism& mechanism) {
+  const std::string subject = "the calibration";
+  return {subject,
+          "readings",
+          "The calibration is still valid",
+          "The calibration is valid after re-zeroing",
+          "The calibration is to be measured again",
+          [&mechanism](const CheckHypothesis& h) {
+            std::vector<std::string> clauses;
+            for (const QuantityFound& one : h.found) clauses.push_back(clause_of(one, mechanism));
+            return fmt::format("{}", fmt::join(clauses, ", "));
+          }};
+}
+
+Check judged(const CheckReadings& readings, const CheckWords& words) {
+  Check check;
+  check.hypotheses = weighed_hypotheses(readings);
+  decide(check);
+  for (std::size_t i = 0; i < readings.zero_mm.size(); ++i)
+    check.new_zero_mm.push_back(readings.zero_mm[i] + check.hypotheses.front().added(i).value);
+  const Eigen::VectorXd variance = readings.covariance.diagonal();
+  for (Eigen::Index k = 0; k < readings.residual_mm.size(); ++k) {
+    check.residuals.push_back({readings.names[static_cast<std::size_t>(k)],
+                               readings.residual_mm[k],
+                               std::sqrt(variance[k])});
+  }
+  check.units = readings.units;
+  std::stable_sort(check.units.begin(), check.units.end(), [](const auto& a, const auto& b) {
+    return a.index < b.index;
+  });
+  check.sentence = sentence_of(check, words);
+  check.not_told_apart = not_told_apart_of(check, words);
+  check.notes = readings.notes;
+  return check;
+}
+
+}  // namespace chaintrue::grid

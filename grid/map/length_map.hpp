@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What a calibrated machine is asked, whatever hangs: its lengths for a point, with their sigmas and
+/// how far the point is from what was measured, and the point for lengths.
+///
+/// The first two lengths place the tool: a controller pays them out, and they alone decide where it
+/// is. Others follow it there.
+///
+/// \code
+///   if (const auto answer = map.query({100.0, -200.0})) use(answer->lengths_mm, answer->sigma);
+///   if (const auto point = map.tool({1702.1, 1821.4})) use(*point);
+/// \endcode
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+#include "grid/map/measured_area.hpp"
+#include "interp/surface.hpp"
+#include "model/kinematics.hpp"
+#include "model/mechanism.hpp"
+
+namespace chaintrue::grid {
+
+/// Why there is no answer.
+struct MapFailure {
+  enum class Reason {
+    outside_map,    ///< off the domain, or refused
+    unreachable,    ///< the machine cannot hold the tool there
+    not_converged,  ///< the inverse found no point
+  };
+  using enum Reason;
+  MapFailure(Reason why) : reason(why) {}  // NOLINT: most reasons are the whole answer
+  explicit MapFailure(model::MechanismFailure why) : reason(unreachable), cause(why) {}
+  explicit MapFailure(model::PoseFailure why);
+
+  Reason reason;
+  std::optional<model::MechanismFailure> cause;  ///< of `unreachable`
+  friend bool operator==(const MapFailure&, const MapFailure&) = default;
+};
+[[nodiscard]] std::string explain(const MapFailure& failure);
+
+struct LengthsAnswer {
+  Eigen::VectorXd lengths_mm;  ///< in the order of the names
+  model::ChainLengths sigma;   ///< 1 sigma of the first two
+  /// Root of the summed variances of the tool's x and y; empty: not known.
+  std::optional<double> tool_sigma_mm;
+  MapStatus status = MapStatus::inside;
+};
+
+/// Immutable, thread safe. Both directions agree to 1e-6 mm.
+class LengthMap {
+ public:
+  virtual ~LengthMap() = default;
+  /// Words for the lengths: left, right.
+  [[nodiscard]] virtual std::span<const std::string_view> length_names() const = 0;
+  [[nodiscard]] virtual tl::expected<LengthsAnswer, MapFailure> query(
+      model::BedPoint point) const = 0;
+  /// The first two alone, some times faster: what a path needs between its corners.
+  [[nodiscard]] virtual tl::expected<model::ChainLengths, MapFailure> lengths(
+      model::BedPoint point) const = 0;
+  /// Where the tool is when these are paid out.
+  [[nodiscard]] virtual tl::expected<model::BedPoint, MapFailure> tool(
+      model::ChainLengths lengths) const = 0;
+  [[nodiscard]] virtual MapStatus status(model::BedPoint point) const = 0;
+  /// Where lengths() may answer.
+  [[nodiscard]] virtual const interp::Rectangle& domain() const = 0;
+
+ protected:
+  LengthMap() = default;
+  LengthMap(const LengthMap&) = default;
+  LengthMap(LengthMap&&) = default;
+  LengthMap& operator=(const LengthMap&) = default;
+  LengthMap& operator=(LengthMap&&) = default;
+};
+
+}  // namespace chaintrue::grid

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid/map/mechanism_map.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <utility>
+
+namespace chaintrue::grid {
+namespace {
+
+/// Sheet and mechanism have one frame.
+class SameFrame final : public SheetInFrame {
+ public:
+  [[nodiscard]] model::ToolPosition in_frame(model::BedPoint sheet) const override {
+    return {sheet.x_mm, sheet.y_mm};
+  }
+  [[nodiscard]] model::BedPoint on_sheet(model::ToolPosition position) const override {
+    return {position.x_mm, position.y_mm};
+  }
+};
+
+tl::expected<model::ChainLengths, model::MechanismFailure> lengths_of(const PlacedMechanism& placed,
+                                                                      model::BedPoint point) {
+  return placed.mechanism->first_lengths(placed.sheet->in_frame(point));
+}
+
+}  // namespace
+
+MechanismMap::MechanismMap(PlacedMechanism fitted, MechanismSpread spread, MeasuredArea area)
+    : fitted_(std::move(fitted)), spread_(std::move(spread)), area_(std::move(area)) {}
+
+MechanismMap MechanismMap::of(const FittedMechanism& fitted,
+                              const std::vector<model::BedPoint>& measured) {
+  const auto same = std::make_shared<const SameFrame>();
+  const PlacedMechanism best{fitted.mechanism, same};
+  MechanismSpread spread{best, {}};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(fitted.covariance);
+  for (Eigen::Index i = 0; i < parts.eigenvalues().size(); ++i) {
+    if (!(parts.eigenvalues()[i] > 0.0)) continue;
+    spread.others.push_back(
+        {fitted.mechanism->with_values(fitted.mechanism->values() +
+                                       std::sqrt(parts.eigenvalues()[i]) *
+                                           parts.eigenvectors().col(i)),
+         same});
+  }
+  const model::MechanismExtent e = fitted.mechanism->extent();
+  std::vector<model::MarkPoint> points;
+  for (const model::BedPoint point : measured) points.push_back(model::identity_placement(point));
+  return {best,
+          std::move(spread),
+          MeasuredArea(points, {e.x_min_mm, e.x_max_mm, e.y_min_mm, e.y_max_mm})};
+}
+
+std::span<const std::string_view> MechanismMap::length_names() const {
+  return fitted_.mechanism->lengths();
+}
+
+tl::expected<LengthsAnswer, MapFailure> MechanismMap::query(model::BedPoint point) const {
+  if (!area_.domain().contains(point.x_mm, point.y_mm))
+    return tl::unexpected(MapFailure::outside_map);
+  const auto found = fitted_.mechanism->predict(
+      fitted_.sheet->in_frame(point), {}, model::Derivatives::by_position);
+  if (!found) return tl::unexpected(MapFailure(found.error()));
+  return LengthsAnswer{found->lengths_mm, sigma(point), tool_sigma_mm(point), status(point)};
+}
+
+tl::expected<model::ChainLengths, MapFailure> MechanismMap::lengths(model::BedPoint point) const {
+  if (!area_.domain().contains(point.x_mm, point.y_mm))
+    return tl::unexpected(MapFailure::outside_map);
+  const auto found = lengths_of(fitted_, point);
+  if (!found) return tl::unexpected(MapFailure(found.error()));
+  return *found;
+}
+
+tl::expected<model::BedPoint, MapFailure> MechanismMap::tool(model::ChainLengths lengths) const {
+  const auto found = fitted_.mechanism->locate_by_first(lengths);
+  if (!found) return tl::unexpected(MapFailure(found.error()));
+  return fitted_.sheet->on_sheet(*found);
+}
+
+MapStatus MechanismMap::status(model::BedPoint point) const {
+  return area_.status(model::identity_placement(point));
+}
+
+model::ChainLengths MechanismMap::sigma(model::BedPoint point) const {
+  const auto centre = lengths_of(spread_.centre, point);
+  model::ChainLengths variance;
+  for (const PlacedMechanism& other : spread_.others) {
+    const auto there = lengths_of(other, point);
+    if (!centre || !there) continue;
+    variance.left_mm += std::pow(there->left_mm - centre->left_mm, 2);
+    variance.right_mm += std::pow(there->right_mm - centre->right_mm, 2);
+  }
+  const double own = fitted_.sheet->own_variance_mm2(point);
+  return {std::sqrt(variance.left_mm + own), std::sqrt(variance.right_mm + own)};
+}
+
+double MechanismMap::tool_sigma_mm(model::BedPoint point) const {
+  double variance = 0.0;
+  if (const auto paid_out = lengths_of(spread_.centre, point)) {
+    for (const PlacedMechanism& other : spread_.others) {
+      const auto there = other.mechanism->locate_by_first(*paid_out);
+      if (!there) continue;
+      const model::BedPoint tool = other.sheet->on_sheet(*there);
+      variance += std::pow(tool.x_mm - point.x_mm, 2) + std::pow(tool.y_mm - point.y_mm, 2);
+    }
+  }
+  return std::sqrt(variance + 2.0 * fitted_.sheet->own_variance_mm2(point));
+}
+
+}  // namespace chaintrue::grid

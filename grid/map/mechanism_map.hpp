@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The map of a calibrated mechanism, whatever it is: lengths and tool by the mechanism itself, on a
+/// sheet that lies in its frame as it was found to.
+///
+///   lengths(p) = f(in_frame(p)),   tool(l) = on_sheet(f^-1(l))                              (1)
+///
+/// Sigmas come of mechanisms and sheets that are one sigma away, a column of the covariance's root
+/// each: the sum of squares of what their lengths differ by, with what the sheet is uncertain of by
+/// itself.
+///
+/// \code
+///   const auto map = MechanismMap::of(fitted, measured_points);
+///   const auto lengths = map.lengths({100.0, -900.0});
+/// \endcode
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "grid/map/length_map.hpp"
+#include "grid/map/lengths_check.hpp"
+#include "model/mechanism.hpp"
+
+namespace chaintrue::grid {
+
+/// Where points of the sheet are in a mechanism's frame, and back. Immutable, thread safe.
+class SheetInFrame {
+ public:
+  virtual ~SheetInFrame() = default;
+  [[nodiscard]] virtual model::ToolPosition in_frame(model::BedPoint sheet) const = 0;
+  [[nodiscard]] virtual model::BedPoint on_sheet(model::ToolPosition position) const = 0;
+  /// Of each axis, besides what the covariance of the fit says.
+  [[nodiscard]] virtual double own_variance_mm2(model::BedPoint /*sheet*/) const { return 0.0; }
+};
+
+struct PlacedMechanism {
+  std::shared_ptr<const model::Mechanism> mechanism;
+  std::shared_ptr<const SheetInFrame> sheet;
+};
+
+/// What is one sigma away, and from what.
+struct MechanismSpread {
+  PlacedMechanism centre;
+  std::vector<PlacedMechanism> others;
+};
+
+class MechanismMap : public LengthMap {
+ public:
+  MechanismMap(PlacedMechanism fitted, MechanismSpread spread, MeasuredArea area);
+  /// In the mechanism's own frame, over its extent. \throws std::invalid_argument for fewer than
+  /// three points.
+  [[nodiscard]] static MechanismMap of(const FittedMechanism& fitted,
+                                       const std::vector<model::BedPoint>& measured);
+
+  [[nodiscard]] std::span<const std::string_view> length_names() const override;
+  [[nodiscard]] tl::expected<LengthsAnswer, MapFailure> query(model::BedPoint point) const override;
+  [[nodiscard]] tl::expected<model::ChainLengths, MapFailure> lengths(
+      model::BedPoint point) const override;
+  [[nodiscard]] tl::expected<model::BedPoint, MapFailure> tool(
+      model::ChainLengths lengths) const override;
+  [[nodiscard]] MapStatus status(model::BedPoint point) const override;
+  [[nodiscard]] const interp::Rectangle& domain() const override { return area_.domain(); }
+  /// One sigma of the first two lengths; a point that lengths() answers.
+  [[nodiscard]] model::ChainLengths sigma(model::BedPoint point) const;
+  /// Of the tool for such lengths: the root of the summed variances of x and y.
+  [[nodiscard]] double tool_sigma_mm(model::BedPoint point) const;
+
+ private:
+  PlacedMechanism fitted_;
+  MechanismSpread spread_;
+  MeasuredArea area_;
+};
+
+}  // namespace chaintrue::grid

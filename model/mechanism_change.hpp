@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What may have changed of a mechanism since it was calibrated: the hypotheses of a check by new
+/// readings.
+///
+/// A change is a shift d of one or a few quantities. To length i, which reads f_i, it adds
+///
+///   added        d
+///   elongation   -d f_i: what grew by d is counted 1 / (1 + d) times as often
+///   parameter    d df_i/dtheta_k
+///
+/// with d ~ N(mean, sigma^2) beforehand.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace chaintrue::model {
+
+struct ChangedQuantity {
+  enum class Kind { added, elongation, parameter };
+  Kind kind = Kind::added;
+  std::vector<std::size_t> lengths = {};  ///< which ones, of `added` and `elongation`
+  std::size_t parameter = 0;              ///< which one, of `parameter`
+  double mean = 0.0;
+  double sigma = 0.0;      ///< 0: it is `mean`
+  bool only_grows = false;  ///< half of the Gaussian counts
+};
+
+struct MechanismChange {
+  std::string what;         ///< word of files: "zero"
+  std::string side;         ///< of what: "left", "both", "tl", a parameter's name; empty: of the whole
+  bool zero_mends = false;  ///< setting the zeros anew puts it right
+  double prior = 0.0;       ///< probability beforehand
+  std::vector<ChangedQuantity> quantities = {};
+  int count = 0;  ///< of what comes in whole steps: teeth skipped
+};
+
+/// Probabilities beforehand; a group's share is divided evenly among its members.
+struct ChangePriors {
+  double nothing = 0.50;
+  /// Chains come off together more often than one alone.
+  double both_zeros = 0.10;
+  double one_zero = 0.08;
+  double tooth = 0.10;
+  double pitch = 0.15;
+  double zeros_and_pitch = 0.01;
+  double motors = 0.02;
+  double unknown = 0.02;
+  double bad_point = 0.02;
+};
+inline constexpr ChangePriors kChangePriors{};
+
+}  // namespace chaintrue::model

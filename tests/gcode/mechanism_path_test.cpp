@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A mechanism that no product code knows is compensated as every other: its controller believes nails
+/// elsewhere than they are; the output keeps to the path on the machine as calibrated, the program as
+/// it was does not.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "grid/map/mechanism_map.hpp"
+#include "tests/contracts/toy_mechanism.hpp"
+#include "tools/gcode/compensator.hpp"
+#include "tools/gcode/verifier.hpp"
+
+namespace chaintrue::gcode {
+namespace {
+
+/// A controller that pays out what a mechanism says.
+class Believes final : public model::ControllerKinematics {
+ public:
+  explicit Believes(model::ToyMechanism mechanism) : mechanism_(std::move(mechanism)) {}
+  [[nodiscard]] tl::expected<model::ChainLengths, model::PoseFailure> lengths(
+      model::BedPoint command) const override {
+    const auto found = mechanism_.first_lengths({command.x_mm, command.y_mm});
+    if (!found) return tl::unexpected(model::PoseFailure::above_sprockets);
+    return *found;
+  }
+  [[nodiscard]] tl::expected<model::BedPoint, model::PoseFailure> command(
+      model::ChainLengths lengths) const override {
+    const auto found = mechanism_.locate_by_first(lengths);
+    if (!found) return tl::unexpected(model::PoseFailure::not_converged);
+    return model::BedPoint{found->x_mm, found->y_mm};
+  }
+
+ private:
+  model::ToyMechanism mechanism_;
+};
+
+TEST(MechanismPath, AStraightPathOfAMechanismThatNobodyKnowsIsCompensatedAndVerified) {
+  const grid::FittedMechanism fitted{std::make_shared<const model::ToyMechanism>(-1003.0, 1206.0),
+                                     0.01 * Eigen::Matrix3d::Identity(),
+                                     0.3,
+                                     60.0};
+  const auto map =
+      grid::MechanismMap::of(fitted, {{-500.0, -1400.0}, {500.0, -1400.0}, {0.0, -600.0}});
+  const Believes controller(model::ToyMechanism(-1000.0, 1200.0));
+  const Corrector corrector(map, controller, firmware(model::ControllerKind::ideal));
+  const std::string program = "G21 G90\nG0 X-300 Y-1000\nG1 X280 Y-1150 F1000\nM2\n";
+  std::string output;
+  Compensator compensator(
+      corrector, CompensateOptions{}, [&](std::string_view bytes) { output += bytes; });
+  auto source = LineSource::from_text(program);
+  const auto summary = compensator.run(source, {});
+  ASSERT_TRUE(summary) << summary.error().message();
+  EXPECT_TRUE(compensator.findings().problems.empty());
+  // Nails that are 3 and 6 mm aside move the tool by as much, about.
+  EXPECT_GT(summary->largest_correction_mm, 1.0);
+
+  const auto holds = [&](const std::string& run) {
+    auto a = LineSource::from_text(program);
+    auto b = LineSource::from_text(run);
+    const auto verdict = verify(a, b, corrector, {}, {});
+    EXPECT_TRUE(verdict);
+    return verdict && verdict->holds();
+  };
+  EXPECT_TRUE(holds(output)) << output;
+  EXPECT_FALSE(holds(program));
+
+  auto far = LineSource::from_text("G21 G90\nG0 X-300 Y-1000\nG1 X2000 Y-1000 F1000\nM2\n");
+  Compensator refuses(corrector, CompensateOptions{}, [](std::string_view) {});
+  ASSERT_TRUE(refuses.run(far, {}));
+  EXPECT_FALSE(refuses.findings().problems.empty());
+}
+
+}  // namespace
+}  // namespace chaintrue::gcode

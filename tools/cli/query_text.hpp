@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// What chaintrue query answers, as a table and as JSON, of a map of either kind.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/map/length_map.hpp"
+
+namespace chaintrue::cli {
+
+/// A map of either kind, as it is asked.
+struct AskedMap {
+  const grid::LengthMap& map;
+  int digits = 6;  ///< of lengths
+  /// What the first two lengths are called in messages.
+  const char* first = "left";
+  const char* second = "right";
+  /// In place of the map's own reason why a point has no answer; empty: that.
+  std::string no_answer = {};
+};
+
+/// One line of the answer; numbers that are not there are empty cells, or left out.
+struct AnswerLine {
+  model::BedPoint point;
+  tl::expected<grid::LengthsAnswer, grid::MapFailure> answer;
+};
+
+[[nodiscard]] std::string as_csv(const AskedMap& asked, const std::vector<AnswerLine>& lines);
+[[nodiscard]] std::string as_json(const AskedMap& asked, const std::vector<AnswerLine>& lines);
+
+}  // namespace chaintrue::cli
