@@ -57,7 +57,7 @@ class ChainMechanism final : public Mechanism {
 
 [[nodiscard]] std::shared_ptr<const ChainMechanism> make_chain_mechanism(const Machine& machine);
 
-/// Named as a pose's failure is.
+/// The mechanism's name for a pose's failure.
 [[nodiscard]] MechanismFailure mechanism_failure(PoseFailure failure);
 
 }  // namespace chaintrue::model
