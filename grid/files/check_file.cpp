@@ -6,7 +6,7 @@
 namespace chaintrue::grid::files {
 namespace {
 
-/// What a check of a map and one of anchors both say.
+/// The common part of a check of a map and one of anchors.
 template <class Check>
 Json verdict_of(const Check& check) {
   Json json = headed(kCheckFormat);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// What a check of a map found, as JSON, for scripts. Written only. Same check, same bytes.
+/// \file The result of a check of a map as JSON, for scripts. Written only. Same check, same bytes.
 #pragma once
 
 #include <string>
