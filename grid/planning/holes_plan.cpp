@@ -21,9 +21,9 @@ namespace {
 using model::MarkPoint;
 using Holes = std::vector<const PlannedPlace*>;
 
-/// Holes nearer than this to each other weaken the sheet and tell little.
+/// Holes nearer than this to each other weaken the sheet and are of little information.
 constexpr double kLeastApartMm = 150.0;
-/// Rows and columns of places that are tried.
+/// Rows and columns of candidate positions.
 constexpr int kColumns = 9;
 constexpr int kRows = 5;
 
@@ -34,7 +34,7 @@ std::vector<PlannedPlace> candidates(const model::Machine& machine, double margi
   std::vector<PlannedPlace> result;
   for (int iy = 0; iy < kRows; ++iy) {
     for (int ix = 0; ix < kColumns; ++ix) {
-      // Whole millimetres: that is what is typed and drilled.
+      // Whole millimetres, as they are typed and drilled.
       const MarkPoint place{std::trunc(half_width * (2.0 * ix / (kColumns - 1) - 1.0)),
                             std::trunc(half_height * (2.0 * iy / (kRows - 1) - 1.0))};
       if (const auto planned = planned_place(model, place)) result.push_back(*planned);
@@ -53,11 +53,11 @@ bool is_free(const Holes& holes, std::size_t moving, MarkPoint place) {
   return true;
 }
 
-/// Spread: each next hole as far as can be from those before, the first in a corner.
+/// Spread out: each next hole as far as possible from those before, the first in a corner.
 Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
   Holes holes = {&places.front()};
   while (holes.size() < count) {
-    constexpr double kSameWayMm = 1e-6;  // as far but for rounding: the first one stays
+    constexpr double kSameWayMm = 1e-6;  // equally far except for rounding: the first one is kept
     const PlannedPlace* best = nullptr;
     double best_way = -1.0;
     for (const PlannedPlace& candidate : places) {
@@ -76,7 +76,7 @@ Holes spread(const std::vector<PlannedPlace>& places, std::size_t count) {
   return holes;
 }
 
-/// Moves single holes as long as one helps.
+/// Moves single holes as long as a move is an improvement.
 DistanceChooser::Choice move_holes(const DistanceChooser& chooser,
                                    const std::vector<PlannedPlace>& places,
                                    const Progress& progress,
@@ -138,7 +138,7 @@ MeasuredHoles set_of(const model::Machine& machine,
     const auto [from, to] = std::minmax(number[distance.from], number[distance.to]);
     set.distances.push_back({.from = from, .to = to});
   }
-  // Edges last: the tape is held another way there.
+  // Edges last: the tape is held differently there.
   const auto key = [](const HoleDistance& one) { return std::tuple(one.edge, one.from, one.to); };
   std::sort(set.distances.begin(), set.distances.end(), [&key](const auto& a, const auto& b) {
     return key(a) < key(b);
@@ -167,7 +167,7 @@ void check(const model::Machine& machine, const HolesPlanRequest& request) {
       request.hole_sigma_mm);
 }
 
-/// Settings and scales in words, and where the sheet lies under the tool where that counts.
+/// Settings and scales, and the sheet's placement if it matters.
 std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
                                            const Eigen::MatrixXd& after,
                                            const std::optional<Eigen::MatrixXd>& whole) {
@@ -209,7 +209,7 @@ std::vector<PlannedKnowledge> knowledge_of(const Eigen::MatrixXd& before,
   return result;
 }
 
-/// The sheet's place where it counts is not known beforehand.
+/// The sheet's placement has no prior if it matters.
 Eigen::MatrixXd prior_of(const model::Machine& machine, bool edges) {
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(kPlanUnknowns, kPlanUnknowns);
   prior.topLeftCorner<estimation::kMachineUnknowns, estimation::kMachineUnknowns>() =
