@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// Between the words of a fit of belts and the pipeline's.
+/// \file Adapts a fit of belts to the pipeline's interface.
 #include "tools/gcode/belt_target.hpp"
 
 #include "model/belts/belt_controller.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// Tiles that are tabulated once they have been asked often.
+/// \file Tiles are tabulated once they have been evaluated often enough.
 #include "tools/gcode/command_field.hpp"
 
 #include <algorithm>
@@ -9,12 +8,13 @@
 namespace chaintrue::gcode {
 namespace {
 
-/// With 8 cells on a side a cell is 30 mm: the correction of a smooth map is followed to 1e-6 mm.
+/// With 8 cells on a side a cell is 30 mm: the correction of a smooth map is interpolated to 1e-6
+/// mm.
 constexpr double kTileMm = 240.0;
-/// 7.5 mm: a wave that repeats with every turn of a sprocket (63.5 mm) is followed.
+/// 7.5 mm cells resolve a wave with the period of a sprocket's turn (63.5 mm).
 constexpr int kMostCells = 32;
 
-/// Nodes, and the five looks into every cell.
+/// Evaluations for the nodes, and for the five checks in every cell.
 int cost(int cells) { return (cells + 1) * (cells + 1) + 5 * cells * cells; }
 
 int tiles(double length_mm) {
@@ -53,7 +53,7 @@ void CommandField::tabulate(Tile& tile) {
                                share(bounds_.bottom_mm, bounds_.top_mm, row + 1, rows_)};
   bool everywhere = true;
   auto table = interp::CompiledPair::compile(area, tile.cells, tile.cells, [&](double x, double y) {
-    // A tile's last node may miss the bounds by a rounding.
+    // A tile's last node may miss the bounds by rounding.
     const model::BedPoint place{std::clamp(x, bounds_.left_mm, bounds_.right_mm),
                                 std::clamp(y, bounds_.bottom_mm, bounds_.top_mm)};
     const auto command = corrector_.command(place);
@@ -72,7 +72,7 @@ void CommandField::tabulate(Tile& tile) {
 
 tl::expected<model::BedPoint, CorrectionFailure> CommandField::command(model::BedPoint target) {
   Tile* const here = tile(target);
-  // Beyond the measured points a map may refuse, place by place.
+  // Outside the measured points a map may refuse an answer at single positions.
   if (here == nullptr || corrector_.map().status(target) == TargetStatus::extrapolated) {
     return corrector_.command(target);
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// Between the map's words and the pipeline's.
+/// \file Adapts a map to the pipeline's interface.
 #include "tools/gcode/compensation_target.hpp"
 
 #include "model/calibration/setting.hpp"

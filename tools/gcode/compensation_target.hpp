@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// A compensation map as the target of G-code: lengths, status and inverse in the frame that the
-/// program is written in.
+/// \file A compensation map as the target of G-code: lengths, status and inverse in the program's
+/// frame.
 #pragma once
 
 #include <optional>
@@ -12,12 +11,12 @@
 
 namespace chaintrue::gcode {
 
-/// What a program's x and y count in.
+/// The frame of a program's x and y.
 enum class ProgramFrame { marks, bed };
 
 class CompensationTarget final : public TargetMap {
  public:
-  /// Keeps the reference.
+  /// Keeps a reference.
   explicit CompensationTarget(const grid::CompensationMap& map,
                               ProgramFrame frame = ProgramFrame::marks)
       : map_(map), frame_(frame) {}
@@ -38,12 +37,11 @@ class CompensationTarget final : public TargetMap {
   ProgramFrame frame_;
 };
 
-/// The machine that the controller believes in where a file does not say otherwise: the map's, with
-/// the settings as they were stated, not as they were calibrated. Empty for a map without a
-/// machine.
+/// The default machine of the controller, unless a file states another: the map's machine with its
+/// stated, not its calibrated, settings. Empty for a map without a machine.
 [[nodiscard]] std::optional<model::Machine> stated_machine(const grid::CompensationMap& map);
 
-/// Half the width of the machine's direction_hysteresis, per chain; zero where it has none.
+/// Half the width of the machine's direction_hysteresis for each chain; zero if it has none.
 [[nodiscard]] model::ChainLengths half_play_mm(const model::Machine& machine);
 
 }  // namespace chaintrue::gcode

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// From where the tool shall be to what the controller must be told, and back.
+/// The command for a position of the tool, and the inverse.
 ///
 ///   command(p) = controller.command(map.lengths(p) + play)
 ///   tool(c)    = map.tool(controller.lengths(c))
 ///
-/// play is zero unless a direction_hysteresis was named: half its width, with the sign of the
-/// direction in which each chain runs.
+/// play is half the width of a named direction_hysteresis, with the sign of each chain's direction
+/// of motion; zero if none was named.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -17,7 +17,7 @@
 
 namespace chaintrue::gcode {
 
-/// Signs of the chains' running directions: +1 paying out, -1 reeling in.
+/// Signs of the chains' directions of motion: +1 paying out, -1 reeling in.
 struct ChainDirections {
   int left = 1;
   int right = 1;
@@ -34,7 +34,7 @@ class Corrector {
 
   [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> command(
       model::BedPoint target) const;
-  /// With half the play added in the directions that the chains run.
+  /// With half the play added in the chains' directions of motion.
   [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> command(
       model::BedPoint target, model::ChainLengths half_play_mm, ChainDirections directions) const;
   [[nodiscard]] tl::expected<model::BedPoint, CorrectionFailure> tool(

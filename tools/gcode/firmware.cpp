@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// The table of controllers' motion.
+/// \file The table of controllers.
 #include "tools/gcode/firmware.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// Boxes and counts.
+/// \file Bounding boxes and counts.
 #include "tools/gcode/survey.hpp"
 
 #include <fmt/format.h>

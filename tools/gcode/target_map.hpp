@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// What compensation needs to know of a machine: the lengths its chains must have for a point, and
-/// back.
+/// \file The interface of a machine for the compensation: the chain lengths for a point, and the
+/// inverse.
 ///
-/// compensation_target.hpp makes one of a compensation map; tests make them of formulas.
+/// Implemented by compensation_target.hpp for a map, and by tests with formulas.
 #pragma once
 
 #include <optional>
@@ -21,18 +20,18 @@ struct CorrectionFailure {
     outside_map,
     unreachable,  ///< the machine has no pose there
     not_converged,
-    controller,  ///< out of reach of the controller's own kinematics
+    controller,  ///< outside the range of the controller's own kinematics
   };
   using enum Reason;
   CorrectionFailure(Reason why, std::optional<model::PoseFailure> from = std::nullopt)  // NOLINT
       : reason(why), pose(from) {}
 
   Reason reason;
-  /// Of `unreachable` and `controller`, where it is known.
+  /// Of `unreachable` and `controller`, if known.
   std::optional<model::PoseFailure> pose;
   friend bool operator==(const CorrectionFailure&, const CorrectionFailure&) = default;
 };
-/// A clause: "lies outside the map", ...; with the pose's own cause behind it.
+/// A clause: "lies outside the map", ...; followed by the pose's own cause.
 [[nodiscard]] std::string explain(const CorrectionFailure& failure);
 
 struct TargetAnswer {
@@ -48,7 +47,7 @@ struct BedRectangle {
   double top_mm = 0.0;
 };
 
-/// Thread safe and stateless. Both directions agree to 1e-6 mm.
+/// Thread safe and stateless. The two directions are consistent to 1e-6 mm.
 class TargetMap {
  public:
   virtual ~TargetMap() = default;
@@ -57,10 +56,10 @@ class TargetMap {
   [[nodiscard]] virtual tl::expected<TargetAnswer, CorrectionFailure> query(
       model::BedPoint point) const = 0;
   [[nodiscard]] virtual TargetStatus status(model::BedPoint point) const = 0;
-  /// Where the tool stands when the chains have these lengths.
+  /// The tool's position for these chain lengths.
   [[nodiscard]] virtual tl::expected<model::BedPoint, CorrectionFailure> tool(
       model::ChainLengths lengths) const = 0;
-  /// Where lengths() may answer.
+  /// The region outside of which lengths() has no answer.
   [[nodiscard]] virtual BedRectangle bounds() const = 0;
 };
 

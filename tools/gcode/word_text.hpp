@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file
-/// How the value of a word is written.
+/// \file Formats the value of a word.
 #pragma once
 
 #include <string>
