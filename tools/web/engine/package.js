@@ -10,7 +10,7 @@ async function bytesOf(url) {
   return readFile(url);
 }
 
-/** The command, ready to be run: see chaintrue.d.ts. */
+/** The command, ready to run: see chaintrue.d.ts. */
 export async function load(wasm) {
   const bytes = wasm ?? await bytesOf(new URL("chaintrue.wasm", import.meta.url));
   const module = await WebAssembly.compile(bytes);

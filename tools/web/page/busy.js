@@ -2,7 +2,7 @@
 // What the command is doing, and the button that stops it.
 import {h} from "./dom.js";
 
-/** Shorter work is not worth a word. */
+/** Shorter work shows no message. */
 const QUIET_MS = 300;
 
 export class Busy {
