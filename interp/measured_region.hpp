@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// \file The region that is covered by measurements, and the policies for evaluating a surface
-/// outside it.
+/// \file
+/// The region that is covered by measurements, and the policies for evaluating a surface outside
+/// it.
 ///
 /// The measured region is the convex hull of the points. Outside it a surface is evaluated under a
 /// policy, and every result carries its status; nothing is clamped silently.

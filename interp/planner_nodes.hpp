@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// \file Nodes along an axis that minimise the error of a polynomial or spline through them.
+/// \file
+/// Nodes along an axis that minimise the error of a polynomial or spline through them.
 
 #include <vector>
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// \file The posterior averaged over theta instead of evaluated at its optimum (internal to interp;
+/// \file
+/// The posterior averaged over theta instead of evaluated at its optimum (internal to interp;
 /// notation as in reml.hpp and reml_marginal.hpp).
 
 #include "interp/reml_search.hpp"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// \file The table of methods to interpolate a full grid. To add one: its class, its build function
-/// in surface_methods.cpp, one line in surface_methods.def; the contract tests run over the table.
+/// \file
+/// The table of methods to interpolate a full grid. To add one: its class, its build function in
+/// surface_methods.cpp, one line in surface_methods.def; the contract tests run over the table.
 
 #include <memory>
 #include <span>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Shared by the equilibrium's solvers: Newton's starting point, bounds on a step, the
-/// convergence test, and the continuation that replaces a cold start near the edge of the domain.
-/// Internal to model/; notation in equilibrium.hpp.
+/// \file
+/// Shared by the equilibrium's solvers: Newton's starting point, bounds on a step, the convergence
+/// test, and the continuation that replaces a cold start near the edge of the domain. Internal to
+/// model/; notation in equilibrium.hpp.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The point for chain lengths by a damped Newton on inverse(). Slower than the direct
-/// closure and independent of the kinematics; used where the direct closure does not converge and
-/// where there is none.
+/// \file
+/// The point for chain lengths by a damped Newton on inverse(). Slower than the direct closure and
+/// independent of the kinematics; used where the direct closure does not converge and where there
+/// is none.
 #pragma once
 
 #include "model/inverse_domain.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Ranges of a machine's numbers, for reference pages and editors; the same ranges as in
+/// \file
+/// Ranges of a machine's numbers, for reference pages and editors; the same ranges as in
 /// problems_of (model/machine.hpp).
 #pragma once
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The catalogue of effects, and the picture of one effect, as JSON for programs.
+/// \file
+/// The catalogue of effects, and the picture of one effect, as JSON for programs.
 #pragma once
 
 #include <string>

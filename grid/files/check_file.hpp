@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The result of a check of a map as JSON, for scripts. Written only. Same check, same bytes.
+/// \file
+/// The result of a check of a map as JSON, for scripts. Written only. Same check, same bytes.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file A hash that detects changes of a file since it was written. Private to grid/files.
+/// \file
+/// A hash that detects changes of a file since it was written. Private to grid/files.
 ///
 /// FNV-1a, 64 bits (http://www.isthe.com/chongo/tech/comp/fnv/), over the values as the writer
 /// would write them on one line: layout and comments do not count; every number, name and key does.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file A small CSV of numbers under a header line. Private to grid/files. Accepts what
-/// spreadsheets write: a byte order mark, CRLF, semicolons or tabs, quoted cells, blank lines,
-/// trailing separators; lines that begin with # are comments. Numbers are read independent of the
-/// locale.
+/// \file
+/// A small CSV of numbers under a header line. Private to grid/files. Accepts what spreadsheets
+/// write: a byte order mark, CRLF, semicolons or tabs, quoted cells, blank lines, trailing
+/// separators; lines that begin with # are comments. Numbers are read independent of the locale.
 #pragma once
 
 #include <optional>

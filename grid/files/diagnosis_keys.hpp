@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Keys shared by several parts of a chaintrue_diagnosis file. Private to grid/files.
+/// \file
+/// Keys shared by several parts of a chaintrue_diagnosis file. Private to grid/files.
 #pragma once
 
 #include <string>

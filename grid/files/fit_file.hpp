@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The report of a fit as JSON, for scripts; the map itself is in its own file. Written only.
-/// Same map, same bytes.
+/// \file
+/// The report of a fit as JSON, for scripts; the map itself is in its own file. Written only. Same
+/// map, same bytes.
 #pragma once
 
 #include <string>

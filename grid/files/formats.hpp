@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Every file format with its version and the older versions that are still read. Private to
+/// \file
+/// Every file format with its version and the older versions that are still read. Private to
 /// grid/files.
 ///
 /// Versions are "major.minor". A file of a listed older version is read, with a warning for what is

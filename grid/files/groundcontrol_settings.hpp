@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The settings that GroundControl and WebControl share, independent of the file format.
-/// Private to grid/files.
+/// \file
+/// The settings that GroundControl and WebControl share, independent of the file format. Private to
+/// grid/files.
 #pragma once
 
 #include "grid/files/groundcontrol_file.hpp"

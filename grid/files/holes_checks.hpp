@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Input checks of holes and distances, independent of the file format. Private to
-/// grid/files.
+/// \file
+/// Input checks of holes and distances, independent of the file format. Private to grid/files.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The content of a chaintrue_holes file before the machine is read and the ends of distances
-/// are resolved: its JSON record, and its two tables as CSV. Private to grid/files.
+/// \file
+/// The content of a chaintrue_holes file before the machine is read and the ends of distances are
+/// resolved: its JSON record, and its two tables as CSV. Private to grid/files.
 #pragma once
 
 #include <optional>

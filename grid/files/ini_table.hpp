@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file An ini file as sections of keys with their lines. Private to grid/files. Keys and sections
-/// are case-insensitive; lines that begin with ; or # are comments.
+/// \file
+/// An ini file as sections of keys with their lines. Private to grid/files. Keys and sections are
+/// case-insensitive; lines that begin with ; or # are comments.
 #pragma once
 
 #include <map>

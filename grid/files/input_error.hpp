@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Bad input, reported completely: every problem of a file at once, each with file, place,
-/// value found and what was expected.
+/// \file
+/// Bad input, reported completely: every problem of a file at once, each with file, place, value
+/// found and what was expected.
 #pragma once
 
 #include <stdexcept>

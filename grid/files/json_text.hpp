@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file JSON text to values and back. Private to grid/files: no other layer uses the JSON library.
+/// \file
+/// JSON text to values and back. Private to grid/files: no other layer uses the JSON library.
 ///
 /// Reading keeps the order of keys, reports every key that occurs twice, and turns numbers that are
 /// not JSON (NaN, Infinity, 1e999) into texts, so that the field's own check reports them by their

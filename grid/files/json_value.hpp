@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file One value of a JSON document: its place, how it is read, checked and written, and what is
-/// expected of it, in words and as a JSON Schema. json_reader.hpp builds formats from these. Private
-/// to grid/files.
+/// \file
+/// One value of a JSON document: its place, how it is read, checked and written, and what is
+/// expected of it, in words and as a JSON Schema. json_reader.hpp builds formats from these.
+/// Private to grid/files.
 #pragma once
 
 #include <fmt/format.h>

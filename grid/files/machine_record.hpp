@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The table of a chaintrue_machine, for the formats that contain a machine. Private to
-/// grid/files.
+/// \file
+/// The table of a chaintrue_machine, for the formats that contain a machine. Private to grid/files.
 #pragma once
 
 #include "grid/files/json_reader.hpp"

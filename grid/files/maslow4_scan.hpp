@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The runs of a Maslow 4's log, before they are interpreted. Private to grid/files.
+/// \file
+/// The runs of a Maslow 4's log, before they are interpreted. Private to grid/files.
 #pragma once
 
 #include <map>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The meaning of every key of every file, for reference pages and editors. Private to
-/// grid/files. Complete for all records (tests/grid_files/format_pages_test.cpp).
+/// \file
+/// The meaning of every key of every file, for reference pages and editors. Private to grid/files.
+/// Complete for all records (tests/grid_files/format_pages_test.cpp).
 #pragma once
 
 #include <string>

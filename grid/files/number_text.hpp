@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Numbers as users and programs write them into files and on the command line, read
-/// independent of the locale.
+/// \file
+/// Numbers as users and programs write them into files and on the command line, read independent of
+/// the locale.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file std::from_chars for double, also for standard libraries without it (libc++ before 20).
+/// \file
+/// std::from_chars for double, also for standard libraries without it (libc++ before 20).
 #pragma once
 
 #include <system_error>

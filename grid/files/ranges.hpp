@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Ranges of numbers that occur both in files and on the command line. Both ends are allowed.
+/// \file
+/// Ranges of numbers that occur both in files and on the command line. Both ends are allowed.
 #pragma once
 
 #include "grid/files/number_text.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The list behind files_read(). Private to grid/files.
+/// \file
+/// The list behind files_read(). Private to grid/files.
 #pragma once
 
 namespace chaintrue::grid::files {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Values shared by several records. Their ranges only exclude numbers without a meaning.
-/// Private to grid/files.
+/// \file
+/// Values shared by several records. Their ranges only exclude numbers without a meaning. Private
+/// to grid/files.
 #pragma once
 
 #include <string_view>

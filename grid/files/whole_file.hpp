@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Reads whole files, and writes files completely or not at all (see pending_file.hpp). "-"
-/// is standard input and standard output.
+/// \file
+/// Reads whole files, and writes files completely or not at all (see pending_file.hpp). "-" is
+/// standard input and standard output.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The part of YAML that FluidNC's settings use: keys by their indentation, and the value
-/// after the colon. Private to grid/files.
+/// \file
+/// The part of YAML that FluidNC's settings use: keys by their indentation, and the value after the
+/// colon. Private to grid/files.
 #pragma once
 
 #include <map>

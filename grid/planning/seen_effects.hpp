@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The catalogue's effects as observed by a set of distances: the size of each after
-/// projection on the settings, and which of them are collinear. Secants at the nominal strength,
-/// whitened by K = V + A P A'.
+/// \file
+/// The catalogue's effects as observed by a set of distances: the size of each after projection on
+/// the settings, and which of them are collinear. Secants at the nominal strength, whitened by K =
+/// V + A P A'.
 #pragma once
 
 #include <vector>

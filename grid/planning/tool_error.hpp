@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Derivatives of the tool's position over the bed by the unknowns of a plan. Private to
+/// \file
+/// Derivatives of the tool's position over the bed by the unknowns of a plan. Private to
 /// grid/planning.
 #pragma once
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Runs the cells of a sweep on all cores (oneTBB); each is stored as soon as it is finished.
+/// \file
+/// Runs the cells of a sweep on all cores (oneTBB); each is stored as soon as it is finished.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The positions of the marks and the order in which they are visited.
+/// \file
+/// The positions of the marks and the order in which they are visited.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The change that one effect makes to the bed and to a square of 100 mm, and the size from
-/// which it is identified: the numbers of `chaintrue effects ID`.
+/// \file
+/// The change that one effect makes to the bed and to a square of 100 mm, and the size from which
+/// it is identified: the numbers of `chaintrue effects ID`.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file A controller's firmware: its kinematics and its settings.
+/// \file
+/// A controller's firmware: its kinematics and its settings.
 #pragma once
 
 #include <optional>

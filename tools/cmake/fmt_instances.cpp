@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The content of Debian's libfmt.so for a build that cannot link it: fmt's functions, and the
+/// \file
+/// The content of Debian's libfmt.so for a build that cannot link it: fmt's functions, and the
 /// templates that its headers declare extern. As fmt 9's own src/format.cc.
 #include <fmt/format-inl.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Centre form, radius form, and the tolerance for rounded words.
+/// \file
+/// Centre form, radius form, and the tolerance for rounded words.
 #include "tools/gcode/arc_words.hpp"
 
 #include <fmt/format.h>

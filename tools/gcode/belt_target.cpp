@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Adapts a fit of belts to the pipeline's interface.
+/// \file
+/// Adapts a fit of belts to the pipeline's interface.
 #include "tools/gcode/belt_target.hpp"
 
 #include "model/belts/belt_controller.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file A fit of four belts as the target of G-code: the lengths of its upper two belts for a
-/// position of the tool, and the inverse. `left` is the top left belt.
+/// \file
+/// A fit of four belts as the target of G-code: the lengths of its upper two belts for a position
+/// of the tool, and the inverse. `left` is the top left belt.
 #pragma once
 
 #include "grid/belts/belt_map.hpp"

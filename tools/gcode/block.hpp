@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file One line of a program as words, evaluated and checked as far as possible without the modal
+/// \file
+/// One line of a program as words, evaluated and checked as far as possible without the modal
 /// state.
 #pragma once
 

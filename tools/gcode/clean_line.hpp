@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file A line without its comments, blanks and capitals; every character keeps its column.
+/// \file
+/// A line without its comments, blanks and capitals; every character keeps its column.
 ///
 /// RS274/NGC ignores blanks everywhere outside comments, even inside numbers: `X1 0` is X10.
 #pragma once

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Tiles are tabulated once they have been evaluated often enough.
+/// \file
+/// Tiles are tabulated once they have been evaluated often enough.
 #include "tools/gcode/command_field.hpp"
 
 #include <algorithm>

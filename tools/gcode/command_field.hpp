@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The command for a target, Corrector::command without play, from tables that are made in
-/// regions where a program cuts often.
+/// \file
+/// The command for a target, Corrector::command without play, from tables that are made in regions
+/// where a program cuts often.
 ///
 /// The map's bounds are divided into tiles. A tile is tabulated (interp::CompiledPair, of the
 /// correction) once as many targets in it have been computed as the table costs, so that no program

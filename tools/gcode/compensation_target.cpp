@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Adapts a map to the pipeline's interface.
+/// \file
+/// Adapts a map to the pipeline's interface.
 #include "tools/gcode/compensation_target.hpp"
 
 #include "model/calibration/setting.hpp"

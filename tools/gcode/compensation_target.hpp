@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file A compensation map as the target of G-code: lengths, status and inverse in the program's
-/// frame.
+/// \file
+/// A compensation map as the target of G-code: lengths, status and inverse in the program's frame.
 #pragma once
 
 #include <optional>

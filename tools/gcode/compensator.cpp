@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Converts moves to commands.
+/// \file
+/// Converts moves to commands.
 #include "tools/gcode/compensator.hpp"
 
 #include <fmt/format.h>

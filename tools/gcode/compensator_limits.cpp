@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Cases that are not compensated: points off the map, corrections that are too large or too
-/// steep, commands that the controller would clamp.
+/// \file
+/// Cases that are not compensated: points off the map, corrections that are too large or too steep,
+/// commands that the controller would clamp.
 #include <fmt/format.h>
 
 #include <algorithm>

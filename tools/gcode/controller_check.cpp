@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Checks codes, arcs and short moves against a controller's table.
+/// \file
+/// Checks codes, arcs and short moves against a controller's table.
 #include "tools/gcode/controller_check.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file What an unmodified controller cannot follow in an uncompensated program.
+/// \file
+/// What an unmodified controller cannot follow in an uncompensated program.
 #pragma once
 
 #include <map>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Writes G-code that all controllers of such machines read in the same way: G21 G90, G0 and
-/// G1 only, X and Y always together, no dotted codes, no exponents, no moves of zero length, at
-/// most 60 characters a line.
+/// \file
+/// Writes G-code that all controllers of such machines read in the same way: G21 G90, G0 and G1
+/// only, X and Y always together, no dotted codes, no exponents, no moves of zero length, at most
+/// 60 characters a line.
 #pragma once
 
 #include <cstdint>

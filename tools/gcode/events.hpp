@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The actions of a program, in order: moves in mm in the machine frame, words that are
-/// passed through, comments.
+/// \file
+/// The actions of a program, in order: moves in mm in the machine frame, words that are passed
+/// through, comments.
 ///
 /// The machine frame is that of G53: work offsets, G92 and rotation are applied.
 #pragma once

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file O-words. An open block is identified by its label; loops return by the file's offset.
+/// \file
+/// O-words. An open block is identified by its label; loops return by the file's offset.
 #include "tools/gcode/flow.hpp"
 
 #include <fmt/format.h>

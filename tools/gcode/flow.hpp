@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file O-words: conditions, loops and subroutines as in LinuxCNC, and Fanuc's M98/M99.
+/// \file
+/// O-words: conditions, loops and subroutines as in LinuxCNC, and Fanuc's M98/M99.
 #pragma once
 
 #include <cstdint>

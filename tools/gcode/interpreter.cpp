@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The order in which a block's words are executed, and everything that is not motion.
+/// \file
+/// The order in which a block's words are executed, and everything that is not motion.
 #include "tools/gcode/interpreter.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The modal interpreter: converts blocks to moves in the machine frame.
+/// \file
+/// The modal interpreter: converts blocks to moves in the machine frame.
 ///
 /// RS274/NGC as LinuxCNC 2.9 executes it: within a block in a fixed order, not from left to right
 /// (comments, feed mode, F, S, T, M6, spindle, coolant, dwell, plane, units, tool length,

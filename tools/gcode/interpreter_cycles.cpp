@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Canned cycles G73 and G81 to G89, expanded into moves as in LinuxCNC.
+/// \file
+/// Canned cycles G73 and G81 to G89, expanded into moves as in LinuxCNC.
 ///
 /// A cycle works in the active plane; "depth" is along the plane's normal. Words that a following
 /// block of the same cycle omits keep their values.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The position of the program's zero: work coordinate systems, G10, G52, G92, and the homes
-/// of G28 and G30.
+/// \file
+/// The position of the program's zero: work coordinate systems, G10, G52, G92, and the homes of G28
+/// and G30.
 #include <fmt/format.h>
 
 #include <cmath>

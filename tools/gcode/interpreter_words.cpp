@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Words: which code uses which, which must be whole numbers, and which are passed through.
+/// \file
+/// Words: which code uses which, which must be whole numbers, and which are passed through.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The lines of a program, read as a stream: constant memory for files of any length, and
-/// positions to return to for loops.
+/// \file
+/// The lines of a program, read as a stream: constant memory for files of any length, and positions
+/// to return to for loops.
 ///
 /// LF, CRLF and CR end a line. A UTF-8 byte order mark is skipped. NUL bytes and UTF-16 are
 /// rejected as not text.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The parameters of a program: numbered ones (#1 .. #5602), named ones (#<name> local to a
+/// \file
+/// The parameters of a program: numbered ones (#1 .. #5602), named ones (#<name> local to a
 /// subroutine, #<_name> global), and those that give the interpreter's state.
 ///
 /// Lengths in #5161-#5390 are in mm for every unit of the program, as in LinuxCNC on a metric

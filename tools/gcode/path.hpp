@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The exact geometry of a move: lines, arcs, helices, and the spirals that result from arcs
-/// with rounded words.
+/// \file
+/// The exact geometry of a move: lines, arcs, helices, and the spirals that result from arcs with
+/// rounded words.
 #pragma once
 
 #include "tools/gcode/events.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Chain lengths along a program's path: at the end of every move, and between, no further
-/// apart than requested; at least eight per turn.
+/// \file
+/// Chain lengths along a program's path: at the end of every move, and between, no further apart
+/// than requested; at least eight per turn.
 #pragma once
 
 #include <functional>

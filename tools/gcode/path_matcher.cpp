@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The free-space diagram, one column for each piece of the track.
+/// \file
+/// The free-space diagram, one column for each piece of the track.
 ///
 /// Cell (i, j) belongs to piece i of the path and piece j of the track. Its left and right edges
 /// are parametrised along the path, bottom and top along the track; the free part of each is an

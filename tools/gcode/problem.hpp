@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Why a G-code program is rejected: a stable name, the place, and a sentence for the user.
+/// \file
+/// Why a G-code program is rejected: a stable name, the place, and a sentence for the user.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file A queue between the interpreter and the caller.
+/// \file
+/// A queue between the interpreter and the caller.
 #include "tools/gcode/program_stream.hpp"
 
 namespace chaintrue::gcode {

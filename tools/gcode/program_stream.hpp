@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file A program's events, pulled one by one instead of pushed: moves, words that are passed
-/// through, the end.
+/// \file
+/// A program's events, pulled one by one instead of pushed: moves, words that are passed through,
+/// the end.
 #pragma once
 
 #include <deque>

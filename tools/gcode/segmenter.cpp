@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Greedy longest chords. The deviation grows with the square of a chord's length, which
-/// predicts the next trial.
+/// \file
+/// Greedy longest chords. The deviation grows with the square of a chord's length, which predicts
+/// the next trial.
 #include "tools/gcode/segmenter.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Divides a curve of commanded points into the longest straight commands that stay within a
+/// \file
+/// Divides a curve of commanded points into the longest straight commands that stay within a
 /// tolerance.
 ///
 /// From each sample the next is placed as far on as the tolerance allows (to within 8 %), so that

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Straight commands, pieces that are linear in chain length, arcs as cut by the firmwares.
+/// \file
+/// Straight commands, pieces that are linear in chain length, arcs as cut by the firmwares.
 #include "tools/gcode/simulated_machine.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file A simulated controller and machine: the tool's track for the moves of a program.
+/// \file
+/// A simulated controller and machine: the tool's track for the moves of a program.
 ///
 /// Numbers are converted to the controller's own format; its path between two commands and its
 /// treatment of arcs are those of firmware.hpp; the machine is the inverse of the map, with play if

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Bounding boxes and counts.
+/// \file
+/// Bounding boxes and counts.
 #include "tools/gcode/survey.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file A program without a map: its bounding box, its moves, and the lines that leave the sheet.
+/// \file
+/// A program without a map: its bounding box, its moves, and the lines that leave the sheet.
 #pragma once
 
 #include <cstdint>

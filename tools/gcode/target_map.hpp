@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The interface of a machine for the compensation: the chain lengths for a point, and the
-/// inverse.
+/// \file
+/// The interface of a machine for the compensation: the chain lengths for a point, and the inverse.
 ///
 /// Implemented by compensation_target.hpp for a map, and by tests with formulas.
 #pragma once

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The tool's position for a command: Corrector::tool, evaluated on a lattice as needed by
-/// the program and interpolated between.
+/// \file
+/// The tool's position for a command: Corrector::tool, evaluated on a lattice as needed by the
+/// program and interpolated between.
 ///
 /// Cubic Lagrange interpolation of tool(c) - c over 16 nodes, kSpacingMm apart. Every cell is
 /// compared with the exact value at two points before it is used; if twice the larger difference is

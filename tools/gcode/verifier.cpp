@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Two programs read in parallel: one gives the intended path, the other the actual track.
-/// Words divide both into sections; within a section the tool's track is matched with the path.
+/// \file
+/// Two programs read in parallel: one gives the intended path, the other the actual track. Words
+/// divide both into sections; within a section the tool's track is matched with the path.
 #include "tools/gcode/verifier.hpp"
 
 #include <fmt/format.h>

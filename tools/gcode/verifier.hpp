@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Runs a file on a simulated controller and machine, and checks that the tool follows the
-/// intended path; otherwise reports where it does not.
+/// \file
+/// Runs a file on a simulated controller and machine, and checks that the tool follows the intended
+/// path; otherwise reports where it does not.
 ///
 /// The file passes if, between any two words that are passed through (S, M, T, G4, G43, G64 ...),
 /// the tool's track and the intended path have a Frechet distance of at most the tolerance

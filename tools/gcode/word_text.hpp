@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Formats the value of a word.
+/// \file
+/// Formats the value of a word.
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file chaintrue._core: the libraries for Python. Arrays are float64 of shape (n, 2); where there
-/// is no answer a mask is false and the number is zero, never NaN. The user interface and its
+/// \file
+/// chaintrue._core: the libraries for Python. Arrays are float64 of shape (n, 2); where there is no
+/// answer a mask is false and the number is zero, never NaN. The user interface and its
 /// documentation are in the package's chaintrue/__init__.py.
 #include <fmt/format.h>
 #include <pybind11/numpy.h>

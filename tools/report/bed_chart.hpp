@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Shared by every chart of the bed: its outline, the window around it, and arrows on it.
+/// \file
+/// Shared by every chart of the bed: its outline, the window around it, and arrows on it.
 #pragma once
 
 #include <string>

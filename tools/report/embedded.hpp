@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The files embedded in a page at build time: "vega" (Debian's modules, in the order in
-/// which they load), "chart" (charts/<name>.vg.json) and "asset" (the page's style, script and
-/// licence notices).
+/// \file
+/// The files embedded in a page at build time: "vega" (Debian's modules, in the order in which they
+/// load), "chart" (charts/<name>.vg.json) and "asset" (the page's style, script and licence
+/// notices).
 #pragma once
 
 #include <string_view>

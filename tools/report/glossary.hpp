@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Technical terms of the pages: listed at the end of a page, and as hover text where a term
-/// first occurs in a paragraph.
+/// \file
+/// Technical terms of the pages: listed at the end of a page, and as hover text where a term first
+/// occurs in a paragraph.
 #pragma once
 
 #include <span>

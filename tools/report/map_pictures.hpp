@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file The charts of a compensation map from plain data: before and after on the bed, the gain of
-/// each step, the expected error, every point predicted without itself.
+/// \file
+/// The charts of a compensation map from plain data: before and after on the bed, the gain of each
+/// step, the expected error, every point predicted without itself.
 ///
 /// All vectors are the tool's actual less its intended position, in mm, x right and y up. "Held out"
 /// means that the point was predicted by a map fitted without it.

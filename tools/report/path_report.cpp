@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Layout of a PathReport.
+/// \file
+/// Layout of a PathReport.
 #include "tools/report/path_report.hpp"
 
 #include <fmt/format.h>

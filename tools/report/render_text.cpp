@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Writes a Document as lines for a terminal: the verdict, the advice, what is not proved and
-/// the basis, then the sections, each after an empty line. Charts show their alternative.
+/// \file
+/// Writes a Document as lines for a terminal: the verdict, the advice, what is not proved and the
+/// basis, then the sections, each after an empty line. Charts show their alternative.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file Formatting of numbers and texts for a document's renderers.
+/// \file
+/// Formatting of numbers and texts for a document's renderers.
 #pragma once
 
 #include <string>
