@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
 // Cost against size: measures the tables of docs/reliability.md. Random points on the bed with
 // usual noise; distances between random holes, each once.
 #include <benchmark/benchmark.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
 // The cost of writing a file completely or not at all (a new file, synced, renamed), compared with a
 // plain stream that may leave half a file.
 #include <benchmark/benchmark.h>
