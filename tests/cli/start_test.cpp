@@ -69,7 +69,7 @@ TEST_F(Start, MakesAFolderWhoseNextStepWorks) {
   EXPECT_THAT(start.err,
               HasSubstr("Next: chaintrue fit shop/marks.csv --machine shop/machine.json -o "
                         "shop/map.json\n"));
-  // Nothing was measured yet, and that is what the next step says.
+  // Nothing was measured yet, and the next step's message says so.
   const Outcome next = run("fit shop/marks.csv --machine shop/machine.json -o shop/map.json");
   EXPECT_EQ(next.code, 3);
   EXPECT_THAT(next.err, HasSubstr("all left blank"));

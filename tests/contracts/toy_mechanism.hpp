@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// A third mechanism that no product code knows: two strings from two nails on the x axis to a point
-/// below it, as long as the straight way. One effect, a knot that shortens both.
+/// A third mechanism, not contained in the product: two strings from two nails on the x axis to a
+/// point below it, each as long as the straight line. One effect, a knot that shortens both.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace chaintrue::model {
 
 class ToyMechanism final : public Mechanism {
  public:
-  /// Of the nails the left one is stated to 5 mm; nothing is known of the right one.
+  /// The left nail is stated to 5 mm; the right one has no prior.
   ToyMechanism(double left_x_mm, double right_x_mm)
       : values_(Eigen::Vector2d(left_x_mm, right_x_mm)),
         parameters_{{{"left_nail_x_mm", "mm", left_x_mm, 5.0},

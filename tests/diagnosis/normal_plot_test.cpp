@@ -39,7 +39,7 @@ TEST(NormalPlot, HoldsItsListsInOrderAndTheMeanInsideTheBand) {
   EXPECT_NEAR(square / static_cast<double>(plot->values.size()), 1.0, 1e-12);
 }
 
-// The size of the noise is none of the shape's business.
+// The shape is independent of the size of the noise.
 TEST(NormalPlot, IsTheSameForNoiseOfAnySize) {
   const ObservationSet session = session_of(2);
   auto a = analyse(session, {});

@@ -23,7 +23,7 @@ constexpr PoseFailure kPoseFailures[] = {PoseFailure::outside_verticals,
                                          PoseFailure::too_short,
                                          PoseFailure::not_converged};
 
-/// A machine that can hold the tool nowhere.
+/// A machine without any pose.
 class NoPose final : public TargetMap {
  public:
   explicit NoPose(PoseFailure why) : failure_(CorrectionFailure::unreachable, why) {}
@@ -46,7 +46,7 @@ class NoPose final : public TargetMap {
   CorrectionFailure failure_;
 };
 
-/// A controller that pays out nothing.
+/// A controller without any lengths.
 class NoCommand final : public model::ControllerKinematics {
  public:
   explicit NoCommand(PoseFailure why) : why_(why) {}
