@@ -36,8 +36,8 @@ std::vector<std::string> problems_in(const ordered_json& json) {
   return {};
 }
 
-// Every member is written, and numbers are written in digits that read back as the same double: so
-// equal text means an equal diagnosis.
+// Every member is written, and numbers are written with digits that read back as the same double:
+// equal text is an equal diagnosis.
 TEST(DiagnosisFile, ReadsBackWhatItWrote) {
   for (const Diagnosis& said : {sample_diagnosis(), quiet_diagnosis()}) {
     const std::string text = write_diagnosis(said);
@@ -128,7 +128,7 @@ TEST(DiagnosisFile, HasItsKeysInTheOrderPromised) {
   EXPECT_EQ(json["extended_machine"]["file_type"], "chaintrue_machine");
 }
 
-// A file of an earlier diagnosis has neither.
+// A file of an earlier version has neither.
 TEST(DiagnosisFile, NeedsNeitherStabilityNorNormalPlot) {
   ordered_json json = written_sample();
   json.erase("stability");

@@ -39,7 +39,7 @@ TEST(Printing, IsOtherwiseAsEver) {
   EXPECT_EQ(fmt::format("{}", fmt::join(list, ",")), "1.5,2.5");
 }
 
-/// The words of a range are printed inside the grid's library.
+/// A range's text is printed inside the grid's library.
 TEST(Printing, IsWhatTheGridsOwnTextsGoThrough) {
   for (const double bad : kBad)
     EXPECT_THROW((void)(grid::files::Range{"mm", 0.0, bad}.expected()), std::logic_error);
