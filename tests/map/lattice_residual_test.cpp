@@ -22,7 +22,7 @@ using model::MarkPoint;
 using testing::Contains;
 using testing::HasSubstr;
 
-/// The default machine and something smooth that no setting explains.
+/// The default machine plus a smooth term that no setting explains.
 model::ChainLengths truth_at(MarkPoint p) {
   static const model::ReadingModel kModel{model::Machine{}};
   const model::ChainLengths machine = kModel.at(model::identity_placement(p)).value().lengths;
