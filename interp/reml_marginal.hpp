@@ -54,7 +54,7 @@ class Marginal {
   /// and ten digits below the assumed sigma is rounding.
   [[nodiscard]] double response_variance() const;
 
-  /// False where some columns are free whatever lambda is.
+  /// False if some columns are undetermined for every lambda.
   [[nodiscard]] bool positive() const { return structure_ != nullptr; }
   [[nodiscard]] const Structure& structure() const { return *structure_; }
 

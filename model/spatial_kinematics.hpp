@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// The equilibrium with three-dimensional sag: on a frame that leans back, gravity's part off the
-/// sheet bends the chains too (up to 10 % of the sag at 15 degrees).
+/// sheet deflects the chains too (up to 10 % of the sag at 15 degrees).
 ///
 /// Notation in addition to equilibrium.hpp's, per chain in the frame (u, y, z), z off the sheet
 ///   t    the frame's tilt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What belts tell in a chaintrue_diagnosis file.
+// The results from belts in a chaintrue_diagnosis file.
 #include <algorithm>
 
 #include "grid/files/belts_record.hpp"

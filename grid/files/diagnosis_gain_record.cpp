@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Held-out errors in a chaintrue_diagnosis file: one object a figure, one key a way of modelling.
+// Held-out errors in a chaintrue_diagnosis file: one object for each figure, one key for each
+// modelling scheme.
 #include <array>
 #include <string_view>
 

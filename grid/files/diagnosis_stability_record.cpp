@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a diagnosis rests on, in a chaintrue_diagnosis file: what it would say without some of its
-// points, and whether what is left has the shape of noise.
+// The stability of a diagnosis, in a chaintrue_diagnosis file: its results without some of the points,
+// and the test of normality of the residuals.
 #include "grid/files/diagnosis_keys.hpp"
 #include "grid/files/diagnosis_record.hpp"
 #include "grid/files/record_values.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points measured twice, as a grid's reader compares them.
+// Checks of points measured twice.
 #include <fmt/format.h>
 
 #include <algorithm>

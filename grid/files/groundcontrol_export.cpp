@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The other half of groundcontrol_file.hpp: a machine as the numbers to type in.
+// The export of groundcontrol_file.hpp: a machine as the numbers to type in.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -5,7 +5,7 @@
 /// it.
 ///
 /// Notation
-///   r_i    residual of a visit that the effect causes, reading minus what the stated machine says
+///   r_i    residual of a visit that the effect causes, reading less that of the stated machine
 ///          at the mark as written: dL - J dw; for the two chains [mm]
 ///   C_i    J S_xy J' + diag(s_L^2): covariance of that residual, from position and length noise
 ///   g      all r_i, whitened by C_i

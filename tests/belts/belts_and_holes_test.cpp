@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Belts and holes in one fit, on simulated machines: what either tells alone, and both together.
+// Belts and holes in one fit, on simulated machines: the accuracy of either alone, and of both
+// together.
 #include "grid/belts/belts_and_holes.hpp"
 
 #include <gmock/gmock.h>

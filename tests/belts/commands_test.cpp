@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The verbs that know belts, as a person runs them: from a pasted log to the lines to paste back.
+// The verbs that accept belts, through the command: from a pasted log to the lines to paste back.
 #include <gmock/gmock.h>
 
 #include "grid/files/anchors_file.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// chaintrue diagnose, plan --after and the files they leave: exit codes, streams, all or nothing.
+// chaintrue diagnose, plan --after and their output files: exit codes, streams, all or nothing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -110,7 +110,7 @@ TEST_F(FineData, StatedFarBelowWhatTheDataScatterAreAnsweredInWords) {
             0);
   const auto diagnosis = run("diagnose g.json -o d.json");
   EXPECT_EQ(diagnosis.code, 0) << diagnosis.err;
-  // There is no effect: whatever the scatter, no cause is named for it.
+  // There is no effect: no cause may be named for the scatter.
   EXPECT_TRUE(grid::files::read_diagnosis(folder_ / "d.json").causes.empty());
   const auto fit = run("fit g.json -o m.json");
   ASSERT_EQ(fit.code, 0);

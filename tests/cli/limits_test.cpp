@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Work that would not end is refused by a sentence before it begins; what is affordable is done.
+// Work without a reasonable limit is rejected with a message before it begins; affordable work is
+// done.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every verb ends with the command that comes next, and that command works as it stands.
+// Every verb ends with the next command, and that command works as printed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The list that plan writes: blank, read as it is, by every verb that takes measurements.
+// The list written by plan, blank: every verb that accepts measurements reads it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Verdicts from stated probabilities: the cause that is named is the cause that is fitted.
+// Verdicts from given probabilities: the named cause is the fitted cause.
 #include "grid/diagnosis/decision.hpp"
 
 #include <gtest/gtest.h>

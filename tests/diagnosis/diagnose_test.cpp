@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bad input with its words, and laws of a diagnosis on generated sessions.
+// Bad input with its messages, and laws of a diagnosis on generated sessions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points and distances of one machine in one estimate: what neither tells alone, both together do.
+// Points and distances of one machine in one estimate: together they identify what neither
+// identifies alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What to measure next: what is foretold is what the readings would bring.
+// Next measurements: the predicted result of a measurement equals the actual one.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether what is left has the shape of noise: often enough for noise, and not for what is none.
+// The test of normality of the residuals: its rate for noise, and its power for other
+// distributions.
 #include "grid/diagnosis/normal_plot.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Waves along a chain: laws of the periodogram, and its level against what noise does.
+// Waves along a chain: laws of the periodogram, and its level compared with noise.
 #include "grid/diagnosis/periodogram.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether calibrating came to rest, and what is said where it did not.
+// Convergence of the calibration, and the message where it does not converge.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

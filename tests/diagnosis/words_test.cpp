@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What to do, in words, of findings that are put together by hand.
+// The advice for findings that are made by hand.
 #include <gmock/gmock.h>
 
 #include "grid/diagnosis/findings.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sizes in words: of every effect of both machines, at a positive and at a negative size.
+// Sizes as text: of every effect of both machines, at a positive and at a negative size.
 #include "grid/diagnosis/workshop_units.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The design of many readings by what they touch is the dense one.
+// The local design of many readings equals the dense one.
 #include "grid/estimation/local_design.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// The moves of real files against those of LinuxCNC's own interpreter (version 2.9), stored beside
-/// the files.
+/// The moves of real files compared with those of LinuxCNC's own interpreter (version 2.9), stored
+/// next to the files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Why a machine cannot hold the tool reaches the message about the line that asked for it.
+// Why a machine cannot hold the tool is part of the message about the line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

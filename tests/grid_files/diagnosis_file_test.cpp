@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A chaintrue_diagnosis file says what the diagnosis said, in the words and the order promised.
+// A chaintrue_diagnosis file has the content of the diagnosis, in the documented words and order.
 #include "grid/files/diagnosis_file.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a Maslow 4 prints, read: lists that grow, runs, commands, single readings, settings, roles.
+// The output of a Maslow 4 as read: lists that grow, runs, commands, single readings, settings,
+// roles.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The gate of printed numbers, and that every room that prints stands behind it.
+// The check of printed numbers, and that every library that prints uses it.
 #include "grid/printing.hpp"
 
 #include <gtest/gtest.h>

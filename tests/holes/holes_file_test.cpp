@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Holes files: both formats say the same, and every slip is refused with its words.
+// Holes files: both formats have the same content, and every mistake is rejected with its message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

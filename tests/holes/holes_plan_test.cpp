@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plans of holes: what they promise is what fits reach, they beat a lattice, and passes converge.
+// Plans of holes: fits reach the predicted accuracy, plans are better than a lattice, and rounds
+// converge.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

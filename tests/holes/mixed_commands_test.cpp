@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points and distances together, as a person has them diagnosed and measures on.
+// Points and distances together, through the command: diagnosis and next measurements.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The factored covariance of new readings against the same matrix written out.
+// The factored covariance of new readings compared with the full matrix.
 #include "grid/map/reading_covariance.hpp"
 
 #include <gtest/gtest.h>

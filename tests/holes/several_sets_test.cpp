@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Several sets of one machine in one fit, and a hook whose offset is not known.
+// Several sets of one machine in one fit, and an unknown tape zero offset.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quintic splines, missing nodes, and what a surface answers outside its measured region.
+// Quintic splines, missing nodes, and the value of a surface outside its measured region.
 #include <cmath>
 #include <numbers>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Readings without noise on full rows and columns: the map passes through them, and says so.
+// Readings without noise on full rows and columns: the map interpolates them, and reports it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

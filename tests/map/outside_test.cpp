@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What maps answer beyond their points, in each of the five ways.
+// The values of maps beyond their points, for each of the five policies.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers to type in, from maps of machines that some settings make exactly right.
+// Numbers to type in, from maps of machines for which exact settings exist.
 #include "grid/map/settings_to_type.hpp"
 
 #include <gmock/gmock.h>

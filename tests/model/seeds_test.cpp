@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Worked examples and formulas as the community published them.
+// Worked examples and formulas published by the community.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Four belts: anchors, their check and causes against the number of places.
+// Four belts: anchors, their check and causes against the number of positions.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -47,7 +47,7 @@ class Corrector {
   [[nodiscard]] const Firmware& firmware() const { return firmware_; }
 
   /// The largest second derivative of the correction along any direction, in 1/mm, sampled over the
-  /// map's bounds: a straight move of length s bends by at most s^2/8 times this.
+  /// map's bounds: a straight move of length s bows by at most s^2/8 times this.
   [[nodiscard]] double sampled_curvature_per_mm() const;
 
  private:

@@ -98,7 +98,7 @@ class Sink {
   virtual Result<void> word(const PassedWord&) { return {}; }
   virtual Result<void> comment(const Comment&) { return {}; }
   virtual void note(const Note&) {}
-  /// Every code of every executed line ('G' or 'M', in tenths), where wants_codes() says so.
+  /// Every code of every executed line ('G' or 'M', in tenths), if wants_codes() is true.
   virtual void code(std::size_t /*line*/, char /*letter*/, int /*tenths*/) {}
   [[nodiscard]] virtual bool wants_codes() const { return false; }
   /// The program has ended at this line, by this word (`M2`, `M30`, `%`), or by the end of the file

@@ -124,7 +124,7 @@ PathMatcher::Outcome PathMatcher::begin(Point intended, Point tool, std::size_t 
   return outcome;
 }
 
-/// The path advances while the tool stands.
+/// The path advances while the tool does not move.
 void PathMatcher::close_up() {
   while (open_[reached_].left.high >= 1.0) {
     note_corner(open_[reached_], tool_, tool_line_);

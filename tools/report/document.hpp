@@ -101,7 +101,7 @@ struct Column {
 struct Row {
   /// The last cells may be left out.
   std::vector<Cell> cells{};
-  /// A flagged row stands out; its last cell should say why.
+  /// A flagged row is highlighted; its last cell should give the reason.
   bool is_flagged = false;
 };
 struct Table {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the command wrote twice: text, tables and G-code equal to the byte; numbers of JSON and of a report's charts within bounds.
+// Compares two outputs of the command: text, tables and G-code byte for byte; numbers of JSON and of charts within
+// bounds.
 import assert from "node:assert/strict";
 
 /** Relative difference that another implementation of the C library's functions may cause. */

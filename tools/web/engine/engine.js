@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command as the page sees it: one run after the other in a worker that can be stopped.
+// The command for the page: runs in sequence in a worker that can be stopped.
 
 /** The command did not finish: it was stopped, or the engine died. */
 export class NotFinished extends Error {

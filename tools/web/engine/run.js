@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One run of the command in an instance of its own: its words, the files it may read, and what comes of it.
+// One run of the command in a fresh instance: its words, its input files, and its results.
 
 const FOLDER = "/folder";
 /** Modification time of a run's input files; files that it writes have today's. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bytes as text of a script element: four of them in five characters, where base64 has three in four.
+// Bytes as text of a script element: four bytes in five characters; base64 has three in four.
 
 /** The printable characters except space, at sign and those with a meaning in HTML or in a JavaScript string. */
 const DIGITS = Array.from({length: 94}, (_, i) => String.fromCharCode(33 + i)).filter((one) => !"<>&\"'`\\@-".includes(one)).join("");

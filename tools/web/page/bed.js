@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bed beside the table: where the rows' places lie, and which is being typed in.
+// The bed next to the table: the positions of the rows, with the current one marked.
 import {svg} from "./dom.js";
 
 const MARGIN_MM = 60;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A verb of the command on the page's folder, and what it says.
+// A verb of the command on the page's folder, and its messages.
 import {NotFinished} from "../engine/engine.js";
 import {h} from "./dom.js";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A page that the command wrote, in a frame of its own: it can run its charts, and reach neither this page nor a network.
+// A page written by the command, in a frame: it can run its charts, but reach neither this page nor a network.
 import {h, textOf} from "./dom.js";
 
 /** Reports the frame's height, and prints on request: the frame has no origin, so only messages can be exchanged. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The first step: whose machine it is.
+// The first step: the machine.
 import {DONE, problemOf, runVerb, sentenceList, sentencesOf} from "./command.js";
 import {bytesOf, contentOf, fileDrop, h, textOf, unreadable} from "./dom.js";
 import {MachineForm} from "./machine_form.js";

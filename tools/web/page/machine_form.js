@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The machine's numbers with a drawing that shows what each is. Ranges and their sentences are the command's.
+// The machine's numbers with a drawing that labels them. Ranges and messages are the command's.
 import {h, svg} from "./dom.js";
 
 const at = (machine, path) => path.reduce((value, key) => value?.[key], machine);

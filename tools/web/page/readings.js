@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table that readings are typed into, with the bed beside it. What is wrong with a cell the command says.
+// The table for typing readings, next to the bed. Problems of a cell are the command's messages.
 import {bedPicture} from "./bed.js";
 import {h} from "./dom.js";
 import {millimetresOf, shownIn} from "./sheet.js";

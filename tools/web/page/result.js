@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The third step: the map's report, why the machine errs, better numbers, what to measure next.
+// The third step: the map's report, the causes, better numbers, the next measurements.
 import {DONE, printed, runVerb, sentenceList, sentencesAbout, sentencesOf} from "./command.js";
 import {bytesOf, download, h, textOf} from "./dom.js";
 import {reportFrame} from "./frame.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Programs that come one after the other: twice the same, another while one is worked on, after a stop, and wrong ones.
+// Programs dropped in sequence: the same twice, another while one is processed, after a stop, and wrong ones.
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import {after, before, describe, test} from "node:test";

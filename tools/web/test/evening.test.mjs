@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An owner's evening, typed and clicked: from the settings file to the verified program, in every browser that is here.
+// An owner's evening, typed and clicked: from the settings file to the verified program, in every installed browser.
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import {join} from "node:path";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long an owner waits, told and not judged: a machine with other work is slower.
+// Waiting times, reported but not tested: a busy machine is slower.
 import {cpSync, readFileSync} from "node:fs";
 import {join} from "node:path";
 import {performance} from "node:perf_hooks";
