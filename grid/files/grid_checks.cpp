@@ -101,7 +101,7 @@ std::optional<Slope> slope_of(const std::vector<MeasuredPoint>& points, const Ge
       together += place * (*value - mean.z());
     }
   }
-  constexpr double kThinnest = 1e-4;  // width to length, squared: a 1 : 100 strip determines no plane
+  constexpr double kThinnest = 1e-4;  // width to length, squared: a 1 : 100 strip spans no plane
   if (spread.determinant() <= kThinnest * spread.trace() * spread.trace()) return std::nullopt;
   const Eigen::Vector2d slope = spread.ldlt().solve(together);
   return Slope{slope.x(), slope.y()};

@@ -45,9 +45,9 @@ class Limits : public testing_support::CommandFixture {
 
 // A rejection reads a file and no more; ten seconds allow for a loaded machine.
 constexpr std::chrono::seconds kBeforeWork(10);
-// Half a second's work; quadratic algorithms need more than a minute.
+// Half a second's work; without limits it does not end in a minute.
 constexpr std::chrono::seconds kNoWork(30);
-// Some seconds' work on a loaded machine; slow algorithms need minutes and gigabytes.
+// Some seconds' work on a loaded machine; a naive implementation needs minutes and gigabytes.
 constexpr std::chrono::seconds kSeconds(60);
 
 TEST_F(Limits, ADiagnosisOfThousandsOfPointsIsRefusedAtOnce) {

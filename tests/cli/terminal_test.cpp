@@ -175,7 +175,7 @@ Seen Terminal::shown_of_enough(const Prepare& prepare,
                                const std::string& arguments,
                                const std::string& words) const {
   Seen seen;
-  // 400,000 take about a second on a machine of 2023; 64 times that allows for much faster ones.
+  // 400,000 take about a second on the development machine; 64 times that suits much faster ones.
   for (int amount = 400000; amount <= 64 * 400000; amount *= 4) {
     prepare(amount);
     seen = shown(arguments, stop_after(words));

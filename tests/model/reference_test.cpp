@@ -12,8 +12,7 @@
 namespace chaintrue::model {
 namespace {
 
-constexpr double kBedTolerance =
-    1e-10;  // mm: required over the bed; rounding leaves about 1e-11
+constexpr double kBedTolerance = 1e-10;  // mm: required over the bed; rounding leaves about 1e-11
 constexpr double kEdgeTolerance =
     1e-9;  // mm: down to 23 mm below the beam and 19 mm from a vertical
 constexpr double kJacobianTolerance = 1e-12;  // relative to the larger entry of its row

@@ -77,9 +77,8 @@ struct PassedWord {
 
 struct Comment {
   std::size_t line = 0;
-  std::string text;  ///< parameters of (debug, ...) and (print, ...) are written out
-  bool message =
-      false;  ///< (msg, ...), (debug, ...), (print, ...): text is a message for the user
+  std::string text;      ///< parameters of (debug, ...) and (print, ...) are written out
+  bool message = false;  ///< (msg, ...), (debug, ...), (print, ...): text is a message for the user
 };
 
 /// Information for the user that is no reason to reject the program.

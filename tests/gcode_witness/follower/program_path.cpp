@@ -126,7 +126,7 @@ void Machine::set_modes(const Line& line) {
   }
 }
 
-/// G10 L2, G92 and related codes. True if the words of the line are used.
+/// G10 L2, G92 and related codes.
 void Machine::offsets(const Line& line) {
   for (const int code : line.g) {
     if (code == 100) {

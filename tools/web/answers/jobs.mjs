@@ -82,7 +82,7 @@ function kindOf(words) {
   }).join(" ");
 }
 
-/** Takes one file in every twelve of a kind. */
+/** One file in this number of each kind is used. */
 const EVERY = 12;
 
 /** "all"; "few": every verb, and one file in twelve of each kind; "FROM-TO": these job numbers, and every verb. */
